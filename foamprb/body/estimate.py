@@ -6,7 +6,7 @@ from math import cbrt, exp, inf, pi, sqrt
 from typing import NamedTuple
 
 from foamprb.body.brownian import BOLTZMANN
-from foamprb.body.lift import HO_LEAL, duct_coefficient, hinges
+from foamprb.body.lift import PLANE_CHANNEL, duct_coefficient, hinges
 from foamprb.body.lift import lift_coefficient as slip_lift_coefficient
 from foamprb.body.morphology import drop_breakup, recovery_of_drop
 
@@ -159,7 +159,7 @@ def across_forces(sphere: SoftSphere, around: Surroundings, width: float = inf) 
     if width < inf:
         s = 1.0 - 2.0 * around.wall_distance / width
         at_wall = around.shear_rate / s
-        duct = -float(duct_coefficient(s, hinges(HO_LEAL))) * around.rho * (at_wall * R * R) ** 2
+        duct = -float(duct_coefficient(s, hinges(PLANE_CHANNEL))) * around.rho * (at_wall * R * R) ** 2
     slip = slip_lift_coefficient(w, around.shear_rate, R, around.rho, around.mu) * around.shear_rate * w
     drag = 6.0 * pi * around.mu * R
     return AcrossForces(duct, drag * e.lift_speed, float(slip), drag * w)

@@ -1,7 +1,7 @@
 """Lift by inertia of the fluid: on a sphere that slips in shear, and on a neutral one in a duct.
 
-The first is that of Saffman (1965, 1968) and Mei (1992), the second that of Ho and Leal (1974) for plane
-channels.
+The first is that of Saffman (1965, 1968) and Mei (1992). The second follows a table; that of a plane channel
+is the theory of Ho & Leal (1974), Vasseur & Cox (1976) and Schonberg & Hinch (1989).
 """
 
 from __future__ import annotations
@@ -96,27 +96,17 @@ def lifted_slip(
     return found
 
 
-_G1 = (
-    0.0, 0.0419, 0.0837, 0.1254, 0.1669, 0.208, 0.2489, 0.2894, 0.3293, 0.3688, 0.4077, 0.4459, 0.4834, 0.52,
-    0.556, 0.591, 0.626, 0.659, 0.691, 0.723, 0.753, 0.782, 0.81, 0.836, 0.861, 0.885, 0.907, 0.927, 0.945,
-    0.96, 0.973, 0.982, 0.988, 0.99, 0.988, 0.981, 0.971, 0.957, 0.943, 0.931, 0.927, 0.94, 0.982, 1.07, 1.23,
-    1.5, 1.93, 2.58, 3.59, 5.33,
+_CHANNEL = (
+    0, 0.03444, 0.06854, 0.10192, 0.13425, 0.16517, 0.19435, 0.22144, 0.24613, 0.26809, 0.287, 0.30257,
+    0.3145, 0.3225, 0.32632, 0.32569, 0.32035, 0.31007, 0.29462, 0.27377, 0.24732, 0.21506, 0.17678,
+    0.13228, 0.08138, 0.02387, -0.04045, -0.11179, -0.19036, -0.27641, -0.37016, -0.4719, -0.58189,
+    -0.70044, -0.82788, -0.96456, -1.11085, -1.26713, -1.43381, -1.61126, -1.79987,
 )  # fmt: skip
-_G2 = (
-    1.072, 1.07, 1.068, 1.066, 1.062, 1.056, 1.05, 1.042, 1.033, 1.023, 1.012, 1.0, 0.987, 0.972, 0.956, 0.94,
-    0.922, 0.902, 0.882, 0.861, 0.838, 0.815, 0.79, 0.765, 0.738, 0.711, 0.683, 0.654, 0.625, 0.596, 0.566,
-    0.536, 0.506, 0.477, 0.448, 0.42, 0.393, 0.368, 0.345, 0.324, 0.306, 0.292, 0.282, 0.278, 0.28, 0.291,
-    0.315, 0.354, 0.414, 0.505,
-)  # fmt: skip
-"""Ho and Leal's G₁ and G₂ at the distances 0, 0.01, … from the middle, over the distance of the walls."""
+PLANE_CHANNEL: tuple[tuple[float, float], ...] = tuple((0.025 * k, C) for k, C in enumerate(_CHANNEL))
+"""(s, C) of plane Poiseuille flow: C ρ_f γ̇² R⁴ towards the nearer wall, with the shear rate at the wall.
 
-HO_LEAL: tuple[tuple[float, float], ...] = tuple(
-    (0.02 * k, 0.02 * k * (G2 - 0.02 * k * G1)) for k, (G1, G2) in enumerate(zip(_G1, _G2, strict=True))
-)
-"""(s, C) of a plane channel: C ρ_f γ̇² R⁴ towards the nearer wall, with the shear rate at the wall.
-
-s is the distance from the middle over half the distance of the walls. The force is 16 ρ_f (U R²/H)² s
-(s G₁ − G₂) away from the wall, with the velocity U in the middle, H between the walls and γ̇ = 4 U/H.
+s is the distance from the middle over half of that of the walls. To first order in the Reynolds number, for
+a small sphere: the quadrature is in ``tools/validation/references/duct.py``.
 """
 
 

@@ -14,7 +14,7 @@ from numbers import Real
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from foamprb.body.drag import reduced_gravity
-from foamprb.body.lift import HO_LEAL, balances, duct_coefficient, duct_lift, hinges
+from foamprb.body.lift import PLANE_CHANNEL, balances, duct_coefficient, duct_lift, hinges
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, scale_vector
 from foamprb.cloud.block import Medium, at, load3
 from foamprb.cloud.layout import LANES
@@ -39,7 +39,7 @@ __all__ = [
 
 _FLUID_VELOCITY = Only("U", "the flow's velocity")
 _TINY = 1e-300
-_POINTS = len(HO_LEAL)
+_POINTS = 50
 """Largest number of points of a table of ``ductLift``."""
 
 
@@ -140,7 +140,7 @@ class DuctLift(Force):
             "pairs (s C): distance from the middle over `size`, and coefficient of the force C ρ_f γ̇² R⁴ "
             "outwards",
             "1",
-            "that of Ho and Leal, for a channel",
+            "for a channel that of a small sphere",
         ),
     ] = None
 
@@ -157,7 +157,7 @@ class DuctLift(Force):
 
     @property
     def _table(self) -> Pairs:
-        return HO_LEAL if self.table is None else self.table
+        return PLANE_CHANNEL if self.table is None else self.table
 
     @property
     def coefficients(self) -> tuple[Any, ...]:

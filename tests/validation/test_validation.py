@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from validation import device, main, report, tumbling
 from validation.case import Case, Curve, Figure, Outcome, Panel, Row, worst
-from validation.references import rigid, soft
+from validation.references import duct, rigid, soft
 from validation.references.ellipsoid import (
     integrals,
     prolate_resistances,
@@ -32,6 +32,8 @@ from validation.references.shear import (
 )
 from validation.registry import CASES
 
+from foamprb.body.lift import PLANE_CHANNEL
+
 
 @pytest.mark.parametrize("name", CASES)
 def test_quick_case_passes(name):
@@ -44,6 +46,13 @@ def test_quick_case_passes(name):
 
 class TestReferences:
     """The references against each other and against closed forms."""
+
+    def test_lift_in_a_channel(self):
+        """Near a wall that of one wall, (55/576)·6π (Cox & Hsu 1977); the table in between."""
+        assert duct.coefficient(0.999) == pytest.approx(-55 * np.pi / 96, rel=5e-3)
+        table = dict(PLANE_CHANNEL)
+        for s in (0.2, 0.8):
+            assert table[s] == pytest.approx(duct.coefficient(s), abs=1e-5)
 
     @pytest.mark.parametrize("axes", [(1.0, 1.0, 1.0), (2.5, 0.4, 1.0), (4.9, 0.14, 1.45)])
     def test_integrals_by_another_quadrature(self, axes):

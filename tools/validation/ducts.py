@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from foamprb.body.lift import HO_LEAL, balances
+from foamprb.body.lift import PLANE_CHANNEL, balances, duct_coefficient, hinges
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DuctLift
@@ -15,8 +15,10 @@ from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.references.duct import coefficient
 from validation.runs import advance_to
 
+QUADRATURE = "modes along the walls, first order in Re"
 MU, RHO, RADIUS, HEIGHT = 1e-3, 1000.0, 5e-6, 1e-4
 STARTS = np.array([0.15, 0.25, 0.35, 0.45])
 """Distances from the lower wall over the height."""
@@ -49,7 +51,7 @@ def _paths(Ca: float, rate: float, inertia: bool, times: Floats) -> Floats:
 
 def _own(rate: float, times: Floats) -> Floats:
     """Return the paths of rigid spheres, 6π μ_f R dz/dt = C ρ_f γ̇² R⁴."""
-    s, C = np.transpose(HO_LEAL)
+    s, C = np.transpose(PLANE_CHANNEL)
     scale = RHO * (rate * RADIUS) ** 2 * RADIUS / (6.0 * np.pi * MU * HEIGHT)
 
     def speed(_t: float, z: Floats) -> Floats:
@@ -61,9 +63,18 @@ def _own(rate: float, times: Floats) -> Floats:
 
 def focusing(quick: bool) -> Outcome:
     """Focusing in a plane channel."""
-    (place,) = balances(HO_LEAL)
-    source = "about 0.6 (Segré & Silberberg 1962; Anand & Subramanian 2023)"
-    rows = [Row("distance from the middle over H/2 at which C = 0", place, 0.6, source, 0.01)]
+    (place,) = balances(PLANE_CHANNEL)
+    table = hinges(PLANE_CHANNEL)
+    rows = [
+        Row(f"C at s = {s:g}", float(duct_coefficient(s, table)), coefficient(s), QUADRATURE, 1e-3)
+        for s in (0.1, 0.33, 0.5, 0.77, 0.9)
+    ]
+    rows += [
+        Row("quadrature of C near the wall, s = 0.9995", coefficient(0.9995), -55.0 * np.pi / 96.0,
+            "Cox & Hsu (1977), one wall", 3e-3, True),
+        Row("s at which C = 0", place, 0.62, "cubic after Vasseur & Cox (1976), as in the code arb", 0.02),
+        Row("the same", place, 0.6, "Segré & Silberberg (1962), in pipes", None),
+    ]  # fmt: skip
     if quick:
         return Outcome(rows, [], [])
     rate, times = 1e4, np.linspace(0.0, 0.1, 41)[1:]
