@@ -8,6 +8,7 @@ From a case to its results, as ``foamprb run`` goes:
     Job                 what ``prepare`` returns: the settings and the cloud of a run
     execute             advance a job's cloud to its end time and write the results
     open_run            the results of a run: tables, snapshots, paths
+    open_runs           those of several runs, such as a study, as one table
     InputError          a mistake in the input; its message says where, and what is allowed
     RunStopped          a run that ended early; its message gives the reason, and how to continue
 

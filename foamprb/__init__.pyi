@@ -98,6 +98,7 @@ from .run.loop import execute as execute
 from .settings.fluid import read_medium as read_medium
 from .settings.patches import patch_interactions as patch_interactions
 from .view.notebook import open_run as open_run
+from .view.runs import open_runs as open_runs
 
 __all__ = [
     "BirdCarreau",
@@ -141,6 +142,7 @@ __all__ = [
     "log_ratio",
     "measure",
     "open_run",
+    "open_runs",
     "patch_interactions",
     "prepare",
     "read_case",

@@ -14,8 +14,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, NoReturn, Protocol, TextIO
 
 import foamprb
+from foamprb.cli import compare, estimate, export, info, init, paraview, report, run, sweep, view
 from foamprb.cli import compile as compile_
-from foamprb.cli import estimate, export, info, init, paraview, report, run, view
 from foamprb.cli import help as help_
 from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
 from foamprb.memory import OutOfMemory, forget, ran_out, require_start
@@ -44,6 +44,8 @@ COMMANDS: dict[str, Command] = {
     "view": view,
     "paraview": paraview,
     "report": report,
+    "sweep": sweep,
+    "compare": compare,
     "export": export,
     "estimate": estimate,
     "help": help_,

@@ -121,6 +121,7 @@ def prepare(
     outside_libs: bool = False,
     output: Path | str | None = None,
     overrides: Mapping[str, object] | None = None,
+    flows: dict[FlowSource, Flow] | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -148,6 +149,8 @@ def prepare(
     overrides
         Values that replace entries of the settings, by path: ``{"solution/deltaT": 1e-5}``. Sequences are
         lists, mappings are dictionaries.
+    flows
+        Steady flows of this case and time that have been read, by their sources; a new one is added.
 
     Raises
     ------
@@ -170,9 +173,13 @@ def prepare(
     compilation = _compile(settings, rotating) if precompile else None
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)
-        flow = _read_flow(settings, time, source)
-        if isinstance(flow, MeshFlow):
-            flow.notes += tuple(flow.overlap())
+        flow = None if flows is None or settings.solution.transient else flows.get(source)
+        if flow is None:
+            flow = _read_flow(settings, time, source)
+            if isinstance(flow, MeshFlow):
+                flow.notes += tuple(flow.overlap())
+        if flows is not None and not settings.solution.transient:
+            flows[source] = flow
         for note in flow.notes:
             if isinstance(note, Caveat):
                 log.warning("%s", note)

@@ -250,7 +250,9 @@ def gather(
     )
 
 
-def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles | None]:
+def survey(
+    run: Run, name: str, part: str, frames: Sequence[int] | None = None
+) -> tuple[NDArray[np.int64], Singles | None]:
     """Return the number of shown bodies at each time, and the finite values of an array at these bodies.
 
     Of very many bodies some are taken, evenly spread. The values are None for an array that is no number of
@@ -259,7 +261,7 @@ def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles |
     valued = name in run.components and name not in run.names
     stride = 1 + len(run.entries) * len(run.cloud(-1, ("origId",)).points) // _MOST_VALUES
     counts, found = [], [np.zeros(0, dtype=np.float32)]
-    for frame in range(len(run.entries)):
+    for frame in range(len(run.entries)) if frames is None else frames:
         arrays = run.cloud(frame, ("status", *([name] if valued else ()))).arrays
         shown = np.flatnonzero(_inside(arrays["status"], run.names.get("status", ())))
         counts.append(len(shown))

@@ -159,12 +159,7 @@ class Run:
         InputError
             As :meth:`table`; or if neither is installed.
         """
-        for package in _FRAMES:
-            try:
-                return importlib.import_module(package).DataFrame(self.table(name))
-            except ImportError:
-                continue
-        raise InputError("a data frame needs pandas or polars: pip install pandas. Without them: table().")
+        return frame_of(self.table(name))
 
     @property
     def has_fates(self) -> bool:
@@ -268,6 +263,16 @@ class Run:
             raise InputError(f"{file}: not the paths that the cloud function particleTracks writes.")
         values = {name: at_points[name][order] for name in wanted}
         return Tracks(_points(data)[order], start, values, {"origId": at_lines["origId"]})
+
+
+def frame_of(table: Table) -> Any:
+    """Return a table as a data frame; see :meth:`Run.frame`."""
+    for package in _FRAMES:
+        try:
+            return importlib.import_module(package).DataFrame(table)
+        except ImportError:
+            continue
+    raise InputError("a data frame needs pandas or polars: pip install pandas. Without them: table().")
 
 
 def open_run(

@@ -1,0 +1,70 @@
+"""``foamprb sweep``: runs of one case for many values of some entries."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from foamprb.errors import InputError, RunStopped
+
+if TYPE_CHECKING:
+    from foamprb.flow.base import Flow
+    from foamprb.flow.read.source import FlowSource
+    from foamprb.parallel.ranks import Ranks
+    from foamprb.settings.solution import StartFrom
+
+PURPOSE = "run a case for all combinations of values of some entries"
+
+log = logging.getLogger("foamprb")
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command."""
+    add = parser.add_argument
+    add("study", type=Path, help="file of the study, in TOML; the results go into a folder of its name")
+    add("--list", action="store_true", help="print the runs and their values, and exit")
+    add("--run", type=int, metavar="N", help="only run N, from 1 on, as in a job array")
+    add("--overwrite", action="store_true", help="start over [continue, and keep what has ended]")
+    add("--threads", type=int, metavar="N", help="threads [all processors]")
+    add("--outsideLibs", action="store_true", help="run also Python files of libs outside the case")
+
+
+def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
+    from foamprb.run.sweep import execute_run, read_study
+    from foamprb.view.report.compare import write_comparison
+    from foamprb.view.runs import open_runs
+
+    study = read_study(arguments.study)
+    n = len(study)
+    if arguments.threads is not None and arguments.threads < 1:
+        raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
+    if arguments.run is not None and not 1 <= arguments.run <= n:
+        raise InputError(f"-run {arguments.run}: the study has the runs 1 to {n}.")
+    numbers = range(1, n + 1) if arguments.run is None else [arguments.run]
+    if arguments.list:
+        for number in numbers:
+            log.info("%*d  %s", len(str(n)), number, study.described(number))
+        return 0
+    flows: dict[FlowSource, Flow] = {}
+    failed = 0
+    start_from: StartFrom = "startTime" if arguments.overwrite else "latestTime"
+    for number in numbers:
+        what = f"Run {number} of {n}: {study.described(number)}"
+        try:
+            job = execute_run(
+                study, number, flows, start_from, arguments.threads, outside_libs=arguments.outsideLibs
+            )
+        except (InputError, RunStopped) as error:
+            failed += 1
+            log.warning("%s: %s", what, error)
+            continue
+        counts = job.cloud.particles.counts()
+        fates = ", ".join(f"{count} {status.name.lower()}" for status, count in counts.items() if count)
+        log.info("%s: %s", what, fates)
+    if arguments.run is None and failed < n:
+        folder = study.file.with_suffix("")
+        log.info("Comparison: %s", write_comparison(open_runs(folder / "*"), folder / "comparison.html"))
+    return int(failed > 0)

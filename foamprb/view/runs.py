@@ -1,0 +1,134 @@
+"""Results of several runs, as of a study."""
+
+from __future__ import annotations
+
+import glob
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.errors import InputError
+from foamprb.view.results import Run, Table, frame_of, open_run
+
+__all__ = ["Runs", "open_runs"]
+
+
+@dataclass(frozen=True, repr=False)
+class Runs(Mapping[str, Run]):
+    """Results of several runs, by the names of their folders."""
+
+    runs: Mapping[str, Run]
+
+    def __repr__(self) -> str:
+        return f"<{len(self.runs)} runs: {', '.join(self.runs)}>"
+
+    def __getitem__(self, name: str) -> Run:
+        return self.runs[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.runs)
+
+    def __len__(self) -> int:
+        return len(self.runs)
+
+    @property
+    def entries(self) -> dict[str, dict[str, str]]:
+        """Entries of the settings that were replaced in each run, by path, as texts without semicolons."""
+        return {
+            name: {
+                path: _plain(str(text).strip().removesuffix(";"))
+                for path, text in dict(run.record.get("settings", {}).get("overrides", {})).items()
+            }
+            for name, run in self.runs.items()
+        }
+
+    def table(self, name: str = "fates") -> Table:
+        """Return the rows of a table of all runs, with the columns ``run`` and one for each replaced entry.
+
+        Runs without this table are left out, and columns that some of the others lack.
+
+        Raises
+        ------
+        InputError
+            If no run has such a table, or one is damaged.
+        """
+        tables = {key: run.table(name) for key, run in self.runs.items() if name in run.tables}
+        if not tables:
+            raise InputError(f"no table '{name}' in any of the runs {', '.join(self.runs)}.")
+        sizes = {key: len(next(iter(table.values()))) for key, table in tables.items()}
+        entries = self.entries
+        paths = dict.fromkeys(path for key in tables for path in entries[key])
+
+        def repeated(words: Mapping[str, str]) -> NDArray[Any]:
+            return np.repeat(np.array([_number(words[key]) for key in tables]), list(sizes.values()))
+
+        found = {"run": np.repeat(np.array(list(tables)), list(sizes.values()))}
+        found |= {path: repeated({key: entries[key].get(path, "") for key in tables}) for path in paths}
+        for column in next(iter(tables.values())):
+            if all(column in table for table in tables.values()):
+                found[column] = np.concatenate([table[column] for table in tables.values()])
+        return found
+
+    def frame(self, name: str = "fates") -> Any:
+        """Return :meth:`table` as a data frame of pandas or, if pandas is not installed, of polars.
+
+        Raises
+        ------
+        InputError
+            As :meth:`table`; or if neither is installed.
+        """
+        return frame_of(self.table(name))
+
+
+def open_runs(*patterns: Path | str) -> Runs:
+    """Open the results of several runs.
+
+    Parameters
+    ----------
+    patterns
+        Cases, or folders of results as of ``foamprb run -output``; ``*`` stands for any name. What a pattern
+        finds that has no results is left out.
+
+    Raises
+    ------
+    InputError
+        If a folder that is named has no results, or none is found.
+    """
+    found: dict[str, Run] = {}
+    paths = {}
+    for pattern in map(str, patterns):
+        matches = sorted(glob.glob(pattern)) if glob.has_magic(pattern) else [pattern]  # noqa: PTH207
+        for path in map(Path, matches):
+            try:
+                paths[path] = _open(path)
+            except InputError:
+                if not glob.has_magic(pattern):
+                    raise
+    if not paths:
+        raise InputError(f"{' '.join(map(str, patterns))}: no results there. foamprb run writes them.")
+    top = os.path.commonpath([path.resolve().parent for path in paths])
+    for path, run in paths.items():
+        found[os.path.relpath(path.resolve(), top)] = run
+    return Runs(found)
+
+
+def _open(path: Path) -> Run:
+    return open_run(path) if (path / "postProcessing").is_dir() else open_run(path, results=path)
+
+
+def _plain(text: str) -> str:
+    """Return a number without digits that it does not need."""
+    number = _number(text)
+    return f"{number:.6g}" if isinstance(number, float) else text
+
+
+def _number(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text

@@ -1,0 +1,155 @@
+"""Studies: values of entries, one flow for all runs, and going on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import foamprb
+from foamprb.cli import main
+from foamprb.errors import InputError
+from foamprb.run import job
+from foamprb.run.sweep import read_study
+
+STIFFNESS = "constantProperties/solid/Ca"
+
+
+def study(folder: Path, text: str) -> Path:
+    path = folder / "study.toml"
+    path.write_text(text)
+    return path
+
+
+def test_values_are_lists_ranges_and_tables_and_the_last_changes_first(tmp_path):
+    path = study(
+        tmp_path,
+        """
+        case = "pipe"
+        [entries]
+        "solution/deltaT" = { from = 1e-6, to = 1e-4, number = 3, spacing = "log" }
+        solution.maxSubSteps = 7
+        [entries.constantProperties.solid]
+        nu = { from = 0, to = 0.4, number = 2 }
+        shape = ["sphere", [1, 2]]
+        """,
+    )
+    found = read_study(path)
+    assert found.case == tmp_path / "pipe"
+    assert len(found) == 3 * 2 * 2
+    assert found.values["solution/deltaT"] == (1e-6, 1e-5, 1e-4)
+    names = ["solution/deltaT", "solution/maxSubSteps", "constantProperties/solid/nu"]
+    assert list(found.values) == [*names, "constantProperties/solid/shape"]
+    assert [found.overrides(k)["constantProperties/solid/shape"] for k in (1, 2, 3)] == [
+        "sphere",
+        [1, 2],
+        "sphere",
+    ]
+    assert found.overrides(3) == dict(zip(found.values, (1e-6, 7, 0.4, "sphere"), strict=True))
+    every = {tuple(map(str, found.overrides(k).values())) for k in range(1, 13)}
+    assert len(every) == 12
+    assert found.described(12) == "deltaT 0.0001, maxSubSteps 7, nu 0.4, shape (1 2)"
+    assert found.folder(12) == tmp_path / "study/012"
+
+
+def test_names_of_entries_are_as_long_as_they_must_be(tmp_path):
+    path = study(tmp_path, '[entries]\n"a/b/c" = 1\n"d/b/c" = 2\n"c" = 3\n')
+    assert read_study(path).described(1) == "a/b/c 1, d/b/c 2, c 3"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[entries", "study.toml: "),
+        ("cases = 1", "cases is not known. Did you mean 'case'?"),
+        ("case = 1", "case is 1. Allowed: a text in quotes"),
+        ("", r"no entries. Needed: \[entries\]"),
+        ("[entries]\na = []", "a has no values"),
+        ("[entries]\na = { from = 1, number = 2 }", "a range needs from and to, two numbers"),
+        ("[entries]\na = { from = 1, to = 2, number = 1 }", "number is 1. Allowed: an integer >= 2"),
+        ("[entries]\na = { from = 1, to = 2, number = 2, spacing = 'lin' }", "Did you mean 'linear'?"),
+        ("[entries]\na = { from = 0, to = 2, number = 2, spacing = 'log' }", "from and to above 0"),
+        (
+            "[entries]\na = { from = 1, to = 2, number = 1000 }\nb = { from = 1, to = 2, number = 1000 }",
+            "up to 100000",
+        ),
+    ],
+)
+def test_mistakes_are_named(tmp_path, text, message):
+    with pytest.raises(InputError, match=message):
+        read_study(study(tmp_path, text))
+
+
+def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeypatch, capsys):
+    text = f'case = "pipe"\n[entries]\n"{STIFFNESS}" = [0.1, 0.5]\n'
+    path = study(tmp_path, text)
+    assert main(["sweep", str(path), "-list"]) == 0
+    assert capsys.readouterr().out.split("\n")[:2] == ["1  Ca 0.1", "2  Ca 0.5"]
+    read = []
+    monkeypatch.setattr(job, "_read_flow", lambda *given, own=job._read_flow: read.append(1) or own(*given))
+    assert main(["sweep", str(path), "-threads", "2"]) == 0
+    assert len(read) == 1
+    out = capsys.readouterr().out
+    assert "Run 2 of 2: Ca 0.5: " in out
+    assert f"Comparison: {tmp_path / 'study/comparison.html'}" in out
+    for number, Ca in ((1, 0.1), (2, 0.5)):
+        alone = foamprb.prepare(case, output=tmp_path / f"alone{number}", overrides={STIFFNESS: Ca})
+        foamprb.execute(alone)
+        own = (tmp_path / f"study/00{number}/softCloud/fates.csv").read_text()
+        assert own == (tmp_path / f"alone{number}/softCloud/fates.csv").read_text()
+    log = (tmp_path / "study/001/log.foamprb").read_text()
+    assert "Fate of the particles" in log
+    # Going on keeps what has ended, and does not mix it with other values.
+    before = {
+        number: (tmp_path / f"study/00{number}/softCloud/run.json").stat().st_mtime_ns for number in (1, 2)
+    }
+    path.write_text(text.replace("0.5", "0.6"))
+    assert main(["sweep", str(path)]) == 1
+    out = capsys.readouterr().out
+    assert "Run 2 of 2: Ca 0.6: " in out
+    assert "a run with other values of the entries is here" in out
+    after = {
+        number: (tmp_path / f"study/00{number}/softCloud/run.json").stat().st_mtime_ns for number in (1, 2)
+    }
+    assert before == after
+    runs = foamprb.open_runs(tmp_path / "study/*")
+    assert list(runs) == ["001", "002"]
+    table = runs.table()
+    assert sorted(set(table[STIFFNESS].tolist())) == [0.1, 0.5]
+    n = len(runs["001"].table()["id"])
+    np.testing.assert_array_equal(table["D"][table["run"] == "002"], runs["002"].table()["D"])
+    assert len(table["id"]) == 2 * n
+    page = (tmp_path / "study/comparison.html").read_text()
+    for text in (
+        '<td class="n">0.1</td>',
+        "median D over time",
+        "stuck: wall",
+        "Distribution of residence time",
+    ):
+        assert text in page
+
+
+def test_one_run_of_a_job_array(case, tmp_path, capsys):
+    path = study(tmp_path, f'case = "pipe"\n[entries]\n"{STIFFNESS}" = [0.1, 0.5]\n')
+    assert main(["sweep", str(path), "-run", "3"]) == 1
+    assert "-run 3: the study has the runs 1 to 2" in capsys.readouterr().err
+    assert main(["sweep", str(path), "-run", "2"]) == 0
+    assert [folder.name for folder in (tmp_path / "study").iterdir()] == ["002"]
+
+
+def test_a_run_that_cannot_start_does_not_stop_the_others(case, tmp_path, capsys):
+    path = study(tmp_path, 'case = "pipe"\n[entries]\n"solution/deltaT" = [-1.0, 2e-5]\n')
+    assert main(["sweep", str(path)]) == 1
+    out = capsys.readouterr().out
+    assert "Run 1 of 2: deltaT -1: " in out
+    assert "Run 2 of 2: deltaT 2e-05: " in out
+    assert not (case / "postProcessing").exists()
+
+
+def test_folders_without_results_are_named(tmp_path):
+    (tmp_path / "a").mkdir()
+    with pytest.raises(InputError, match="no results here"):
+        foamprb.open_runs(tmp_path / "a")
+    with pytest.raises(InputError, match="no results there"):
+        foamprb.open_runs(tmp_path / "*")
