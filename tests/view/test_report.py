@@ -230,6 +230,14 @@ def test_an_edited_record_is_one_message(case, record):
         file.unlink()
 
 
+def test_places_of_release_are_drawn_across_their_plane():
+    y = np.linspace(0.0, 2e-3, 21)
+    x = np.stack([np.full(21, 0.5), y, 3.0 * y**2], axis=1)
+    fates = np.where(y < 1e-4, "stuck", "escaped")
+    svg = plots.by_origin(x, fates).svg
+    assert all(text in svg for text in ("y [mm]", "z [mm]", "stuck (1)", "escaped (20)"))
+
+
 def test_names_are_no_formulas():
     """A dollar in the name of a patch began a formula, whose errors ended the report."""
     assert "a$b_$^" in plots.shares({"a$b_$^": {"stuck": 3}}).svg

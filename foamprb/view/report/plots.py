@@ -19,6 +19,7 @@ from foamprb.view.report.deposits import FEW, Deposits
 __all__ = [
     "FATES",
     "Plot",
+    "by_origin",
     "curves",
     "histogram",
     "on_geometry",
@@ -36,6 +37,9 @@ FATES = {
 _INK, _SOFT, _PAPER = "#17202a", "#4c5966", "#ffffff"
 _BINS = 40
 _HATCHES = dict(zip(FATES, ("", "///", "...", "xxx", "ooo", "\\\\\\"), strict=True))
+_MARKERS = dict(zip(FATES, "o^s*Dv", strict=True))
+_MOST_DOTS = 5000
+"""Dots of each fate, about, in a plot of places."""
 _ROLES = {_INK: "currentColor", _SOFT: "var(--soft)", _PAPER: "var(--paper)"}
 _STYLE: Any = {
     "font.size": 10.0,
@@ -206,6 +210,29 @@ def curves(
                       label=label)  # fmt: skip
         axes.set(xlabel=_label(x[0], nx), ylabel=_label(y[0], ny))
         axes.legend(fontsize=9, ncols=2 if len(lines) > 3 else 1)
+
+    return _plot(draw)
+
+
+def by_origin(x: Floats, fates: NDArray[np.str_]) -> Plot:
+    """Return the places of release (n, 3), m, coloured by fate; rare fates are drawn over frequent ones."""
+    extent = np.ptp(x, axis=0)
+    first, second = (axis for axis in range(3) if axis != int(np.argmin(extent)))
+    factor, name = readable("m", float(extent.max()))
+    groups = {fate: np.flatnonzero(fates == fate) for fate in FATES if (fates == fate).any()}
+
+    def draw(_: Any, axes: Any) -> None:
+        for k, fate in enumerate(sorted(groups, key=lambda fate: -len(groups[fate]))):
+            dots = x[groups[fate][:: 1 + len(groups[fate]) // _MOST_DOTS]] / factor
+            axes.plot(
+                dots[:, first], dots[:, second], _MARKERS[fate], color=FATES[fate],
+                markersize=5.0 if k else 3.0, markeredgewidth=0.0, rasterized=True,
+                label=f"{fate} ({len(groups[fate])})",
+            )  # fmt: skip
+        ratio = extent[first] / max(extent[second], 1e-300)
+        axes.set_aspect("equal" if 0.2 < ratio < 5.0 else "auto")
+        axes.set(xlabel=f"{'xyz'[first]} [{name}]", ylabel=f"{'xyz'[second]} [{name}]")
+        axes.legend(fontsize=9, loc="center left", bbox_to_anchor=(1.0, 0.5))
 
     return _plot(draw)
 

@@ -217,7 +217,21 @@ def _fates(given: _Given) -> PageSection:
     ]
     listed = table("Particles by place and fate", ("where", *shown, "share"), rows)
     drawn = given.figure("fates", plots.shares(counts), "Particles by patch and fate.") if counts else ""
+    drawn += _origins(given)
     return PageSection("fates", "Fates", grid(drawn, listed))
+
+
+def _origins(given: _Given) -> str:
+    fates = given.fates
+    here = fates["fate"] != "pending"
+    if "x0" not in fates or not here.any():
+        return ""
+    x = np.stack([fates[key][here] for key in ("x0", "y0", "z0")], axis=1)
+    if not np.ptp(x, axis=0).any():
+        return ""
+    return given.figure(
+        "fatesByOrigin", plots.by_origin(x, fates["fate"][here]), "Places of release, coloured by fate."
+    )
 
 
 def _deposition(given: _Given) -> PageSection | None:
