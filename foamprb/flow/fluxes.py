@@ -8,7 +8,7 @@ nothing in an incompressible flow; where the density varies, cells make and lose
 distributed over the free nodes, those that lie on no wall, so that walls keep their velocity at every point.
 A face between cells whose nodes all lie on walls carries a uniform flux. A second part, with no component
 normal to the triangles, makes the divergence the same everywhere in a tetrahedron: ¼ Σ d_k λ_k (x_k − x),
-with the divergence d_k of u at vertex k.
+with the divergence d_k of u at vertex k (:func:`foamprb.flow.walk.correction_at`).
 
 The fluxes through the faces of the cells are the smallest change of the interpolated ones that conserves
 volume; those through the triangles in a cell likewise. OpenFOAM's ``phi`` is not used: it is the velocity at
@@ -102,7 +102,7 @@ class Conservation:
             self._open[coupling.faces] = False
 
     def __call__(self, u: Floats, l: Floats, mass: Mass | None = CONSTANT) -> NDArray[np.float32]:
-        """Return the correction (n_tets, 8), 1/s; see :class:`~foamprb.flow.mesh.arrays.MeshArrays`.
+        """Return the correction (n_tets, 4), 1/s; see :class:`~foamprb.flow.mesh.arrays.MeshArrays`.
 
         Parameters
         ----------
@@ -128,7 +128,7 @@ class Conservation:
             outer[coupling.faces] = 0.5 * (interpolated[coupling.faces] - interpolated[coupling.partners])
         if mass is not None:
             self.unbalanced = _Balance(mesh, self._nodes, u, self._open, fluxes)(fluxes, mass)
-        correction = np.empty((len(mesh.tets), 8), dtype=np.float32)
+        correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
         most = int(np.diff(mesh.cell_start).max(initial=0))
         arrays = (
             *(mesh.tets, mesh.neighbours, mesh.cell_start, mesh.cell_face_start, mesh.cell_faces),
@@ -525,7 +525,7 @@ def correct(
     phi
         (n_faces,) flux out of the owner of each face, m³/s.
     correction
-        (n_tets, 8), the result.
+        (n_tets, 4), the result.
     fluxes, weight, sides, work
         Working memory, twice (n, 4), (n, 4, 5) and (7, n), for the n tetrahedra of the largest cell.
     """
@@ -608,8 +608,7 @@ def measure_sides(
         Results (n, 4) and (n, 4, 5): the flux of the better velocity out of each side, m³/s; its area vector,
         m², the length of this, and the number of free nodes.
     correction
-        Result (n_tets, 8): minus the flux of the interpolated velocity, m³/s, and a quarter of its divergence
-        at each vertex, up to a constant, 1/s.
+        Result (n_tets, 4): minus the flux of the interpolated velocity, m³/s.
     """
     o, a, b, c = tets[tet, 0], tets[tet, 1], tets[tet, 2], tets[tet, 3]
     x = point(nodes, o)
@@ -626,12 +625,6 @@ def measure_sides(
     _put_side(*results, 2, sb, plus(plus(uo, ua), uc), (fo, fa, fc), (oa, ca, oc))
     _put_side(*results, 3, sc, plus(plus(uo, ub), ua), (fo, fb, fa), (ob, ab, oa))
     volume = -inner(p, sa) / 3.0
-    s = -1.0 / volume if volume != 0.0 else 0.0
-    # The gradient of the weight of a vertex is its side over −3 volumes.
-    correction[tet, 4] = s * fo * (fa * inner(sa, oa) + fb * inner(sb, ob) + fc * inner(sc, oc))
-    correction[tet, 5] = s * fa * (fo * inner(so, oa) + fb * inner(sb, ab) + fc * inner(sc, ca))
-    correction[tet, 6] = s * fb * (fo * inner(so, ob) + fa * inner(sa, ab) + fc * inner(sc, bc))
-    correction[tet, 7] = s * fc * (fo * inner(so, oc) + fa * inner(sa, ca) + fb * inner(sb, bc))
     return float(volume)
 
 

@@ -112,7 +112,7 @@ class MeshFlow:
     turbulence
         (n_nodes, 8): k, ε, ∇k and ∇(k²/3ε) at the nodes, if they were read.
     correction
-        (n_tets, 8) correction of u that keeps volume, by :class:`foamprb.flow.fluxes.Conservation`.
+        (n_tets, 4) correction of u that keeps volume, by :class:`foamprb.flow.fluxes.Conservation`.
     viscosity
         (n_nodes, 4): a field of the viscosity and its gradient, if it was read.
     """
@@ -194,7 +194,7 @@ class MeshFlow:
             viscosity=np.empty((0, 4)) if viscosity is None else viscosity,
             wall_boxes=np.empty((2, 6)),
             seen_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
-            correction=np.empty((0, 8), dtype=np.float32) if correction is None else correction,
+            correction=np.empty((0, 4), dtype=np.float32) if correction is None else correction,
         )
 
     @staticmethod

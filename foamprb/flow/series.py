@@ -38,6 +38,7 @@ from foamprb.flow.walk import (
     interpolate,
     inward,
     shape,
+    shape_and_sides,
 )
 from foamprb.flow.walk import cell_volume as cell_volume_mesh
 from foamprb.flow.walk import cross as cross_mesh
@@ -69,7 +70,7 @@ class SeriesArrays(NamedTuple):
     first_tet: NDArray[np.int64]
     """(n,) row of ``correction`` at which the tetrahedra of each time begin."""
     correction: NDArray[np.float32]
-    """(rows, 8) as that of :class:`MeshArrays`, time by time; no rows for none."""
+    """(rows, 4) as that of :class:`MeshArrays`, time by time; no rows for none."""
 
 
 def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
@@ -79,7 +80,7 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
     interval is loaded.
     """
     k = _interval(flow, t)
-    w = shape(flow.mesh, host, x)
+    sides, scale, w = shape_and_sides(flow.mesh, host, x)
     u0, l0 = interpolate(flow.mesh, host, flow.fields, 0, flow.first[k], w)
     u1, l1 = interpolate(flow.mesh, host, flow.fields, 0, flow.first[k + 1], w)
     length = flow.times[k + 1] - flow.times[k]
@@ -90,9 +91,17 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
         l0[3] + s * (l1[3] - l0[3]), l0[4] + s * (l1[4] - l0[4]), l0[5] + s * (l1[5] - l0[5]),
         l0[6] + s * (l1[6] - l0[6]), l0[7] + s * (l1[7] - l0[7]), l0[8] + s * (l1[8] - l0[8]),
     )  # fmt: skip
-    c0 = correction_at(flow.mesh, flow.correction, flow.first_tet[k] + host, host, w)
-    c1 = correction_at(flow.mesh, flow.correction, flow.first_tet[k + 1] + host, host, w)
-    c = between(c0, c1, s)
+    c = between(
+        correction_at(
+            flow.mesh, flow.correction, flow.first_tet[k] + host,
+            flow.fields, 0, flow.first[k], host, w, sides, scale,
+        ),
+        correction_at(
+            flow.mesh, flow.correction, flow.first_tet[k + 1] + host,
+            flow.fields, 0, flow.first[k + 1], host, w, sides, scale,
+        ),
+        s,
+    )  # fmt: skip
     u_t = d[0] / length, d[1] / length, d[2] / length
     return plus(between(u0, u1, s), c), l, minus(u_t, dot_vector(l, c))
 
@@ -203,7 +212,7 @@ class SeriesFlow(MeshFlow):
         Returns u (n_nodes, 3), m/s, and l (n_nodes, 3, 3), 1/s, at the time of an index; with ``turbulent``
         also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8); with ``viscous`` also the viscosity and its gradient,
         (n_nodes, 4); with ``sampled`` also these fields, (n_nodes, columns); with ``conservative`` last the
-        correction of u, (n_tets, 8) (:mod:`foamprb.flow.fluxes`). It is called by one thread at a time, not
+        correction of u, (n_tets, 4) (:mod:`foamprb.flow.fluxes`). It is called by one thread at a time, not
         always the same.
     period
         Duration after which the flow repeats itself, s. Times from ``times[0] + period`` on are ignored; at
@@ -269,7 +278,7 @@ class SeriesFlow(MeshFlow):
         self.field_columns = tuple(sampled)
         self.field_table: NDArray[np.float64] = np.empty((0, nodes, width(sampled)))
         self._fields = np.empty((0, nodes, _width(turbulent, viscous)))
-        self._corrections = np.empty((0, len(mesh.tets) if conservative else 0, 8), dtype=np.float32)
+        self._corrections = np.empty((0, len(mesh.tets) if conservative else 0, 4), dtype=np.float32)
         self._in_memory: dict[int, int] = {}
         """Row in ``_fields`` of each loaded time by its index, the least recently used first."""
         self._levels = range(0)
@@ -281,7 +290,7 @@ class SeriesFlow(MeshFlow):
         """See :meth:`MeshFlow.nothing`."""
         rows = np.empty(0, dtype=np.int64)
         return SeriesArrays(
-            no_mesh(), np.empty(0), rows, np.empty((0, 12)), 0.0, rows, np.empty((0, 8), dtype=np.float32)
+            no_mesh(), np.empty(0), rows, np.empty((0, 12)), 0.0, rows, np.empty((0, 4), dtype=np.float32)
         )
 
     def load(self, start: float, end: float) -> float:
@@ -332,7 +341,7 @@ class SeriesFlow(MeshFlow):
             self._fields.reshape(-1, self._fields.shape[2]),
             self._slack,
             np.array(places, dtype=np.int64) * self._corrections.shape[1],
-            self._corrections.reshape(-1, 8),
+            self._corrections.reshape(-1, 4),
         )
 
     def _first(self) -> Floats:
@@ -542,7 +551,7 @@ def series_of(
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
     size = 8 * (_width(turbulent, viscous) + width(sampled)) * (mesh.n_points + mesh.n_cells)
-    size += 32 * len(mesh.tets) if conservative else 0
+    size += 16 * len(mesh.tets) if conservative else 0
     keep = _MOST_IN_MEMORY // size if period is not None else 0
     times = [float(name) for name in names]
     try:

@@ -49,9 +49,9 @@ def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Te
 
 def parts(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Vector, Tensor]:
     """Return u at x in the tetrahedron ``host``, its correction c, both m/s, and l, 1/s."""
-    w = shape(flow, host, x)
+    sides, s, w = shape_and_sides(flow, host, x)
     u, l = interpolate(flow, host, flow.nodes, 3, 0, w)
-    return u, correction_at(flow, flow.correction, host, host, w), l
+    return u, correction_at(flow, flow.correction, host, flow.nodes, 3, 0, host, w, sides, s), l
 
 
 def sample_ahead(
@@ -81,7 +81,7 @@ def sample_ahead(
     s = 1.0 / volume
     w = (s * w0, s * w1, s * w2, s * w3)
     u, l = interpolate(flow, last, flow.nodes, 3, 0, w)
-    c = correction_at(flow, flow.correction, last, last, w)
+    c = correction_at(flow, flow.correction, last, flow.nodes, 3, 0, last, w, (c1, c2, c3), s)
     # The gradient of a weight is its cofactor vector; that of the origin minus the sum of the others.
     room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
     return last, room, entered, plus(u, c), l, minus(STEADY, dot_vector(l, c))
@@ -116,10 +116,17 @@ def corners(flow: MeshArrays, host: int, first: int) -> Corners:
 
 def shape(flow: MeshArrays, host: int, x: Vector) -> Weights:
     """Return the barycentric weights of a tetrahedron at x."""
+    return shape_and_sides(flow, host, x)[2]
+
+
+def shape_and_sides(
+    flow: MeshArrays, host: int, x: Vector
+) -> tuple[tuple[Vector, Vector, Vector], float, Weights]:
+    """Return three cofactor vectors, the inverse of their volume (:func:`frame`), and :func:`shape`."""
     origin, c1, c2, c3, volume = frame(flow, host)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
     s = 1.0 / volume
-    return s * w0, s * w1, s * w2, s * w3
+    return (c1, c2, c3), s, (s * w0, s * w1, s * w2, s * w3)
 
 
 def interpolate(
@@ -179,14 +186,29 @@ def _product(f: Floats, at: Corners, k: int, arms: tuple[Vector, Vector, Vector,
 
 
 def correction_at(
-    flow: MeshArrays, correction: NDArray[np.float32], row: int, host: int, w: Weights
+    flow: MeshArrays,
+    correction: NDArray[np.float32],
+    row: int,
+    f: Floats,
+    k: int,
+    first: int,
+    host: int,
+    w: Weights,
+    sides: tuple[Vector, Vector, Vector],
+    s: float,
 ) -> Vector:
     """Return the velocity, m/s, that keeps volume (:mod:`foamprb.flow.fluxes`), at weights ``w`` in a host.
 
-    Row ``row`` of ``correction`` holds its fluxes q over volume and free nodes, and a quarter of the
-    divergences d. A flux through the side opposite vertex k moves along the edges from k to the free vertices
-    j of the side, as λ_j q_k (x_j − x_k).
+    Row ``row`` of ``correction`` holds its fluxes q over volume and free nodes. A flux through the side
+    opposite vertex k moves along the edges from k to the free vertices j of the side, as λ_j q_k (x_j − x_k).
     With f_j = 1 for free vertices, else 0, the sum is Σ_j x_j (f_j λ_j Σ_k q_k − q_j Σ_k f_k λ_k).
+
+    Parameters
+    ----------
+    f, k, first
+        Table of velocities and gradients, from row ``first`` and column k on; see :func:`interpolate`.
+    sides, s
+        Results of :func:`shape_and_sides`.
     """
     if correction.shape[0] == 0:
         return 0.0, 0.0, 0.0
@@ -195,27 +217,111 @@ def correction_at(
     qa, qb, qc, qd = correction[at, 0], correction[at, 1], correction[at, 2], correction[at, 3]
     fa, fb, fc, fd = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
     q, count = qa + qb + qc + qd, fa + fb + fc + fd
-    # The second part is Σ e_k λ_k x_k − (Σ e_k λ_k) x, with x = Σ λ_k x_k.
-    eb, ec, ed = correction[at, 5], correction[at, 6], correction[at, 7]
-    e = correction[at, 4] * w[0] + eb * w[1] + ec * w[2] + ed * w[3]
+    o, rows = point(nodes, a), (first + a, first + b, first + c, first + d)
+    arms = p, m, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
+    # The second part is Σ e_k λ_k x_k − (Σ e_k λ_k) x, with x = Σ λ_k x_k and a quarter e of the divergence.
+    if count == 4.0:
+        eb, ec, ed = _excess(f, k + 3, rows, arms, sides, s)
+    else:
+        eb, ec, ed = _excess_at_walls(f, k + 3, rows, (fa, fb, fc, fd), arms, sides, s)
+    e = eb * w[1] + ec * w[2] + ed * w[3]
     sb, sc, sd = (eb - e) * w[1], (ec - e) * w[2], (ed - e) * w[3]
     if count == 4.0 or count == 0.0:
         sb, sc, sd = sb + q * w[1] - qb, sc + q * w[2] - qc, sd + q * w[3] - qd
     else:
-        f = fa * w[0] + fb * w[1] + fc * w[2] + fd * w[3]
-        sb, sc, sd = sb + fb * w[1] * q - qb * f, sc + fc * w[2] * q - qc * f, sd + fd * w[3] * q - qd * f
+        z = fa * w[0] + fb * w[1] + fc * w[2] + fd * w[3]
+        sb, sc, sd = sb + fb * w[1] * q - qb * z, sc + fc * w[2] * q - qc * z, sd + fd * w[3] * q - qd * z
     if count == 1.0:
         # The side opposite the only free vertex has a uniform flux.
         q = fa * qa + fb * qb + fc * qc + fd * qd
         sb += q * (w[1] - fb)
         sc += q * (w[2] - fc)
         sd += q * (w[3] - fd)
-    o = point(nodes, a)
-    p, s, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
     return (
-        sb * p[0] + sc * s[0] + sd * r[0],
-        sb * p[1] + sc * s[1] + sd * r[1],
-        sb * p[2] + sc * s[2] + sd * r[2],
+        sb * p[0] + sc * m[0] + sd * r[0],
+        sb * p[1] + sc * m[1] + sd * r[1],
+        sb * p[2] + sc * m[2] + sd * r[2],
+    )
+
+
+def _excess(
+    f: Floats,
+    k: int,
+    rows: Corners,
+    arms: tuple[Vector, Vector, Vector],
+    sides: tuple[Vector, Vector, Vector],
+    s: float,
+) -> Vector:
+    """Return a quarter of the divergence at vertices 1, 2 and 3 less that at vertex 0, 1/s.
+
+    That of the interpolated velocity at vertex i is half of Σ_j ∇λ_j·(l_i − l_j)·(x_j − x_i) and a constant,
+    which is half of tr l_i + (Σ_j ∇λ_j·l_j)·x_i and another constant. The gradients are in columns k on.
+    """
+    c1, c2, c3 = sides
+    c0 = -c1[0] - c2[0] - c3[0], -c1[1] - c2[1] - c3[1], -c1[2] - c2[2] - c3[2]
+    t, cofactors = 0.125 * s, (c0, c1, c2, c3)
+    v = (
+        t * _product_of_columns(f, k, rows, cofactors),
+        t * _product_of_columns(f, k + 1, rows, cofactors),
+        t * _product_of_columns(f, k + 2, rows, cofactors),
+    )
+    least = _trace(f, k, rows[0])
+    return (
+        0.125 * (_trace(f, k, rows[1]) - least) + inner(v, arms[0]),
+        0.125 * (_trace(f, k, rows[2]) - least) + inner(v, arms[1]),
+        0.125 * (_trace(f, k, rows[3]) - least) + inner(v, arms[2]),
+    )
+
+
+def _trace(f: Floats, k: int, row: int) -> Any:
+    return f[row, k] + f[row, k + 4] + f[row, k + 8]
+
+
+def _product_of_columns(f: Floats, k: int, rows: Corners, c: tuple[Vector, Vector, Vector, Vector]) -> Any:
+    """Return the sum over four rows of the products of columns k, k + 3 and k + 6 with a vector."""
+    return (
+        f[rows[0], k] * c[0][0] + f[rows[0], k + 3] * c[0][1] + f[rows[0], k + 6] * c[0][2]
+        + f[rows[1], k] * c[1][0] + f[rows[1], k + 3] * c[1][1] + f[rows[1], k + 6] * c[1][2]
+        + f[rows[2], k] * c[2][0] + f[rows[2], k + 3] * c[2][1] + f[rows[2], k + 6] * c[2][2]
+        + f[rows[3], k] * c[3][0] + f[rows[3], k + 3] * c[3][1] + f[rows[3], k + 6] * c[3][2]
+    )  # fmt: skip
+
+
+def _excess_at_walls(
+    f: Floats,
+    k: int,
+    rows: Corners,
+    free: Weights,
+    arms: tuple[Vector, Vector, Vector],
+    sides: tuple[Vector, Vector, Vector],
+    s: float,
+) -> Vector:
+    """Return :func:`_excess` where only edges between free nodes bend."""
+    (a, b, c, d), (fa, fb, fc, fd), (p, q, r), (c1, c2, c3) = rows, free, arms, sides
+    c0 = -c1[0] - c2[0] - c3[0], -c1[1] - c2[1] - c3[1], -c1[2] - c2[2] - c3[2]
+    ab, ac, ad = _bend(f, k, a, b, p), _bend(f, k, a, c, q), _bend(f, k, a, d, r)
+    bc, cd, db = (
+        _bend(f, k, b, c, minus(q, p)),
+        _bend(f, k, c, d, minus(r, q)),
+        _bend(f, k, d, b, minus(p, r)),
+    )
+    t = 0.125 * s
+    least = fa * (fb * inner(c1, ab) + fc * inner(c2, ac) + fd * inner(c3, ad))
+    return (
+        t * (fb * (fa * inner(c0, ab) + fc * inner(c2, bc) + fd * inner(c3, db)) - least),
+        t * (fc * (fa * inner(c0, ac) + fb * inner(c1, bc) + fd * inner(c3, cd)) - least),
+        t * (fd * (fa * inner(c0, ad) + fb * inner(c1, db) + fc * inner(c2, cd)) - least),
+    )
+
+
+def _bend(f: Floats, k: int, i: int, j: int, d: Vector) -> Vector:
+    """Return (l_i − l_j)·d, from the gradients in columns k on."""
+    return _drop(f, k, i, j, d), _drop(f, k + 3, i, j, d), _drop(f, k + 6, i, j, d)
+
+
+def _drop(f: Floats, k: int, i: int, j: int, d: Vector) -> Any:
+    return (
+        (f[i, k] - f[j, k]) * d[0] + (f[i, k + 1] - f[j, k + 1]) * d[1] + (f[i, k + 2] - f[j, k + 2]) * d[2]
     )
 
 

@@ -78,9 +78,9 @@ class MeshArrays(NamedTuple):
     viscosity: Floats
     """(n_nodes, 4): a field of the viscosity and its gradient; no rows if it was not read."""
     correction: NDArray[np.float32]
-    """(n_tets, 8), 1/s, of the velocity between the nodes (:mod:`foamprb.flow.fluxes`): the additional flux
+    """(n_tets, 4), 1/s, of the velocity between the nodes (:mod:`foamprb.flow.fluxes`): the additional flux
     through the side opposite each vertex over the volume and the number of the side's nodes that lie on no
-    wall; and a quarter of the divergence of the velocity at each vertex. No rows for no correction."""
+    wall. No rows for no correction."""
 
 
 _FLOATS = {
@@ -95,7 +95,7 @@ def no_mesh() -> MeshArrays:
     empty: dict[str, Any] = {name: np.empty(0, dtype=np.int32) for name in MeshArrays._fields}
     empty |= {name: np.empty((0, columns)) for name, columns in _FLOATS.items()}
     empty |= {name: np.empty((0, columns), dtype=np.int32) for name, columns in _TABLES.items()}
-    empty |= {"folds": np.empty(0, dtype=np.uint8), "correction": np.empty((0, 8), dtype=np.float32)}
+    empty |= {"folds": np.empty(0, dtype=np.uint8), "correction": np.empty((0, 4), dtype=np.float32)}
     return MeshArrays(**empty | {"n_points": 0})
 
 
