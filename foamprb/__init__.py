@@ -62,8 +62,13 @@ Particles in a flow:
     context             prepare particles for measuring
     measure             shape, orientation, rotation and load of particles
 
-Solids:
+Models of users:
 
+    add_force           add a force by a function of place, time and size
+    add_surrounding     add a model that changes the flow around a particle
+    Surrounding         base class of such a model
+    extend              names for such models, a module
+    select              a choice without a branch, for functions that are compiled
     add_material        add a solid by its energy
     Parameter           the third parameter of such a solid, its name and limits
     Material            a solid: its energy, the derivatives of it, and what the integrators need

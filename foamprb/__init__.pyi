@@ -1,9 +1,15 @@
 """Public names and their modules; ``__init__.py`` imports each when it is first used."""
 
+from . import extend as extend
 from .body.material import Material as Material
 from .body.material import Parameter as Parameter
 from .body.material import add_material as add_material
-from .body.tensor import log_ratio as log_ratio
+from .body.tensor import (
+    log_ratio as log_ratio,
+)
+from .body.tensor import (
+    select as select,
+)
 from .cloud.block import Medium as Medium
 from .cloud.cloud import Cloud as Cloud
 from .cloud.forces import (
@@ -17,6 +23,9 @@ from .cloud.forces import (
 )
 from .cloud.forces import (
     VirtualMass as VirtualMass,
+)
+from .cloud.forces import (
+    add_force as add_force,
 )
 from .cloud.limits import Limits as Limits
 from .cloud.measures import context as context
@@ -39,6 +48,7 @@ from .cloud.state import (
 from .cloud.state import (
     spheres as spheres,
 )
+from .cloud.surroundings.base import Surrounding as Surrounding
 from .cloud.surroundings.brownian import BrownianMotion as BrownianMotion
 from .cloud.surroundings.dispersion import (
     GradientDispersion as GradientDispersion,
@@ -53,6 +63,7 @@ from .cloud.surroundings.fates import (
     Fates as Fates,
 )
 from .cloud.surroundings.faxen import FaxenCorrection as FaxenCorrection
+from .cloud.surroundings.registry import add_surrounding as add_surrounding
 from .cloud.surroundings.saffman_mei import SaffmanMeiLift as SaffmanMeiLift
 from .cloud.surroundings.swimming import Swimming as Swimming
 from .cloud.surroundings.wall_lift import WallLift as WallLift
@@ -131,14 +142,18 @@ __all__ = [
     "Status",
     "Stick",
     "StochasticDispersion",
+    "Surrounding",
     "ValidityWarning",
     "VirtualMass",
     "WallLift",
+    "add_force",
     "add_material",
+    "add_surrounding",
     "analytic",
     "context",
     "drops",
     "execute",
+    "extend",
     "log_ratio",
     "measure",
     "open_run",
@@ -150,6 +165,7 @@ __all__ = [
     "read_mesh_file",
     "read_mesh_series",
     "read_series",
+    "select",
     "select_times",
     "set_rest_shape",
     "spheres",

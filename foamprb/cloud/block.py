@@ -81,6 +81,7 @@ class Rows(NamedTuple):
     h: Annotated[int, Row(1, "s", "time step that the error allows", of="h", saved=True)]
     dt: Annotated[int, Row(1, "s", "time step that is being taken")]
     moving: Annotated[int, Row(1, "", "1 where a step is being taken, else 0")]
+    gone: Annotated[int, Row(1, "1", "share of the step after which forces act: 0 at x, else at new_x")]
     verdict: Annotated[int, Row(1, "", "reason why the new state is not sound; 0 if it is")]
     length: Annotated[int, Row(1, "m", "longest semi-axis, or a little more", lasting=True)]
     clearance: Annotated[int, Row(1, "m", "gap between the body and the nearest wall", lasting=True)]

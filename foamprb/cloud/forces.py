@@ -7,19 +7,30 @@ A new force is a class below, which declares its entries and names a plain funct
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import MISSING, dataclass, field, fields, make_dataclass
+from inspect import signature
 from itertools import pairwise
 from numbers import Real
-from typing import Annotated, Any, ClassVar, NamedTuple
+from types import FunctionType
+from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, get_type_hints
 
 from foamprb.body.drag import reduced_gravity
 from foamprb.body.lift import PLANE_CHANNEL, balances, duct_coefficient, duct_lift, hinges
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, scale_vector
-from foamprb.cloud.block import Medium, at, load3
+from foamprb.cloud.block import Medium, at, choose3, load3
 from foamprb.cloud.layout import LANES
 from foamprb.compile.link import bound
-from foamprb.dictionary.constraints import Choice, Meaning, NonNegative, Only, Pairs, Positive, Vector3
+from foamprb.dictionary.constraints import (
+    Bounds,
+    Choice,
+    Meaning,
+    NonNegative,
+    Only,
+    Pairs,
+    Positive,
+    Vector3,
+)
 from foamprb.errors import InputError
 
 __all__ = [
@@ -32,6 +43,7 @@ __all__ = [
     "PressureGradient",
     "VirtualMass",
     "acceleration",
+    "add_force",
     "coefficients",
     "compose",
     "forces_on",
@@ -57,10 +69,13 @@ class Inputs(NamedTuple):
     Du_Dt: Vector
     """Acceleration of the fluid at the barycentre, ∂u/∂t + l·u, m/s²."""
     medium: Medium
+    """Fluid and gravity: ``mu``, Pa s, if it is constant; ``rho``, kg/m³; ``gravity``, m/s²."""
     x: Vector = (0.0, 0.0, 0.0)
-    """Position of the barycentre at the start of the step, m."""
+    """Position of the barycentre, m."""
     R: Scalar = 0.0
-    """Radius of the sphere of the same volume, m."""
+    """Radius of the sphere of the same volume at rest, m."""
+    t: Scalar = 0.0
+    """Time, s."""
 
 
 def displaced(inputs: Inputs) -> Scalar:
@@ -216,6 +231,96 @@ FORCES: dict[str, type[Force]] = {
 
 
 # ---------------------------------------------------------------------------------------------------------
+# Forces of users
+
+
+@dataclass(frozen=True, kw_only=True)
+class UserForce(Force):
+    """A force that :func:`add_force` has added."""
+
+    name: ClassVar[str]
+
+    def __reduce__(self) -> Any:
+        """Return how another process, which has run the same file, restores it."""
+        return _restored, (self.name, {field.name: getattr(self, field.name) for field in fields(self)})
+
+
+def _restored(name: str, values: Mapping[str, float]) -> Force:
+    return FORCES[name](**values)
+
+
+SAMPLE = Inputs(
+    1.0, 1e3, (0.1, 0.2, 0.3), Medium(1e-3, 1e3, (0.0, 0.0, -9.81)), (1e-3, 2e-3, 3e-3), 1e-6, 0.5
+)
+"""Arguments with which a user's force is tried."""
+
+
+def add_force(name: str, evaluate: Callable[..., tuple[Vector, Scalar]]) -> type[Force]:
+    """Add a force to :data:`FORCES`, for selection by its name in ``particleForces``.
+
+    Parameters
+    ----------
+    name
+        A word.
+    evaluate
+        ``evaluate(inputs, *entries)`` returns the force per mass of the particle, ((x, y, z) in m/s², inertia
+        in masses of the particle, in most cases 0.0), from :class:`Inputs` and numbers. Its further
+        parameters are the entries of the force's dictionary; one with a default may be left out, and a
+        hint ``Annotated[float, Positive]`` restricts it. It is compiled: a plain function of module level,
+        of arithmetic and numpy functions, with :func:`foamprb.select` in place of ``if``.
+
+    Returns
+    -------
+    The class of the force, whose instances are arguments of :class:`Models`.
+
+    Raises
+    ------
+    ValueError
+        If the name is taken, or the function is not plain, fails, or returns something else.
+    """
+    if name in FORCES:
+        raise ValueError(f"the force {name} exists already")
+    if not isinstance(evaluate, FunctionType) or evaluate.__closure__:
+        raise ValueError(f"force {name}: {evaluate!r} is not a plain function of module level")
+    hints = get_type_hints(evaluate, include_extras=True)
+    _, *parameters = signature(evaluate).parameters.values()
+    entries: list[Any] = []
+    for p in parameters:
+        hint = hints.get(p.name, float)
+        if getattr(hint, "__origin__", hint) is not float:
+            raise ValueError(f"force {name}: the entry {p.name} is no float")
+        own: Any = field() if p.default is p.empty else field(default=float(p.default))
+        entries.append((p.name, hint, own))
+    kind: type[Force] = make_dataclass(
+        name, entries, bases=(UserForce,), frozen=True, kw_only=True,
+        namespace={"evaluate": staticmethod(evaluate), "name": name},
+    )  # fmt: skip
+    try:
+        (x, y, z), inertia = found = evaluate(SAMPLE, *tried(kind).coefficients)
+    except Exception as error:
+        raise ValueError(f"force {name}: {type(error).__name__}: {error}") from error
+    if not all(isinstance(number, Real) and math.isfinite(number) for number in (x, y, z, inertia)):
+        raise ValueError(f"force {name}: it returns {found}, not ((x, y, z), inertia) of finite numbers")
+    FORCES[name] = kind
+    return kind
+
+
+T = TypeVar("T")
+
+
+def tried(kind: type[T]) -> T:
+    """Return a model with its defaults, and with numbers that its bounds admit where it has none."""
+    hints = get_type_hints(kind, include_extras=True)
+    values = {}
+    for entry in fields(kind):  # type: ignore[arg-type]
+        if entry.default is MISSING:
+            bounds = [b for b in getattr(hints[entry.name], "__metadata__", ()) if isinstance(b, Bounds)]
+            numbers = (1.0, *(0.5 * (b.lower + b.upper) for b in bounds), *(b.lower + 1.0 for b in bounds))
+            values[entry.name] = next((v for v in numbers if all(b.admits(v) for b in bounds)), 1.0)
+    return kind(**values)
+
+
+# ---------------------------------------------------------------------------------------------------------
 # Their sum
 
 
@@ -234,9 +339,9 @@ def forces_on(block: Any, i: int, medium: Medium, J: Scalar, Du_Dt: Vector) -> t
     The arguments of :func:`foamprb.body.slip.balanced_slip`.
     """
     inputs = _inputs_of(block, i, medium, J)
-    accelerated = Inputs(inputs.J, inputs.rho, Du_Dt, inputs.medium, inputs.x, inputs.R)
-    f, inertia = sum_of_forces(accelerated, medium.coefficients)
-    still = Inputs(inputs.J, inputs.rho, scale_vector(0.0, inputs.Du_Dt), inputs.medium, inputs.x, inputs.R)
+    where = inputs.medium, inputs.x, inputs.R, inputs.t
+    f, inertia = sum_of_forces(Inputs(inputs.J, inputs.rho, Du_Dt, *where), medium.coefficients)
+    still = Inputs(inputs.J, inputs.rho, scale_vector(0.0, inputs.Du_Dt), *where)
     steady, _ = sum_of_forces(still, medium.coefficients)
     return steady, f, inertia
 
@@ -258,8 +363,11 @@ def coefficients(forces: Sequence[Force]) -> tuple[Any, ...]:
 
 
 def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
-    x, R = load3(block, at.x, i), block[at.R * LANES + i]
-    return Inputs(J, block[at.rho * LANES + i], load3(block, at.DuDt, i), medium, x, R)
+    gone = block[at.gone * LANES + i]
+    x = choose3(gone > 0.0, load3(block, at.new_x, i), load3(block, at.x, i))
+    t = block[at.t * LANES + i] + gone * block[at.dt * LANES + i]
+    R, rho = block[at.R * LANES + i], block[at.rho * LANES + i]
+    return Inputs(J, rho, load3(block, at.DuDt, i), medium, x, R, t)
 
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on its loads: without these,

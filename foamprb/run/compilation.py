@@ -27,6 +27,7 @@ from foamprb.compile.cache import cache_directory
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
+from foamprb.settings.libs import compiling_libs
 
 __all__ = ["Compilation", "compile_all", "compile_run"]
 
@@ -108,7 +109,8 @@ def compile_run(cloud: Cloud, compilation: Compilation | None, alone: bool) -> N
     if not cloud.tracker.compiled:
         log_compiling()
     if alone:
-        cloud.tracker.compile(arguments)
+        with compiling_libs():
+            cloud.tracker.compile(arguments)
 
 
 def compile_all() -> None:

@@ -1,28 +1,41 @@
-"""User-made solids in Python files of the settings: ``libs ("rubber.py");``."""
+"""User-made solids, forces and surroundings in Python files of the settings: ``libs ("rubber.py");``."""
 
 from __future__ import annotations
 
 import hashlib
 import importlib.util
 import logging
+import re
 import sys
 import traceback
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from numba.core.errors import NumbaError
 
 from foamprb.body.material import MATERIALS
+from foamprb.cloud.block import ROWS, new_block
+from foamprb.cloud.forces import FORCES, SAMPLE, tried
+from foamprb.cloud.layout import end, offsets
+from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 
 log = logging.getLogger("foamprb")
 
-_loaded: dict[Path, tuple[str, tuple[str, ...]]] = {}
+_REGISTRIES: dict[str, dict[str, Any]] = {
+    "solid": MATERIALS,
+    "force": FORCES,
+    "surroundings": SURROUNDINGS,
+}
+_loaded: dict[Path, tuple[str, tuple[tuple[str, str], ...]]] = {}
+"""Checksum of each file, empty if it failed, and what it has added: registries and names."""
 
 
 def loaded_libs() -> tuple[Path, ...]:
-    """Return the files whose solids are loaded."""
+    """Return the files whose models are loaded."""
     return tuple(path for path, (digest, _) in _loaded.items() if digest)
 
 
@@ -43,14 +56,15 @@ def require_inside(files: Iterable[Path], case: Path) -> None:
 
 
 def load_libs(files: Iterable[Path]) -> None:
-    """Run Python files, which add solids by :func:`foamprb.add_material`, and compile these solids.
+    """Run Python files, which add solids, forces and surroundings, and compile the solids and forces.
 
-    An unchanged file is not run again; the earlier solids of a changed file are removed.
+    They call :func:`foamprb.add_material`, :func:`foamprb.add_force` and :func:`foamprb.add_surrounding`. An
+    unchanged file is not run again; the earlier models of a changed file are removed.
 
     Raises
     ------
     InputError
-        If a file fails, or adds a solid that is unsound or cannot be compiled; with place and reason.
+        If a file fails, or adds a model that is unsound or cannot be compiled; with place and reason.
     """
     for file in files:
         path = file.resolve()
@@ -58,17 +72,21 @@ def load_libs(files: Iterable[Path]) -> None:
         before, names = _loaded.get(path, ("", ()))
         if before == digest:
             continue
-        for name in names:
-            MATERIALS.pop(name, None)
-        known = set(MATERIALS)
+        for kind, name in names:
+            _REGISTRIES[kind].pop(name, None)
+        known = _names()
         log.info("Running the Python file %s of libs", path)
         try:
             _run(path, digest)
         finally:
-            _loaded[path] = ("", tuple(set(MATERIALS) - known))
-        for name in _loaded[path][1]:
-            _compile(file, name)
+            _loaded[path] = ("", tuple(_names() - known))
+        for kind, name in sorted(_loaded[path][1]):
+            _check(file, kind, name)
         _loaded[path] = (digest, _loaded[path][1])
+
+
+def _names() -> set[tuple[str, str]]:
+    return {(kind, name) for kind, registry in _REGISTRIES.items() for name in registry}
 
 
 def _run(path: Path, digest: str) -> None:
@@ -79,8 +97,15 @@ def _run(path: Path, digest: str) -> None:
     module = importlib.util.module_from_spec(spec)
     # Cached machine code imports the module by its name.
     sys.modules[name] = module
-    try:
+    with _one_message(path):
         spec.loader.exec_module(module)
+
+
+@contextmanager
+def _one_message(path: Path) -> Iterator[None]:
+    """Raise InputError, with the line of a file, in place of any error."""
+    try:
+        yield
     except Exception as error:
         frames = traceback.extract_tb(error.__traceback__)
         lines = [frame.lineno for frame in frames if frame.filename == str(path)]
@@ -89,14 +114,54 @@ def _run(path: Path, digest: str) -> None:
         raise InputError(f"{where}: {type(error).__name__}: {error}.") from error
 
 
-def _compile(file: Path, name: str) -> None:
-    material = MATERIALS[name]
-    k = 1.0 if material.parameter is None else material.parameter.lower + 1.0
+@contextmanager
+def compiling_libs() -> Iterator[None]:
+    """Raise InputError in place of an error of compilation, if models of ``libs`` are compiled."""
     try:
-        link(material.derivatives)(3.0, 3.0, 1.0, 1.0, 1.0, k)
-    except NumbaError as error:
-        first = next((line.strip() for line in str(error).splitlines() if line.strip()), "")
-        raise InputError(
-            f"{file}: the solid {name} cannot be compiled: {first} "
-            "Use arithmetic and numpy functions of numbers."
-        ) from error
+        yield
+    except (NumbaError, TypeError, ValueError) as error:
+        files = loaded_libs()
+        if not files:
+            raise
+        raise InputError(_fault_of(error, files)) from error
+
+
+def _fault_of(error: Exception, files: Sequence[Path]) -> str:
+    """Return a message with the line of a file that numba could not compile, if it names one."""
+    for path in files:
+        found = re.search(rf'File "[^"]*{re.escape(path.name)}", line (\d+)', str(error))
+        if found is not None:
+            line = path.read_text().splitlines()[int(found[1]) - 1].strip()
+            return f"{path}, line {found[1]}: '{line}' cannot be compiled. {_ADVICE}"
+    first = next((line.strip() for line in str(error).splitlines() if line.strip()), "")
+    return f"{', '.join(map(str, files))}: the models cannot be compiled: {first} {_ADVICE}"
+
+
+_ADVICE = "Use arithmetic and numpy functions of numbers."
+
+
+def _check(file: Path, kind: str, name: str) -> None:
+    """Try a model as far as it needs no flow; refuse a name that two entries of ``particleForces`` have."""
+    if name == "ellipsoidDrag" or (name in FORCES and name in SURROUNDINGS):
+        raise InputError(f"{file}: particleForces has an entry {name} already.")
+    if kind == "solid":
+        material = MATERIALS[name]
+        k = 1.0 if material.parameter is None else material.parameter.lower + 1.0
+        _compile(file, material.derivatives, 3.0, 3.0, 1.0, 1.0, 1.0, k)
+    elif kind == "force":
+        force = tried(FORCES[name])
+        _compile(file, type(force).evaluate, SAMPLE, *force.coefficients)
+    else:
+        model = SURROUNDINGS[name]
+        rows = 0 if model.rows is None else end(offsets(model.rows))
+        block = new_block(ROWS + rows)
+        block[:] = 1.0
+        with _one_message(file.resolve()):
+            model.disturb(block, SAMPLE.medium, 0.0, tried(model).coefficients(()))
+
+
+def _compile(file: Path, function: Callable[..., Any], *arguments: Any) -> None:
+    try:
+        link(function)(*arguments)
+    except (NumbaError, TypeError, ValueError) as error:
+        raise InputError(_fault_of(error, [file.resolve()])) from error

@@ -117,7 +117,7 @@ class CloudProperties:
     libs: Annotated[
         Files | None,
         Meaning(
-            "Python files of the case that add [solids](models/materials.md); others with `-outsideLibs`",
+            "Python files of the case that add [models](own-models.md); others with `-outsideLibs`",
             "",
             "none",
         ),

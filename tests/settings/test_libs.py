@@ -1,15 +1,20 @@
-"""Solids that users bring, from Python and by a file that the settings name."""
+"""Solids, forces and surroundings that users bring, from Python and by a file that the settings name."""
 
 from __future__ import annotations
 
+import csv
 import os
+import pickle
+import re
 import subprocess
 import sys
 
 import numpy as np
 import pytest
+import pyvista
 from hypothesis import given
 from hypothesis import strategies as st
+from paths import ROOT
 from pipe_case import copy_of_pipe, edit, fates
 
 import foamprb
@@ -18,6 +23,8 @@ from foamprb.body import material
 from foamprb.body.material import MATERIALS, Parameter, add_material
 from foamprb.body.tensor import log_ratio
 from foamprb.cli import main
+from foamprb.cloud.forces import FORCES, add_force
+from foamprb.cloud.surroundings.registry import SURROUNDINGS, add_surrounding
 from foamprb.settings.libs import load_libs
 
 FUNG = """
@@ -35,11 +42,19 @@ def energy(I1, I2, J, mu, lame, k):
 foamprb.add_material("fung", energy, parameter=foamprb.Parameter("stiffening", 0.0, 10.0))
 """
 
+FORCE = "import foamprb\ndef push(inputs, a):\n"
+ADD = "foamprb.add_force('push', push)\n"
+
 
 @pytest.fixture(autouse=True)
 def registry(monkeypatch, solids):
-    """No file has been loaded."""
+    """No file has been loaded, and none is afterwards."""
     monkeypatch.setattr("foamprb.settings.libs._loaded", {})
+    before = [(registry, dict(registry)) for registry in (FORCES, SURROUNDINGS)]
+    yield
+    for registry, names in before:
+        registry.clear()
+        registry.update(names)
 
 
 def own_energy(I1, I2, J, mu, lame, k):
@@ -129,7 +144,31 @@ def test_file_is_run_again_only_when_it_has_changed(tmp_path):
         ("x = 1\nimport nothing_of_that_name\n", r"rubber.py, line 2: ModuleNotFoundError"),
         ("def f(:\n", r"rubber.py, line 1: SyntaxError"),
         (FUNG.replace("0.5 * mu / k", "0.6 * mu / k"), r"line 13: ValueError: solid fung: its shear modulus"),
-        (FUNG.replace("np.exp(", "np.frompyfunc(np.exp, 1, 1)("), "fung cannot be compiled"),
+        (FUNG.replace("np.exp(", "np.frompyfunc(np.exp, 1, 1)("), "rubber.py.*cannot be compiled"),
+        (FORCE + "    return (a, 0.0, 0.0)\n" + ADD, "line 4: ValueError: force push: ValueError: too many"),
+        (
+            FORCE + "    return (a, b, 0.0), 0.0\n" + ADD,
+            "line 4: ValueError: force push: NameError: name 'b'",
+        ),
+        (FORCE + "    return (a / 0.0, 0.0, 0.0), 0.0\n" + ADD, "force push: ZeroDivisionError"),
+        (FORCE + "    return ('a', 0.0, 0.0), 0.0\n" + ADD, r"it returns \(\('a', 0.0, 0.0\), 0.0\), not"),
+        (
+            FORCE.replace("(inputs, a)", "(inputs, a: int)") + "    return a\n" + ADD,
+            "the entry a is no float",
+        ),
+        (
+            FORCE + "    return ({a: a}[a], [*range(int(a))][0] + 0.0, a), 0.0\n" + ADD,
+            r"rubber.py, line 3: 'return .* cannot be compiled",
+        ),
+        (FORCE + "    return (a, a, a), 0.0\n" + ADD.replace("push", "gravity", 1), "gravity exists already"),
+        (
+            FORCE + "    return (a, a, a), 0.0\n" + ADD.replace("push", "wallLift", 1),
+            "an entry wallLift already",
+        ),
+        (
+            "import foamprb\nfoamprb.add_surrounding('drift', int)\n",
+            "model drift: <class 'int'> is no subclass",
+        ),
     ],
 )
 def test_mistake_in_a_file_is_one_message(tmp_path, text, message):
@@ -196,3 +235,62 @@ def test_compiled_solid_is_found_again_by_the_next_process(tmp_path):
         for _ in range(2)
     ]
     assert hits == ["0", "1"]
+
+
+def swirl(inputs, rate, scale=0.5):
+    x, y, _ = inputs.x
+    return (-rate * y, scale * rate * x, inputs.t + inputs.R), 0.0
+
+
+def test_entries_of_a_force_are_the_parameters_of_its_function():
+    Swirl = add_force("swirl", swirl)
+    force = Swirl(rate=3.0)
+    assert force.coefficients == (3.0, 0.5)
+    assert pickle.loads(pickle.dumps(force)) == force
+    with pytest.raises(TypeError, match="rate"):
+        Swirl(scale=1.0)
+    with pytest.raises(ValueError, match=r"force lambda: <function .* is not a plain function"):
+        add_force("lambda", (lambda k: lambda _: ((k, k, k), 0.0))(1.0))
+
+
+def test_class_of_surroundings_is_checked():
+    class Bare(foamprb.Surrounding):
+        pass
+
+    with pytest.raises(ValueError, match=r"Bare has no @dataclass\(frozen=True, kw_only=True\)"):
+        add_surrounding("bare", Bare)
+    with pytest.raises(ValueError, match="Surrounding has no disturb = staticmethod"):
+        add_surrounding("base", foamprb.Surrounding)
+    with pytest.raises(ValueError, match="wallLift exists already"):
+        add_surrounding("wallLift", foamprb.Surrounding)
+
+
+def test_force_and_surroundings_of_the_page_move_particles(tmp_path, capsys):
+    """The slip of a rigid sphere is τ_p f + v, f = −rate² (y − y0) at its place."""
+    case = copy_of_pipe(tmp_path)
+    page = (ROOT / "docs/own-models.md").read_text()
+    force, model = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    (case / "constant/trap.py").write_text(force)
+    (case / "constant/field.py").write_text(model)
+    edit(case, r"^solution", 'libs ("trap.py" "field.py");\nsolution')
+    edit(case, r"shape\s+paper;", "shape stokes;")
+    edit(case, r"endTime\s+\S+;", "endTime 0.002;")
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.001;")
+    edit(case, r"^\s+gravity;", "trap { rate 300; y0 1e-4; } electrophoresis { vz 0.02; }")
+    assert main(["run", "-case", str(case)]) == 0
+    log = capsys.readouterr().out
+    assert "trap (rate 300, y0 0.0001), electrophoresis (vx 0, vy 0, vz 0.02)" in log
+    output = case / "postProcessing/softCloud"
+    with (output / "fates.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if float(row["Ca"]) < 1e-3]
+    rigid = [int(row["id"]) for row in rows]
+    cloud = pyvista.read(output / "softCloud_000002.vtp")
+    at = np.flatnonzero(np.isin(cloud["origId"], rigid) & (cloud["status"] == 1))
+    assert len(at) > 0
+    points = np.asarray(cloud.points)[at]
+    flow = foamprb.read_case(case)
+    u, _ = flow.sample(points, flow.locate(points), 0.0)
+    tau = cloud["rho"][at] * cloud["d"][at] ** 2 / (18.0 * 1.208 * 1.491e-5)
+    slip = cloud["U"][at] - u
+    np.testing.assert_allclose(slip[:, 1], -tau * 300.0**2 * (points[:, 1] - 1e-4), rtol=2e-3)
+    np.testing.assert_allclose(slip[:, 2], 0.02, rtol=1e-3)

@@ -259,6 +259,7 @@ def begin_stage(block: Any) -> None:
         l = load9(block, during.start_l, i)
         store_fluid(block, i, load3(block, during.start_u, i), l, load3(block, at.DuDt, i))
         store9(block, at.new_F, i, load9(block, at.F, i))
+        block[at.gone * LANES + i] = 0.0
 
 
 def limit_by_path(block: Any, i: int, tolerance: float) -> None:

@@ -238,6 +238,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
             u[2] + p * h * a_u[2] + q * du[2],
         )
         a, w = load3(block, at.DuDt, i), end_acceleration(block, i)
+        block[at.gone * LANES + i] = NODE
         store3(block, at.u, i, there)
         store9(block, at.l, i, add(l, scale(NODE, dl)))
         store3(
@@ -311,6 +312,7 @@ def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
         P = drag_axes(block, i, Q0)
         _set_motion(block, i, P, last_motion(rate, h, moving, *changes, slope))
         store3(block, at.new_v, i, choose3(third, load3(block, at.new_v, i), v))
+        block[at.gone * LANES + i] = 1.0
         store3(block, at.u, i, load3(block, during.end_u, i))
         store9(block, at.l, i, load9(block, during.end_l, i))
         store3(block, at.DuDt, i, end_acceleration(block, i))

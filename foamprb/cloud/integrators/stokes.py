@@ -146,7 +146,10 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         turning = turning_gradient(stretches, m, e, viscosity_at(block, i, medium), l_s, l_f, sigma)
         Omega = quarter_argument(n, quarter, h, l_s, change, turning)
         store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(Omega), G)))
+        # Forces act at the end here, and at the start elsewhere.
+        block[at.gone * LANES + i] = 1.0
         store3(block, own.end_slip, i, _slip(block, i, medium, l_end, end_acceleration(block, i)))
+        block[at.gone * LANES + i] = 0.0
         # That of the body's place and time, as long as the flow is smooth.
         store9(block, at.l, i, add(l, scale(NODE, dl)))
         x, v, u = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, at.u, i)

@@ -10,6 +10,7 @@ from typing import Annotated, Any, ClassVar
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, plus
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.integrators.base import no_update
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
 from foamprb.dictionary.constraints import Bounds, Meaning
@@ -45,7 +46,7 @@ class Surrounding:
     """Declaration of its rows, if any, as :func:`foamprb.cloud.layout.offsets` reads it."""
     rows_name: ClassVar[str]
     """Global name of the offsets of its rows in its functions."""
-    update: ClassVar[Callable[..., None]]
+    update: ClassVar[Callable[..., None]] = staticmethod(no_update)
     """``update(flow, s, i, step, rest, medium, coefficients)``: update its rows of lane i before each step h.
 
     ``step`` is the number of the tracking step and ``rest`` the time to its end, s. It is called once more

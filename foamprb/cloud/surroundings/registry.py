@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from types import FunctionType
 from typing import Any
 
 from foamprb.cloud.block import Medium, Scratch
@@ -17,7 +18,7 @@ from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.compile.link import bound
 from foamprb.flow.base import Patch
 
-__all__ = ["SURROUNDINGS", "coefficients", "compose", "with_rows"]
+__all__ = ["SURROUNDINGS", "add_surrounding", "coefficients", "compose", "with_rows"]
 
 SURROUNDINGS: dict[str, type[Surrounding]] = {
     "faxenCorrection": FaxenCorrection,
@@ -27,6 +28,35 @@ SURROUNDINGS: dict[str, type[Surrounding]] = {
     "swimming": Swimming,
 }
 """By the names of their entries in ``particleForces``, in the order in which they act."""
+
+
+def add_surrounding(name: str, kind: type[Surrounding]) -> None:
+    """Add a model to :data:`SURROUNDINGS`, for selection by its name in ``particleForces``; it acts last.
+
+    Parameters
+    ----------
+    name
+        A word.
+    kind
+        A frozen dataclass of its entries, see :class:`Surrounding`.
+
+    Raises
+    ------
+    ValueError
+        If the name is taken, or the class is none of a model.
+    """
+    if name in SURROUNDINGS:
+        raise ValueError(f"the model {name} exists already")
+    if not (isinstance(kind, type) and issubclass(kind, Surrounding)):
+        raise ValueError(f"model {name}: {kind!r} is no subclass of Surrounding")
+    if "__dataclass_fields__" not in vars(kind):
+        raise ValueError(f"model {name}: {kind.__name__} has no @dataclass(frozen=True, kw_only=True)")
+    for function in ("update", "disturb"):
+        if not isinstance(getattr(kind, function, None), FunctionType):
+            raise ValueError(f"model {name}: {kind.__name__} has no {function} = staticmethod(…)")
+    if kind.rows is not None and getattr(kind, "rows_name", None) not in kind.disturb.__globals__:
+        raise ValueError(f"model {name}: the module has no offsets of its rows by the name rows_name")
+    SURROUNDINGS[name] = kind
 
 
 def with_rows(own: Layout, surroundings: Sequence[Surrounding]) -> Layout:

@@ -1,0 +1,24 @@
+"""Names for :doc:`user-defined models <own-models>`: rows of a block of particles, and bounds of entries."""
+
+from foamprb.cloud.block import at, load3, load9, store3, store9
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.dictionary.constraints import Bounds, NonNegative, Positive
+
+__all__ = [
+    "LANES",
+    "Bounds",
+    "NonNegative",
+    "Positive",
+    "Row",
+    "at",
+    "load3",
+    "load9",
+    "offsets",
+    "store3",
+    "store9",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return sorted(__all__)
