@@ -80,6 +80,13 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _complete() -> None:
+    """Answer the shell, which wants to complete a command line; does not return."""
+    import argcomplete
+
+    argcomplete.autocomplete(_parser())
+
+
 class _Handler(logging.StreamHandler[TextIO]):
     """Handler that writes plain lines, and warnings in OpenFOAM's manner."""
 
@@ -129,6 +136,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     It is 0; 1 for a mistake in the input or a run that had to end early; 141 if the reader of the output has
     closed it; and 128 plus the number of the signal that ended a run: 130 for Ctrl-C, 143 for SIGTERM.
     """
+    if "_ARGCOMPLETE" in os.environ:
+        _complete()
     given = sys.argv[1:] if arguments is None else arguments
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
     _log_to_stdout()

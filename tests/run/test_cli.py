@@ -122,3 +122,16 @@ def test_a_closed_or_full_output_is_no_traceback(shell, status):
 def test_names_that_are_no_text_are_one_message(capsys):
     assert main(["info", "-case", "caf\udce9"]) == 1
     assert "a name that is not UTF-8" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"), [("foamprb rep", {"report "}), ("foamprb run --dict x --over", {"--overwrite "})]
+)
+def test_the_shell_completes_commands_and_options(tmp_path, line, expected):
+    answer = tmp_path / "answer"
+    shell = {
+        "_ARGCOMPLETE": "1", "COMP_LINE": line, "COMP_POINT": str(len(line)), "_ARGCOMPLETE_IFS": "\n",
+        "_ARGCOMPLETE_STDOUT_FILENAME": str(answer),
+    }  # fmt: skip
+    subprocess.run([sys.executable, "-m", "foamprb"], env={**ENVIRONMENT, **shell}, check=True)
+    assert set(answer.read_text().split("\n")) == expected
