@@ -71,13 +71,14 @@ def _width(mesh: Mesh) -> float:
     return float(extents[areas > _FACING * areas.sum()].min())
 
 
-def _folds(mesh: Mesh, nodes: Floats, boxes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], Ints, Ints]:
+def _folds(mesh: Mesh, nodes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], Ints, Ints]:
     """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
     folds = np.zeros(mesh.n_cells, dtype=np.uint8)
     folded = np.empty((mesh.inverted, 6))
     n = link(grade)(nodes, mesh.tets, mesh.n_points, folds, folded)
     start, rim = np.zeros(mesh.n_cells + 1, dtype=np.int32), np.empty(0, dtype=np.int32)
     if n > 0:
+        boxes = cell_boxes(mesh)
         folds[np.diff(pairs_near(boxes, tree, folded[:n])[0]) > 0] = FOLDED
         corners = mesh.points[mesh.triangles]
         targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
@@ -160,6 +161,7 @@ class MeshFlow:
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
         self.width = _width(mesh)
+        tree = build_tree(cell_boxes(mesh))
         nodes, columns = np.empty((len(u), 16)), (mesh.nodes, u, l.reshape(-1, 9), free_nodes(mesh)[:, None])
         share(
             len(u),
@@ -167,9 +169,7 @@ class MeshFlow:
         )
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
-        boxes = cell_boxes(mesh)
-        tree = build_tree(boxes)
-        folds, rim_start, rim = _folds(mesh, nodes, boxes, tree)
+        folds, rim_start, rim = _folds(mesh, nodes, tree)
         across, partners = triangles_across(mesh)
         self._arrays = no_mesh()._replace(
             nodes=nodes,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -218,28 +218,31 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     if rotations:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
-    operators = Reconstruction(whole.mesh), Conservation(whole.mesh)
-    at_nodes = _at_nodes(case, (name,), 0, source, whole, operators, cells, boundary)
+    read, kinds = partial(case.field, name), kinds_of(source.sampled, case.fields, (name,))
+    reconstruct = Reconstruction(whole.mesh)
+    u, l, *more = _at_nodes(case, name, source, whole, reconstruct, cells, boundary)
+    sampled = read_sampled(read, source.sampled, kinds, whole, reconstruct) if source.sampled else None
+    # Its arrays take half as much memory as the flow.
+    del reconstruct
+    conserve = Conservation(whole.mesh)
+    correction = conserve(u, l, mass_of(case.root, case.region, whole, (name,), [read], 0))
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms([case.folder(name) / source.velocity])
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     notes += _caveats(case, name, turbulent=source.turbulent, relative=bool(rotations))
-    notes += [*flux, *operators[1].caveats()]
+    notes += [*flux, *conserve.caveats()]
+    del conserve
     notes += [
         f"The zone {zone.name} of {len(zone.cells)} cells rotates with {np.linalg.norm(zone.omega):g} rad/s: "
         "particles in it move relative to the rotor, with its walls at rest."
         for zone in rotating
     ]
-    u, l = at_nodes[:2]
-    zones, turbulence = partial(case.zones, name), at_nodes[2] if source.turbulent else None
-    viscosity = at_nodes[-2] if source.viscosity else None
-    given = whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1], viscosity
+    zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
+    viscosity = more[-1] if source.viscosity else None
+    given = whole.mesh, u, l, notes, zones, name, turbulence, correction, viscosity
     flow = RotatingFlow(rotating, *given) if rotating else MeshFlow(*given)
-    if source.sampled:
-        kinds = kinds_of(source.sampled, case.fields, (name,))
-        read = partial(case.field, name)
-        sampled = read_sampled(read, source.sampled, kinds, whole, operators[0])
+    if sampled is not None:
         flow.field_table, flow.field_columns = sampled
     return flow
 
@@ -255,16 +258,19 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     whole = case.mesh(names[0])
     first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
     flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)
-    operators = Reconstruction(whole.mesh), Conservation(whole.mesh)
+    reconstruct, conserve = Reconstruction(whole.mesh), Conservation(whole.mesh)
+    reads = [partial(case.field, name) for name in names]
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
-        return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators[0])
+        return read_sampled(partial(case.field, name), source.sampled, kinds, whole, reconstruct)
 
     def read(name: str) -> tuple[Any, ...]:
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
-        *found, correction = _at_nodes(case, names, names.index(name), source, whole, operators, *values)
-        operators[1].warn(name)
-        return (*found, *([sampled(name)[0]] if kinds else []), correction)
+        u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
+        mass = mass_of(case.root, case.region, whole, names, reads, names.index(name))
+        correction = conserve(u, l, mass)
+        conserve.warn(name)
+        return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
 
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms(case.folder(name) / source.velocity for name in names)[:1]
@@ -279,28 +285,23 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
 def _at_nodes(
     case: Case,
-    times: Sequence[str],
-    index: int,
+    time: str,
     source: FlowSource,
     whole: CaseMesh,
-    operators: tuple[Reconstruction, Conservation],
+    reconstruct: Reconstruction,
     cells: Floats,
     boundary: Floats,
-) -> tuple[Any, ...]:
-    """Return u, l at the nodes, turbulence and viscosity as the source requests, and the correction of u."""
-    reconstruct, conserve = operators
-    reads, time, given = [partial(case.field, name) for name in times], times[index], None
-    read = reads[index]
+) -> list[Any]:
+    """Return u and l at the nodes, and turbulence and viscosity as the source requests."""
+    read, given = partial(case.field, time), None
     if source.gradient:
         given = gradients(read(source.gradient, GRADIENT_FIELD), whole.mesh)
-    u, l = reconstruct(cells, boundary, given)
-    correction = conserve(u, l, mass_of(case.root, case.region, whole, times, reads, index))
-    more: list[Floats] = []
+    found: list[Any] = [*reconstruct(cells, boundary, given)]
     if source.turbulent:
-        more.append(read_turbulence(read, case.folder(time), whole, reconstruct))
+        found.append(read_turbulence(read, case.folder(time), whole, reconstruct))
     if source.viscosity:
-        more.append(read_viscosity_field(read, source.viscosity, whole, reconstruct))
-    return u, l, *more, correction
+        found.append(read_viscosity_field(read, source.viscosity, whole, reconstruct))
+    return found
 
 
 def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:
