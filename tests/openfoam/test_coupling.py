@@ -92,7 +92,7 @@ KINDS = {"U": "volVectorField", "p": "volScalarField", "sigma": "volSymmTensorFi
 def case(tmp_path_factory):
     """A plane channel with a parabolic inflow, and stiff spheres at the centres of its cells."""
     case = tmp_path_factory.mktemp("coupling")
-    function, model, relaxation, stress = page("foam")
+    function, model, relaxation, stress = page("text")
     y = ((np.arange(NY) + 0.5) / NY - 0.5).tolist()
     centres = [((i + 0.5) * LENGTH / NX, s, 0.05) for s in y for i in range(NX)]
     inflow = [(1.5 * SPEED * (1.0 - 4.0 * s * s), 0.0, 0.0) for s in y]
