@@ -7,7 +7,7 @@ import logging
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from foamprb.errors import InputError, RunStopped
+from foamprb.errors import InputError, RunInterrupted, RunStopped
 
 if TYPE_CHECKING:
     from foamprb.flow.base import Flow
@@ -57,6 +57,8 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
             job = execute_run(
                 study, number, flows, start_from, arguments.threads, outside_libs=arguments.outsideLibs
             )
+        except RunInterrupted as stopped:
+            raise RunInterrupted(f"{what}: stopped. The same command continues.", stopped.signal) from stopped
         except (InputError, RunStopped) as error:
             failed += 1
             log.warning("%s: %s", what, error)

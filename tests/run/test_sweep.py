@@ -9,8 +9,8 @@ import pytest
 
 import foamprb
 from foamprb.cli import main
-from foamprb.errors import InputError
-from foamprb.run import job
+from foamprb.errors import InputError, RunInterrupted
+from foamprb.run import job, sweep
 from foamprb.run.sweep import read_study
 
 STIFFNESS = "constantProperties/solid/Ca"
@@ -145,6 +145,20 @@ def test_a_run_that_cannot_start_does_not_stop_the_others(case, tmp_path, capsys
     assert "Run 1 of 2: deltaT -1: " in out
     assert "Run 2 of 2: deltaT 2e-05: " in out
     assert not (case / "postProcessing").exists()
+
+
+def test_a_signal_ends_the_study_and_the_same_command_continues(case, tmp_path, monkeypatch, capsys):
+    path = study(tmp_path, f'case = "pipe"\n[entries]\n"{STIFFNESS}" = [0.1, 0.5]\n')
+
+    def interrupted(job, start_from):
+        raise RunInterrupted("stopped at t = 1 s.", 15)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(sweep, "execute_until_signal", interrupted)
+        assert main(["sweep", str(path)]) == 128 + 15
+    captured = capsys.readouterr()
+    assert "Run 1 of 2: Ca 0.1: stopped. The same command continues." in captured.err
+    assert "Run 2" not in captured.out + captured.err
 
 
 def test_folders_without_results_are_named(tmp_path):
