@@ -93,6 +93,10 @@ def read_sampled(
         field = read(name, kind)
         cells, boundary = (_tensors(values, kind) for values in given_values(field, whole))
         at_nodes = reconstruct.linear(cells, boundary).reshape(-1, cells[0].size)
+        if cells.ndim == 1:
+            # Beside a front the extrapolation to a wall would go below zero, or above a fraction of one.
+            given = np.concatenate([cells, boundary])
+            at_nodes = at_nodes.clip(given.min(), given.max())
         table = at_nodes[:, _SIX] if kind.inner == "symmTensor" else at_nodes
         tables.append(table)
         columns.append(FieldColumns(name, table.shape[1], unit_text(field.dimensions)))
