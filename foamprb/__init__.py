@@ -57,6 +57,7 @@ Particles in a flow:
     GradientDispersion  eddies that go from where they are strong to where they are weak
     Stick               a patch that holds the particles that touch it
     Rebound             one from which they bounce off
+    Adhere              one to which they stick by bonds that form and break
     Escape              one through which they leave
     patch_interactions  the interaction of each patch of a flow
     context             prepare particles for measuring

@@ -30,6 +30,7 @@ from .cloud.forces import (
 from .cloud.limits import Limits as Limits
 from .cloud.measures import context as context
 from .cloud.measures import measure as measure
+from .cloud.patches import Adhere as Adhere
 from .cloud.patches import Escape as Escape
 from .cloud.patches import Rebound as Rebound
 from .cloud.patches import Stick as Stick

@@ -475,8 +475,8 @@ def elongated_stage(block: Any) -> None:
 def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy particle k of the cloud into lane i."""
     s.status[i], s.host[i], s.number[i] = p.status[k], p.host[k], p.number[k]
-    # No loaded particle has ended.
-    s.reason[i], s.patch[i] = 0, -1
+    # A loaded particle may be stuck, but has not ended.
+    s.reason[i], s.patch[i] = 0, p.patch[k]
     load_rows(p, k, s.block, i)
     s.block[at.inertia * LANES + i] = 5.0 / (p.rho[k] * p.R[k] * p.R[k])
     s.block[at.tension * LANES + i] = p.gamma[k] / p.R[k]
@@ -497,7 +497,7 @@ def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy the state in lane i back to particle k of the cloud."""
     p.host[k] = s.host[i]
     # Written only when changed, to save memory traffic.
-    if p.status[k] != s.status[i]:
+    if p.status[k] != s.status[i] or p.patch[k] != s.patch[i]:
         p.status[k], p.reason[k], p.patch[k] = s.status[i], s.reason[i], s.patch[i]
     save_rows(p, k, s.block, i)
 

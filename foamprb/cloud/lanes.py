@@ -40,6 +40,12 @@ updates_end = 0
 """Bound to 1 by an integrator with an ``end_slope``."""
 
 
+def hold(
+    _flow: Any, _patches: PatchTable, _s: Scratch, _i: int, _last: int, _dt: float, _start: float
+) -> None:
+    """No-op: particles that stick stay."""
+
+
 def empty_lanes(s: Scratch) -> None:
     """Start with no particle in any lane, after :func:`foamprb.cloud.block.idle_lanes`."""
     for i in range(LANES):
@@ -132,8 +138,10 @@ def fill_lanes(
     """
     while not interrupted(s):
         for i in range(LANES):
-            if s.member[i] >= 0 and not must_move(s, i, last):
-                finish(p, s, i, len(members))
+            if s.member[i] >= 0:
+                hold(flow, patches, s, i, last, dt, start)
+                if not must_move(s, i, last):
+                    finish(p, s, i, len(members))
         prefetch_next(p, members, s)
         found, new = 0, 0
         for i in range(LANES):

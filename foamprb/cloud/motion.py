@@ -2,8 +2,8 @@
 
 The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross``, ``recover`` and ``cell_volume`` are bound to
 those of the flow that was chosen when the loop is compiled, and ``walk_on`` where it has its own;
-``turn_along``, ``bounce_along`` and ``reflects_steps`` are bound to a model of the surroundings, ``bouncing``
-and ``rewind`` to the integrator.
+``turn_along``, ``bounce_along``, ``form_bond`` and ``reflects_steps`` are bound to models of the
+surroundings, ``bouncing`` and ``rewind`` to the integrator.
 """
 
 from __future__ import annotations
@@ -81,12 +81,18 @@ _HALVINGS = 40
 _NO_NORMAL = (0.0, 0.0, 0.0)
 
 
+BOND_FORMS, BOND_LOOSENS, BOND_FORCE, BOND_LIMIT, BOND_SEED = range(5)
+"""Columns of :attr:`PatchTable.bonds`."""
+
+
 class PatchTable(NamedTuple):
-    """Interaction of each patch: its code, and the entries of ``rebound``."""
+    """Interaction of each patch: its code, and the entries of ``rebound`` and ``adhere``."""
 
     code: NDArray[np.int8]
     e: NDArray[np.float64]
     mu: NDArray[np.float64]
+    bonds: NDArray[np.float64]
+    """k_on, −1 without bonds; k_off, 1/s; μ_f x_b/(k_B T); the critical shear rate, 1/s; the seed."""
 
 
 def fail(s: Scratch, i: int, reason: int) -> None:
@@ -132,6 +138,12 @@ def turn_along(_block: Any, _i: int, _turn: Tensor) -> None:
 
 def bounce_along(_block: Any, _i: int, _n: Vector) -> None:
     """No-op: no further quantity of lane i is reflected by a wall of normal n."""
+
+
+def form_bond(
+    _flow: Any, _patches: PatchTable, _s: Scratch, _i: int, _patch: int, _t: float, _h: float
+) -> None:
+    """No-op: bodies in contact with a wall form no bonds."""
 
 
 def rewind(_block: Any, _i: int, _f: float) -> None:
@@ -457,15 +469,25 @@ def touch(
     block = s.block
     before = block[at.clearance * LANES + i]
     if met[0] >= 0:
-        return meet_wall(flow, patches, s, i, way, turned, met, before, -math.inf, t, h)
+        f = meet_wall(flow, patches, s, i, way, turned, met, before, -math.inf, t, h)
+        if f == 1.0:
+            form_bond(flow, patches, s, i, met[0], t + h, h)
+        return f
     after, patch, triangle = clearance_of(flow, s, i)
     block[at.clearance * LANES + i] = after
+    rests = _TOUCH * block[at.R * LANES + i]
     if after > 0.0:
+        if after <= rests and before <= rests:
+            form_bond(flow, patches, s, i, patch, t + h, h)
         return 1.0
     if patches.code[patch] != STICK:
         if s.status[i] == STUCK:
             return 1.0
-        return meet_wall(flow, patches, s, i, way, turned, (patch, triangle), before, after, t, h)
+        f = meet_wall(flow, patches, s, i, way, turned, (patch, triangle), before, after, t, h)
+        if f == 1.0:
+            share = 1.0 if before <= rests else after / (after - before) if before < math.inf else 0.0
+            form_bond(flow, patches, s, i, patch, t + h, share * h)
+        return f
     x = load3(block, at.x, i)
     f = 0.0
     if before > 0.0:

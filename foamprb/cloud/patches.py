@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Protocol
+from typing import Annotated, Any, ClassVar, Protocol
 
+from foamprb.body.bonds import sensitivity
 from foamprb.body.tensor import Scalar, Vector, inner, select
-from foamprb.dictionary.constraints import Fraction, Meaning, NonNegative
+from foamprb.dictionary.constraints import Fraction, Meaning, NonNegative, Positive, Seed
 from foamprb.dictionary.schema import Schema
+from foamprb.errors import InputError
 
 STICK, ESCAPE, REBOUND, MIRROR, CYCLIC = 0, 1, 2, 3, 4
 
@@ -41,6 +44,47 @@ class Rebound:
     code: ClassVar[int] = REBOUND
 
 
+@dataclass(frozen=True, kw_only=True)
+class Adhere:
+    """Adhesion by bonds: the particle slides along the patch until it sticks, and may come off again."""
+
+    kOn: Annotated[float, NonNegative, Meaning("rate at which a bond forms in contact", "1/s")]
+    kOff: Annotated[float, NonNegative, Meaning("rate at which it breaks without a force", "1/s")]
+    xb: Annotated[float, NonNegative, Meaning("reactive length, the rate is kOff exp(F xb/kT)", "m")] = 0.0
+    T: Annotated[float | None, Positive, Meaning("temperature", "K", "with `xb` required")] = None
+    criticalShearRate: Annotated[
+        float | None,
+        Positive,
+        Meaning("of the fluid, above which nothing sticks", "1/s", "none"),
+    ] = None
+    mu: Annotated[float, NonNegative, Meaning("friction, along the patch", "1")] = 0.0
+    seed: Seed = 1
+    code: ClassVar[int] = REBOUND
+
+    def __post_init__(self) -> None:
+        if self.xb > 0.0 and self.T is None:
+            raise InputError("has the reactive length xb, which needs the temperature T")
+
+    @property
+    def breaks(self) -> bool:
+        """Whether bonds may break."""
+        return self.kOff > 0.0 or self.criticalShearRate is not None
+
+    def bond(self, mu_f: Any) -> tuple[float, ...]:
+        """Return its row of :attr:`foamprb.cloud.motion.PatchTable.bonds`; mu_f is the viscosity, Pa s."""
+        per_force = 0.0
+        if self.T is not None and self.xb > 0.0:
+            if not isinstance(mu_f, float | int):
+                raise InputError("adhere has xb, which needs a constant viscosity of the fluid: give mu")
+            per_force = mu_f * sensitivity(self.xb, self.T)
+        limit = math.inf if self.criticalShearRate is None else self.criticalShearRate
+        return self.kOn, self.kOff, per_force, limit, float(self.seed)
+
+
+NO_BOND = (-1.0, 0.0, 0.0, math.inf, 0.0)
+"""The same of a patch without bonds."""
+
+
 @dataclass(frozen=True)
 class Mirror:
     """Reflection: the particle's mirror image enters, velocity and shape, when its centre meets the plane."""
@@ -59,6 +103,7 @@ INTERACTIONS: dict[str, type[Interaction]] = {
     "stick": Stick,
     "escape": Escape,
     "rebound": Rebound,
+    "adhere": Adhere,
 }
 """Interactions that users select; the others follow from the type of the patch."""
 

@@ -138,6 +138,12 @@ class Particles(NamedTuple):
         Array, Variable((), "f8", "s", "remaining life of this eddy, or its age", optional=True)
     ]
     injector: Annotated[Array, Variable((), "i4", "", "injection model that released it", fixed=True)]
+    hazard: Annotated[
+        Array,
+        Variable((), "f8", "1", "integral of the rate of bonds since the last change", optional=True),
+    ]
+    held: Annotated[Array, Variable((), "f8", "s", "time to which a bond has held", optional=True)]
+    bonds: Annotated[Array, Variable((), "i4", "", "bonds formed and broken so far", optional=True)]
     dose: Annotated[
         Array,
         Variable((), "f8", "Pa s", "dose of the fluid's shear stress, if there are fates", optional=True),

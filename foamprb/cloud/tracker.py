@@ -23,6 +23,7 @@ from foamprb.body.rosenbrock import (
 )
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
+from foamprb.cloud.adhesion import Adhesion
 from foamprb.cloud.block import Medium, Scratch, new_scratch
 from foamprb.cloud.contact import CROWDED, in_order
 from foamprb.cloud.drops import DROP_BINDINGS
@@ -33,7 +34,7 @@ from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, beyond, clearance_of, reach_end
-from foamprb.cloud.patches import MIRROR, Interaction, Rebound
+from foamprb.cloud.patches import MIRROR, NO_BOND, Adhere, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
@@ -163,8 +164,11 @@ class Tracker:
             bindings |= DROP_BINDINGS
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.mu = medium.mu
+        adheres = any(isinstance(interaction, Adhere) for interaction in interactions)
+        if adheres and integrator.name == "paper":
+            raise InputError("adhere needs the integrator stokes or rosenbrock, not paper")
         # The others may read the viscosity.
-        around = (*model_of(medium.mu), *models.surroundings)
+        around = (*model_of(medium.mu), *models.surroundings, *((Adhesion(),) if adheres else ()))
         self.layout = layout = surroundings.with_rows(integrator.layout, around)
         bindings["prefetch_rows"] = layout.prefetch
         required: dict[str, Any] = {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
@@ -183,7 +187,10 @@ class Tracker:
             *RARE,
             *LONG,
         )
-        self.table = _patch_table(interactions)
+        self.table = _patch_table(interactions, medium.mu)
+        breaks = any(isinstance(interaction, Adhere) and interaction.breaks for interaction in interactions)
+        self.movable = (Status.PENDING, Status.ACTIVE, *((Status.STUCK,) if breaks else ()))
+        """Statuses of particles that may move again."""
         self.medium = medium._replace(
             # No kernel reads it where it varies.
             mu=np.nan if model_of(medium.mu) else medium.mu,
@@ -294,7 +301,7 @@ class Tracker:
         reached[active] = np.maximum(step, np.rint((p.t[active] - self.start) / self.dt).astype(np.int64))
         outcome = Outcome()
         for end in sorted({*np.unique(reached[(reached > step) & (reached < last)]).tolist(), last}):
-            rows = np.flatnonzero((p.status <= Status.ACTIVE) & (reached <= step))
+            rows = np.flatnonzero(np.isin(p.status, self.movable) & (reached <= step))
             part = self._carry(flow, p, rows, (step, end - step), threads, bounds, stop)
             outcome += part
             if not part.finished:
@@ -475,10 +482,15 @@ def _check_names(model: Surrounding) -> None:
         raise NameError(f"{type(model).__name__} binds {name}, a name that no loop reads{question}")
 
 
-def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:
-    rebounds = [i if isinstance(i, Rebound) else Rebound() for i in interactions]
+def _patch_table(interactions: Sequence[Interaction], mu_f: Any) -> PatchTable:
+    rebounds = [
+        i if isinstance(i, Rebound) else Rebound(0.0, i.mu) if isinstance(i, Adhere) else Rebound()
+        for i in interactions
+    ]
+    bonds = [i.bond(mu_f) if isinstance(i, Adhere) else NO_BOND for i in interactions]
     return PatchTable(
         code=np.array([i.code for i in interactions], dtype=np.int8),
         e=np.array([r.e for r in rebounds], dtype=float),
         mu=np.array([r.mu for r in rebounds], dtype=float),
+        bonds=np.array(bonds, dtype=float).reshape(-1, len(NO_BOND)),
     )

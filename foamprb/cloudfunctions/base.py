@@ -68,6 +68,10 @@ class ObservedCloud:
         """Time of the cloud, s."""
         return self.cloud.time
 
+    def has_ended(self, rows: Rows | slice) -> NDArray[np.bool_]:
+        """Return whether particles have ended: those that may move again have not."""
+        return np.isin(self.particles.status[rows], self.cloud.tracker.movable, invert=True)
+
     def passages(self, rows: NDArray[np.float64]) -> Iterator[tuple[Rebounds, Rebounds]]:
         """Yield the passages of coupled patches among records, see :func:`foamprb.cloud.contact.passages`."""
         return passages(rows, [k for k, i in enumerate(self.cloud.interactions) if i.code == CYCLIC])
@@ -186,7 +190,7 @@ class SampledFunction(CloudFunction):
         rows = np.flatnonzero(~memory["closed"] & (p.status != Status.PENDING))
         now = {**self.observe(cloud, rows), "t": p.t[rows]}
         self.add(memory, cloud, rows, now)
-        store(memory, rows, {**now, "closed": p.status[rows] > Status.ACTIVE})
+        store(memory, rows, {**now, "closed": cloud.has_ended(rows)})
 
 
 def store(memory: Memory, rows: Rows, values: Memory) -> None:

@@ -94,7 +94,7 @@ class ParticleTracks(CloudFunction):
             values = np.concatenate([f.values for f in fields.values()], axis=1)
             memory["points"][first, 0, len(_POINT) :] = values
         self._append(memory, tracks, self._points(cloud, memory["row"][tracks]))
-        memory["closed"] |= status > Status.ACTIVE
+        memory["closed"] |= cloud.has_ended(memory["row"])
 
     def _points(self, cloud: ObservedCloud, rows: Rows) -> NDArray[np.float64]:
         p = cloud.particles

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import NewType, TypeAlias
+from typing import Annotated, NewType, TypeAlias
 
 
 @dataclass(frozen=True)
@@ -109,3 +109,8 @@ Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
 Angle = Bounds(0.0, 180.0, False, False, "an angle from 0 to 180 degrees")
 PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")
 Positive3 = Each(Positive)
+Seed = Annotated[
+    int,
+    Bounds(0.0, 2.0**32 - 1.0, False, False, "an integer >= 0 and < 4294967296"),
+    Meaning("runs with the same seed have the same random numbers"),
+]

@@ -140,7 +140,10 @@ class Worker:
             self.particles = whole.take(self.ids)
         else:
             self.particles, self.ids = unpack(self._receive(0))
-        self._fresh = _unfinished(self.particles)
+        self._fresh = self._unfinished(self.particles)
+
+    def _unfinished(self, p: Particles) -> NDArray[np.bool_]:
+        return np.isin(p.status, self._tracker.movable)
 
     def share(self) -> ShareState:
         """Return the state of the particles."""
@@ -191,7 +194,7 @@ class Worker:
                 records = self._receive(rank) if rank else changed
                 for name, array in self._whole._asdict().items():
                     array[records["id"]] = records[name]
-        self._fresh = _unfinished(self.particles)
+        self._fresh = self._unfinished(self.particles)
 
     def write(
         self, folder: Path, time: float, names: Mapping[str, Sequence[str]], further: Sequence[str] = ()
@@ -262,10 +265,6 @@ class Worker:
 def piece_file(folder: Path, rank: int) -> Path:
     """Return the file of a process' piece of a cloud."""
     return folder / f"{rank}.vtp"
-
-
-def _unfinished(p: Particles) -> NDArray[np.bool_]:
-    return np.asarray((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
 
 
 def _starts(counts: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -129,9 +129,9 @@ def _failing(job: Job) -> str:
 
 
 def _moving(stepper: Stepper) -> int:
-    """Return the number of active and pending particles."""
+    """Return the number of particles that are pending, active, or stuck for a time."""
     counts = stepper.counts()
-    return counts[Status.PENDING] + counts[Status.ACTIVE]
+    return sum(counts[status] for status in stepper.cloud.tracker.movable)
 
 
 def _advance_to_write(

@@ -324,7 +324,10 @@ class Results:
     def _is_finished(self, checkpoint: Checkpoint) -> bool:
         """Return whether the run has ended at a checkpoint, and has written its tables."""
         status = checkpoint.arrays["particles/status"]
-        ended = checkpoint.header["step"] >= self._job.steps or bool((status > Status.ACTIVE).all())
+        ended = (
+            checkpoint.header["step"] >= self._job.steps
+            or not np.isin(status, self._job.cloud.tracker.movable).any()
+        )
         return ended and self._fates.exists()
 
     def _resume(self, checkpoint: Checkpoint) -> None:

@@ -184,7 +184,7 @@ class TestBookkeeping:
             clouds.append(Cloud(p, analytic.shear(500.0), AIR, (), 2e-5, PAPER))
         compiled, plain = clouds
         compiled.advance(5)
-        table = PatchTable(np.empty(0, dtype=np.int8), np.empty(0), np.empty(0))
+        table = PatchTable(np.empty(0, dtype=np.int8), np.empty(0), np.empty(0), np.empty((0, 5)))
         with np.errstate(all="ignore"):
             flow, air = plain.flow.arrays(0.0, ()), plain.tracker.medium
             track_block(

@@ -78,8 +78,9 @@ def test_what_changes_in_the_loop_is_saved_and_nothing_else(end_of_run):
     scratch.block[:] = 0.0
     load_particle(p, 1, scratch, 5)
     scratch.block[:] += 1.0
-    for numbers in (scratch.host, scratch.reason, scratch.patch):
-        numbers[:] += 7
+    scratch.host[:] += 7
+    for numbers in (scratch.reason, scratch.patch):
+        numbers[:] += 7 * end_of_run
     scratch.status[5] += end_of_run
     scratch.block[at.mirrored * LANES + 5] = float(end_of_run)
     before = Particles(*(array.copy() for array in p))
@@ -161,3 +162,13 @@ def test_offsets_are_constants_in_compiled_code(monkeypatch, tmp_path):
 
 def test_idle_lanes_hold_a_sphere_that_is_not_deformed():
     np.testing.assert_array_equal(np.reshape(IDENTITY, (3, 3)), np.eye(3))
+
+
+def test_a_stuck_particle_that_has_come_off_and_stuck_elsewhere_is_saved_there():
+    p, scratch = particles(), new_scratch(ROWS)
+    load_particle(p, 1, scratch, 5)
+    assert scratch.patch[5] == p.patch[1]
+    scratch.patch[5] += 2
+    expected = scratch.patch[5]
+    save_particle(p, 1, scratch, 5)
+    assert p.patch[1] == expected

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from validation import (
+    adhesion,
     blood,
     brownian,
     capsules,
@@ -52,6 +53,7 @@ CASES: dict[str, Case] = {
     "drops": Case("beyond the paper; drops", drops.steady),
     "capsules": Case("beyond the paper; capsules", capsules.steady),
     "haemolysis": Case("beyond the paper; red blood cells", blood.cells),
+    "adhesion": Case("beyond the paper; bonds with walls", adhesion.shares),
     "fates": Case("beyond the paper; rupture and release", fates.limits),
     "forces": Case("beyond the paper; forces on the barycentre", forces.forces),
     "faxen": Case("beyond the paper; curved flows", faxen.lag),

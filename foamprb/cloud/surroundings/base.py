@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, plus
@@ -13,7 +13,7 @@ from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3
 from foamprb.cloud.integrators.base import no_update
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
-from foamprb.dictionary.constraints import Bounds, Meaning
+from foamprb.dictionary.constraints import Seed
 from foamprb.flow.base import Flow, Patch
 
 __all__ = [
@@ -25,12 +25,6 @@ __all__ = [
     "resistances",
     "thermal_force",
     "volume_at_rest",
-]
-
-Seed = Annotated[
-    int,
-    Bounds(0.0, 2.0**32 - 1.0, False, False, "an integer >= 0 and < 4294967296"),
-    Meaning("runs with the same seed have the same random numbers"),
 ]
 
 

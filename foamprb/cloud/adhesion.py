@@ -1,0 +1,140 @@
+"""Adhesion to walls by bonds: the functions of a lane that a patch with ``adhere`` calls.
+
+The formulas are those of :mod:`foamprb.body.bonds`. A body that touches the wall slides along it until a bond
+forms, and is stuck while it lasts. The names ``sample`` and ``gap`` are bound to the flow.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from foamprb.body.bonds import exponential_deviate, force_on_held_sphere, off_rate
+from foamprb.body.viscosity import shear_rate
+from foamprb.cloud.block import Scratch, at, load3, store3
+from foamprb.cloud.integrators.base import no_disturbance, no_update
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.motion import (
+    ACTIVE,
+    BOND_FORCE,
+    BOND_FORMS,
+    BOND_LIMIT,
+    BOND_LOOSENS,
+    BOND_SEED,
+    SHORTEST_STEP,
+    STUCK,
+    PatchTable,
+    clearance_of,
+    settle,
+)
+from foamprb.cloud.patches import STICK
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.flow.analytic import sample_linear as sample
+
+__all__ = ["Adhesion"]
+
+_KIND = np.uint64(5)
+"""Second word of the key of these random numbers; the seed is the first."""
+
+
+class BondRows(NamedTuple):
+    """Bond of a particle."""
+
+    adherent: Annotated[int, Row(1, "", "number in the cloud", of="number")]
+    hazard: Annotated[int, Row(1, "1", "integral of the rate since the last change", of="hazard", saved=True)]
+    held: Annotated[int, Row(1, "s", "time to which it is integrated while stuck", of="held", saved=True)]
+    changes: Annotated[int, Row(1, "", "bonds formed and broken so far", of="bonds", saved=True)]
+
+
+bonds = offsets(BondRows)
+
+
+def missing(patches: PatchTable, s: Scratch, i: int, patch: int) -> float:
+    """Return what the integral of the rate lacks for the next change of lane i."""
+    number = np.uint64(s.block[bonds.adherent * LANES + i])
+    change = np.uint64(s.block[bonds.changes * LANES + i])
+    key = (np.uint64(patches.bonds[patch, BOND_SEED]), _KIND)
+    return float(exponential_deviate(number, change, key) - s.block[bonds.hazard * LANES + i])
+
+
+def rate_of_shear(flow: Any, s: Scratch, i: int, t: float) -> float:
+    """Return the shear rate of the fluid at lane i at a time, 1/s."""
+    _, l_f, _ = sample(flow, s.host[i], load3(s.block, at.x, i), t)
+    return float(shear_rate(l_f))
+
+
+def change_bond(s: Scratch, i: int) -> None:
+    """Begin with the next random number of lane i."""
+    s.block[bonds.hazard * LANES + i] = 0.0
+    s.block[bonds.changes * LANES + i] += 1.0
+
+
+def form_bond(flow: Any, patches: PatchTable, s: Scratch, i: int, patch: int, t: float, h: float) -> None:
+    """Let lane i stick to a patch that it has touched for a time h, until t, if a bond forms."""
+    rate = patches.bonds[patch, BOND_FORMS]
+    if not (rate > 0.0 and h > 0.0 and s.status[i] == ACTIVE):
+        return
+    if rate_of_shear(flow, s, i, t) > patches.bonds[patch, BOND_LIMIT]:
+        return
+    if rate * h < missing(patches, s, i, patch):
+        s.block[bonds.hazard * LANES + i] += rate * h
+    else:
+        settle(s, i, patch, STICK)
+        change_bond(s, i)
+        s.block[bonds.held * LANES + i] = t
+
+
+def hold(flow: Any, patches: PatchTable, s: Scratch, i: int, last: int, dt: float, start: float) -> None:
+    """Hold lane i, if it is stuck by a bond, up to the tracking step ``last``, or until the bond breaks."""
+    block = s.block
+    if s.status[i] != STUCK:
+        return
+    own = patches.bonds[s.patch[i]]
+    if own[BOND_LOOSENS] == 0.0 and own[BOND_LIMIT] == math.inf:
+        return
+    while s.step[i] < last:
+        end = start + (s.step[i] + 1) * dt
+        begin = max(block[at.t * LANES + i], block[bonds.held * LANES + i])
+        if end - begin > SHORTEST_STEP * dt:
+            gamma = rate_of_shear(flow, s, i, 0.5 * (begin + end))
+            force = force_on_held_sphere(block[at.R * LANES + i], gamma, 1.0)
+            rate = off_rate(own[BOND_LOOSENS], force, own[BOND_FORCE])
+            rest = missing(patches, s, i, s.patch[i])
+            if gamma > own[BOND_LIMIT]:
+                rest = 0.0
+            if rate * (end - begin) >= rest:
+                let_go(flow, s, i, begin + rest / rate if rest > 0.0 else begin, dt)
+                return
+            block[bonds.hazard * LANES + i] += rate * (end - begin)
+            block[bonds.held * LANES + i] = end
+        s.step[i] += 1
+
+
+def let_go(flow: Any, s: Scratch, i: int, t: float, dt: float) -> None:
+    """Let the stuck particle in lane i move again from a time on, at rest at first."""
+    block = s.block
+    change_bond(s, i)
+    s.status[i], s.patch[i] = ACTIVE, -1
+    block[at.t * LANES + i], block[at.h * LANES + i] = t, dt
+    block[at.taken * LANES + i], block[at.renewed * LANES + i] = 0.0, 1.0
+    store3(block, at.v, i, (0.0, 0.0, 0.0))
+    block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Adhesion(Surrounding):
+    """Bonds of bodies with the walls on which they adhere; a cloud adds it if a patch has ``adhere``."""
+
+    rows: ClassVar = BondRows
+    rows_name: ClassVar = "bonds"
+    update: ClassVar = staticmethod(no_update)
+    disturb: ClassVar = staticmethod(no_disturbance)
+    each_step: ClassVar = False
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+        """Return what happens to bodies that touch a wall, and to those that stick."""
+        return {"form_bond": form_bond, "hold": hold}

@@ -1,0 +1,119 @@
+"""Bodies that stick to a wall by bonds and come off again: shares, places and files."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud, Stepper
+from foamprb.cloud.patches import Adhere
+from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.tracker import Models
+from foamprb.cloud.viscosity import BirdCarreau
+from foamprb.errors import InputError
+from foamprb.flow import analytic
+
+R, MU, DT, N = 2e-6, 1e-3, 1e-2, 1000
+WATER = Medium(MU, 1000.0, (0.0, 0.0, -9.81))
+STUCK, ACTIVE = Status.STUCK, Status.ACTIVE
+
+
+def cloud_of(rate=0.0, n=N, threads=1, height=R * (1.0 + 1e-7), integrator="stokes", medium=WATER, **entries):
+    """Bodies that lie on a wall in shear, or fall onto it."""
+    p = spheres(np.tile([0.0, 0.0, height], (n, 1)), d=2 * R, rho=1200.0, mu=100.0)
+    flow, models = analytic.shear_over_wall(rate), Models(integrator=integrator)
+    patch = Adhere(**({"kOn": 2.0, "kOff": 0.0} | entries))
+    return Cloud(p, flow, medium, [patch], DT, models, threads=threads)
+
+
+def share_stuck(cloud):
+    return np.mean(cloud.particles.status == STUCK)
+
+
+def assert_share(cloud, expected):
+    """To four standard errors."""
+    assert share_stuck(cloud) == pytest.approx(expected, abs=4.0 * np.sqrt(expected * (1.0 - expected) / N))
+
+
+def test_bodies_stick_with_the_contact_time():
+    """1 − exp(−k_on t), for any number of steps and calls; stuck ones stay where they are."""
+    cloud = cloud_of(rate=10.0)
+    cloud.advance(50)
+    assert_share(cloud, 1.0 - np.exp(-2.0 * 0.5))
+    p = cloud.particles
+    stuck = p.status == STUCK
+    x = p.x[stuck].copy()
+    cloud.advance(20)
+    assert np.array_equal(p.x[stuck], x)
+    np.testing.assert_allclose(p.x[stuck, 0], 10.0 * R * p.t[stuck], rtol=0.02)
+    assert sum(p.counts().values()) == N
+    assert cloud.tracker.movable == (Status.PENDING, ACTIVE)
+
+
+@pytest.mark.parametrize(("rate", "factor"), [(0.0, 1.0), (100.0, 3.451)])
+def test_bonds_break_by_bell(rate, factor):
+    """k_on/(k_on + k) (1 − exp(−(k_on + k) t)), k = k_off exp(F x_b/kT)."""
+    cloud = cloud_of(rate, kOff=1.0, xb=4e-10, T=300.0)
+    k = np.exp(1.7005 * 6.0 * np.pi * MU * R**2 * rate * 4e-10 / (1.380649e-23 * 300.0))
+    assert k == pytest.approx(factor, rel=1e-3)
+    for steps in (20, 60):
+        cloud.advance(steps)
+        assert_share(cloud, 2.0 / (2.0 + k) * (1.0 - np.exp(-(2.0 + k) * cloud.time)))
+    p = cloud.particles
+    assert p.bonds.max() > 2
+    assert (p.patch[p.status == ACTIVE] == -1).all()
+    assert (p.patch[p.status == STUCK] == 0).all()
+
+
+def test_nothing_sticks_above_the_critical_shear_rate():
+    cloud = cloud_of(rate=10.0, n=40, kOn=50.0, criticalShearRate=20.0)
+    cloud.advance(20)
+    assert share_stuck(cloud) == 1.0
+    faster = cloud_of(rate=30.0, n=40, kOn=50.0, criticalShearRate=20.0)
+    faster.particles.status[:20], faster.particles.patch[:20] = STUCK, 0
+    faster.advance(3)
+    assert share_stuck(faster) == 0.0
+    assert faster.particles.bonds[:20].min() == 1
+
+
+def test_a_falling_body_does_not_stick_before_it_touches():
+    cloud = cloud_of(n=40, height=1.5 * R, kOn=1e9)
+    cloud.advance(70)
+    p = cloud.particles
+    assert share_stuck(cloud) == 1.0
+    speed = 2.0 / 9.0 * 200.0 * 9.81 * R**2 / MU
+    np.testing.assert_allclose(p.t, 0.5 * R / speed, atol=1.001 * DT)
+    np.testing.assert_allclose(p.x[:, 2], R, rtol=1e-5)
+
+
+def test_numbers_depend_on_the_particle_alone():
+    """Not on threads or calls, nor on a call that was interrupted."""
+    clouds = []
+    for threads, calls in ((1, (60,)), (3, (60,)), (1, (7, 1, 33, 19))):
+        cloud = cloud_of(100.0, n=100, threads=threads, kOff=2.0, xb=4e-10, T=300.0)
+        for steps in calls:
+            cloud.advance(steps)
+        clouds.append(cloud)
+    stopped = cloud_of(100.0, n=100, kOff=2.0, xb=4e-10, T=300.0)
+    stopped.advance(20)
+    # As after a stop: some particles are ahead of the others.
+    p, whole = stopped.particles, [array.copy() for array in stopped.particles]
+    Stepper(stopped).advance(10)
+    for array, before in zip(p, whole, strict=True):
+        array[1::2] = before[1::2]
+    stopped.step = 20
+    stopped.advance(40)
+    for other in (*clouds[1:], stopped):
+        for name, one, two in zip(Particles._fields, clouds[0].particles, other.particles, strict=True):
+            np.testing.assert_array_equal(one, two, err_msg=name)
+
+
+def test_bad_entries_are_refused():
+    with pytest.raises(InputError, match="xb, which needs the temperature T"):
+        Adhere(kOn=1.0, kOff=1.0, xb=1e-10)
+    with pytest.raises(InputError, match="adhere needs the integrator stokes or rosenbrock, not paper"):
+        cloud_of(integrator="paper")
+    thinning = Medium(BirdCarreau(mu0=1e-3, muInf=1e-4, k=1.0, n=0.5), 1000.0, (0.0, 0.0, -9.81))
+    with pytest.raises(InputError, match="xb, which needs a constant viscosity"):
+        cloud_of(medium=thinning, xb=1e-10, T=300.0)
