@@ -1,7 +1,7 @@
 """Lift by inertia of the fluid: on a sphere that slips in shear, and on a neutral one in a duct.
 
-The first is that of Saffman (1965, 1968) and Mei (1992). The second follows a table; that of a plane channel
-is the theory of Ho & Leal (1974), Vasseur & Cox (1976) and Schonberg & Hinch (1989).
+The first is that of Saffman (1965, 1968) and Mei (1992). The second follows a table; those of channels and
+pipes are the theory of Ho & Leal (1974), Vasseur & Cox (1976) and Schonberg & Hinch (1989).
 """
 
 from __future__ import annotations
@@ -102,12 +102,21 @@ _CHANNEL = (
     0.13228, 0.08138, 0.02387, -0.04045, -0.11179, -0.19036, -0.27641, -0.37016, -0.4719, -0.58189,
     -0.70044, -0.82788, -0.96456, -1.11085, -1.26713, -1.43381, -1.61126, -1.79987,
 )  # fmt: skip
+_PIPE = (
+    0, 0.04245, 0.08455, 0.12593, 0.16624, 0.20514, 0.24226, 0.27728, 0.30984, 0.33962, 0.36629,
+    0.38953, 0.40903, 0.42448, 0.43559, 0.44206, 0.4436, 0.43994, 0.43084, 0.41603, 0.39522, 0.36812,
+    0.33447, 0.29406, 0.24657, 0.19175, 0.12934, 0.05908, -0.01956, -0.10694, -0.20248, -0.30596,
+    -0.41956, -0.5456, -0.68465, -0.83685, -1.00234, -1.18125, -1.37372, -1.57988, -1.79987,
+)  # fmt: skip
 PLANE_CHANNEL: tuple[tuple[float, float], ...] = tuple((0.025 * k, C) for k, C in enumerate(_CHANNEL))
-"""(s, C) of plane Poiseuille flow: C ρ_f γ̇² R⁴ towards the nearer wall, with the shear rate at the wall.
+PIPE: tuple[tuple[float, float], ...] = tuple((0.025 * k, C) for k, C in enumerate(_PIPE))
+"""(s, C) of Poiseuille flow: C ρ_f γ̇² R⁴ towards the wall, with the shear rate at the wall.
 
-s is the distance from the middle over half of that of the walls. To first order in the Reynolds number, for
-a small sphere: the quadrature is in ``tools/validation/references/duct.py``.
+s is the distance from the middle over half of that of the walls, or over the pipe's radius. To first order
+in the Reynolds number, for a small sphere: the quadratures are ``duct.py`` and ``tube.py`` in
+``tools/validation/references``. At the walls C is −55π/96 (Cox & Hsu 1977).
 """
+DUCTS = {"channel": PLANE_CHANNEL, "pipe": PIPE}
 
 
 def balances(table: Sequence[tuple[float, float]]) -> list[float]:

@@ -16,7 +16,7 @@ from types import FunctionType
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, get_type_hints
 
 from foamprb.body.drag import reduced_gravity
-from foamprb.body.lift import PLANE_CHANNEL, balances, duct_coefficient, duct_lift, hinges
+from foamprb.body.lift import DUCTS, balances, duct_coefficient, duct_lift, hinges
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, scale_vector
 from foamprb.cloud.block import Medium, at, choose3, load3
 from foamprb.cloud.layout import LANES
@@ -144,7 +144,7 @@ def focusing(
 class DuctLift(Force):
     """Lift by inertia of the fluid on neutral particles in a straight pipe or between plane walls."""
 
-    shape: Annotated[str, Choice(("channel", "pipe")), Meaning("of the duct; a channel has plane walls")]
+    shape: Annotated[str, Choice(DUCTS), Meaning("of the duct; a channel has plane walls")]
     origin: Annotated[Vector3, Meaning("a point of the middle plane, or of the axis", "m")]
     direction: Annotated[Vector3, Meaning("normal of the walls, or direction of the axis")]
     size: Annotated[float, Positive, Meaning("half the distance of the walls, or the radius", "m")]
@@ -155,7 +155,7 @@ class DuctLift(Force):
             "pairs (s C): distance from the middle over `size`, and coefficient of the force C ρ_f γ̇² R⁴ "
             "outwards",
             "1",
-            "for a channel that of a small sphere",
+            "that of a small rigid sphere",
         ),
     ] = None
 
@@ -164,15 +164,13 @@ class DuctLift(Force):
     def __post_init__(self) -> None:
         if not any(self.direction):
             raise InputError("has a direction of length 0")
-        if self.table is None and self.shape == "pipe":
-            raise InputError("needs a table of coefficients for a pipe")
         s = [s for s, _ in self._table]
         if not 2 <= len(s) <= _POINTS or s[0] < 0.0 or any(b <= a for a, b in pairwise(s)):
             raise InputError(f"needs a table of 2 to {_POINTS} pairs (s C), s >= 0 and increasing")
 
     @property
     def _table(self) -> Pairs:
-        return PLANE_CHANNEL if self.table is None else self.table
+        return DUCTS[self.shape] if self.table is None else self.table
 
     @property
     def coefficients(self) -> tuple[Any, ...]:

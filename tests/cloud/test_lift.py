@@ -9,7 +9,7 @@ from types import FunctionType
 import numpy as np
 import pytest
 
-from foamprb.body.lift import PLANE_CHANNEL, balances, lift_coefficient
+from foamprb.body.lift import PIPE, PLANE_CHANNEL, balances, lift_coefficient
 from foamprb.cloud.block import ROWS, Medium, at
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DuctLift, Gravity, coefficients, compose, forces_on
@@ -101,6 +101,8 @@ def test_a_neutral_sphere_drifts_by_the_lift_in_a_channel():
 def test_neutral_particles_gather_at_six_tenths():
     assert balances(PLANE_CHANNEL) == pytest.approx([0.6346], abs=5e-4)
     assert "C = 0 at 0.634" in str(CHANNEL)
+    assert balances(PIPE) == pytest.approx([0.693], abs=0.003)
+    assert "C = 0 at 0.69" in str(replace(CHANNEL, shape="pipe"))
 
 
 def test_lift_in_a_pipe_follows_the_given_table():
@@ -126,7 +128,6 @@ def test_lift_in_a_pipe_follows_the_given_table():
     ("entries", "message"),
     [
         ({"direction": (0.0, 0.0, 0.0)}, "has a direction of length 0"),
-        ({"shape": "pipe"}, "needs a table of coefficients for a pipe"),
         ({"table": ((0.0, 0.0),)}, "needs a table of 2 to 50 pairs"),
         ({"table": ((0.0, 0.0), (0.5, 1.0), (0.5, 2.0))}, "increasing"),
     ],

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from validation import device, main, report, tumbling
 from validation.case import Case, Curve, Figure, Outcome, Panel, Row, worst
-from validation.references import duct, rigid, soft
+from validation.references import duct, rigid, soft, tube
 from validation.references.ellipsoid import (
     integrals,
     prolate_resistances,
@@ -32,7 +32,7 @@ from validation.references.shear import (
 )
 from validation.registry import CASES
 
-from foamprb.body.lift import PLANE_CHANNEL
+from foamprb.body.lift import PIPE, PLANE_CHANNEL
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -53,6 +53,11 @@ class TestReferences:
         table = dict(PLANE_CHANNEL)
         for s in (0.2, 0.8):
             assert table[s] == pytest.approx(duct.coefficient(s), abs=1e-5)
+
+    def test_lift_in_a_pipe(self):
+        """With few modes; near the wall it goes to that of one wall, too."""
+        assert PIPE[-1] == PLANE_CHANNEL[-1]
+        assert dict(PIPE)[0.2] == pytest.approx(tube.coefficient(0.2, 8), abs=2e-3)
 
     @pytest.mark.parametrize("axes", [(1.0, 1.0, 1.0), (2.5, 0.4, 1.0), (4.9, 0.14, 1.45)])
     def test_integrals_by_another_quadrature(self, axes):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from foamprb.body.lift import PLANE_CHANNEL, balances, duct_coefficient, hinges
+from foamprb.body.lift import PIPE, PLANE_CHANNEL, balances, duct_coefficient, hinges
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DuctLift
@@ -15,10 +15,12 @@ from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.references import tube
 from validation.references.duct import coefficient
 from validation.runs import advance_to
 
 QUADRATURE = "modes along the walls, first order in Re"
+MODES = "modes along and around, first order in Re"
 MU, RHO, RADIUS, HEIGHT = 1e-3, 1000.0, 5e-6, 1e-4
 STARTS = np.array([0.15, 0.25, 0.35, 0.45])
 """Distances from the lower wall over the height."""
@@ -73,10 +75,16 @@ def focusing(quick: bool) -> Outcome:
         Row("quadrature of C near the wall, s = 0.9995", coefficient(0.9995), -55.0 * np.pi / 96.0,
             "Cox & Hsu (1977), one wall", 3e-3, True),
         Row("s at which C = 0", place, 0.62, "cubic after Vasseur & Cox (1976), as in the code arb", 0.02),
-        Row("the same", place, 0.6, "Segré & Silberberg (1962), in pipes", None),
     ]  # fmt: skip
     if quick:
         return Outcome(rows, [], [])
+    pipe = hinges(PIPE)
+    rows += [
+        Row(f"pipe: C at s = {s:g}", float(duct_coefficient(s, pipe)), tube.coefficient(s, n), MODES, 3e-3)
+        for s, n in ((0.1, 24), (0.3, 24), (0.5, 24), (0.6, 48), (0.7, 48))
+    ]
+    (place,) = balances(PIPE)
+    rows.append(Row("pipe: s at which C = 0", place, 0.6, "Segré & Silberberg (1962), measured", None))
     rate, times = 1e4, np.linspace(0.0, 0.1, 41)[1:]
     ours, own = _paths(1e-4, rate, True, times), _own(rate, times)
     for k, start in enumerate(STARTS):
