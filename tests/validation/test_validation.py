@@ -54,6 +54,11 @@ class TestReferences:
         for s in (0.2, 0.8):
             assert table[s] == pytest.approx(duct.coefficient(s), abs=1e-5)
 
+    def test_hindrance_on_the_axis_of_a_pipe(self):
+        """1.8044 of Faxén's series, with a correction by the square of the distance from the axis."""
+        near, far = tube.hindrance(0.02), tube.hindrance(0.04)
+        assert near - (far - near) / 3.0 == pytest.approx(1.8044, abs=3e-4)
+
     def test_lift_in_a_pipe(self):
         """With few modes; near the wall it goes to that of one wall, too."""
         assert PIPE[-1] == PLANE_CHANNEL[-1]
