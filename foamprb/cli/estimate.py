@@ -69,6 +69,7 @@ def lines(arguments: argparse.Namespace) -> list[str]:
         If a number is not positive.
     """
     # Slow imports, which other commands do not need.
+    from foamprb.body.bonds import force_on_held_sphere
     from foamprb.body.estimate import SoftSphere, Surroundings, across_forces, estimate, shear_modulus
     from foamprb.body.material import modulus_of_capsule
 
@@ -123,6 +124,16 @@ def lines(arguments: argparse.Namespace) -> list[str]:
         lift_off = "within the particle: it does not lift off"
         facts += [
             ("thermal strain", e.thermal_strain, "by Brownian motion of the shape"),
+            (
+                "turning [1/s]",
+                0.75 * e.diffusion_coefficient / (0.5 * d) ** 2,
+                "rotational diffusivity; a swimmer keeps its direction for half of the inverse",
+            ),
+            (
+                "force if stuck [N]",
+                force_on_held_sphere(0.5 * d, given["shearRate"], given["mu"]),
+                "of this shear on a sphere at a wall, and on its bonds: adhere",
+            ),
             ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),
             ("lift length [m]", e.lift_length, "in the residence time"),
             (
