@@ -93,7 +93,8 @@ def read_case_cloud(case: Path, region: str, flow: MeshFlow, end: float) -> Case
     file = case / of_region(case, region, _NAME)
     if existing(file) is None:
         return None
-    reader = _Reader(CaseCloud(str(CaseFile(file, case))))
+    rotating = existing(case / of_region(case, region, "MRFProperties")) is not None
+    reader = _Reader(CaseCloud(str(CaseFile(file, case))), rotating)
     try:
         reader.read(read_dictionary(file, case), flow, end)
     except InputError as error:
@@ -107,8 +108,8 @@ def read_case_cloud(case: Path, region: str, flow: MeshFlow, end: float) -> Case
 class _Reader:
     """Reader of the parts of a cloud."""
 
-    def __init__(self, cloud: CaseCloud) -> None:
-        self.cloud = cloud
+    def __init__(self, cloud: CaseCloud, rotating: bool) -> None:
+        self.cloud, self.rotating = cloud, rotating
 
     def read(self, root: Dictionary, flow: MeshFlow, end: float) -> None:
         """Read all parts; see :func:`read_case_cloud`."""
@@ -197,6 +198,8 @@ class _Reader:
         for name, entry in forces.entries.items():
             if name == "gravity":
                 self.cloud.gravity = True
+            elif name == "SaffmanMeiLiftForce" and self.rotating:
+                self._leave_out(entry, "it does not hold in the rotating zones of MRFProperties")
             elif name in _FORCES:
                 try:
                     read_entry(forces, name, _FORCES[name])

@@ -96,8 +96,17 @@ def test_the_cases_own_cloud_is_the_start(case, capsys):
     assert injection.sizeDistribution.limits == (1e-6, 3e-6)
     assert injection.solid.shearModulus == pytest.approx(3000.0 / 2.5)
     assert list(settings.forces) == ["virtualMass"]
+    assert list(settings.surroundings) == ["SaffmanMeiLiftForce"]
     assert list(settings.functions) == ["paths", "hits"]
     assert settings.functions["hits"].maxStoredParcels == 20
+
+
+def test_lift_is_left_out_in_rotating_zones(case):
+    (case / "constant/MRFProperties").write_text("")
+    assert main(["init", "-case", str(case)]) == 0
+    text = (case / "constant/softCloudProperties").read_text()
+    assert "SaffmanMeiLiftForce (it does not hold in the rotating zones" in text
+    assert not read_settings(case).surroundings
 
 
 def test_a_large_injection_is_reduced_to_a_first_run(case):
