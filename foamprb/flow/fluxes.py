@@ -114,10 +114,10 @@ class Conservation:
         """
         mesh = self._mesh
         fields = self._nodes, u, l, self._free
-        fluxes = np.empty(len(mesh.owner))
+        fluxes, integrate, fill = np.empty(len(mesh.owner)), link(face_fluxes), link(correct)
 
         def faces(low: int, high: int) -> None:
-            link(face_fluxes)(*fields, mesh.face_start[low : high + 1], mesh.face_points, fluxes[low:high])
+            integrate(*fields, mesh.face_start[low : high + 1], mesh.face_points, fluxes[low:high])
 
         share(len(fluxes), faces)
         outer = fluxes[mesh.n_internal :]
@@ -137,7 +137,7 @@ class Conservation:
 
         def cells(low: int, high: int) -> None:
             work = np.empty((most, 4)), np.empty((most, 4)), np.empty((most, 4, 5)), np.empty((_ROWS, most))
-            link(correct)(*fields, *arrays, low, high, *work)
+            fill(*fields, *arrays, low, high, *work)
 
         share(mesh.n_cells, cells)
         return correction

@@ -55,7 +55,7 @@ class LeastSquaresGradient:
     """
 
     def __init__(self, sites: Floats, around: tuple[Ints, Ints], least: float = 1e-6) -> None:
-        self._n, self._sites = len(around[0]) - 1, sites
+        self._n, self._sites, self._kernel = len(around[0]) - 1, sites, link(sum_differences)
         self._around = around
         self._inverse, open_ = np.empty((self._n, 6)), np.empty(self._n, dtype=bool)
 
@@ -106,30 +106,31 @@ class LeastSquaresGradient:
         ``values`` (n_sites, m) are those at the sites; the contribution of the second derivatives ``bends``
         (n_cells, m, 6) is subtracted from their differences.
         """
-        given = np.empty((0, values.shape[1], 6)) if bends is None else bends
+        given, turn = np.empty((0, values.shape[1], 6)) if bends is None else bends, link(turn_rows)
 
         def part(low: int, high: int) -> None:
             self._sum(values, given, low, gradients[low:high])
-            link(turn_rows)(self._inverse[low:high], gradients[low:high])
+            turn(self._inverse[low:high], gradients[low:high])
 
         in_chunks(self._n, part)
 
     def bends(self, l: Floats, h: Floats) -> None:
         """Write the second derivatives (n_cells, 3, 6) from gradients at the sites (n_sites, 3, 3)."""
         values, nothing = l.reshape(-1, 9), np.empty((0, 9, 6))
+        turn, make_symmetric = link(turn_rows), link(symmetrise)
 
         def part(low: int, high: int) -> None:
             second = np.empty((high - low, 9, 3))
             self._sum(values, nothing, low, second)
-            link(turn_rows)(self._inverse[low:high], second)
-            link(symmetrise)(second, h[low:high])
+            turn(self._inverse[low:high], second)
+            make_symmetric(second, h[low:high])
 
         in_chunks(self._n, part)
 
     def _sum(self, values: Floats, bends: Floats, low: int, sums: Floats) -> None:
         """Write the right side (n, m, 3) of the normal equations into ``sums``."""
         sums[:] = 0.0
-        link(sum_differences)(self._sites, *self._around, values, bends, low, sums)
+        self._kernel(self._sites, *self._around, values, bends, low, sums)
 
 
 class PointGradient:
