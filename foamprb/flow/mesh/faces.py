@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Vector, inner, plus, vector_product
+from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector_product
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
 
@@ -313,41 +313,30 @@ def measure_cells(
     box of the face centres, as where the volume is round-off, is replaced by their mean.
     """
     for c in range(begin, end):
-        n, x, y, z = 0, 0.0, 0.0, 0.0
-        for owned in (True, False):
-            for h in range(first[c], first[c + 1]):
-                f = of_cell[h]
-                if (owner[f] == c) == owned:
-                    n += 1
-                    x, y, z = x + face_centres[f, 0], y + face_centres[f, 1], z + face_centres[f, 2]
-        middle = x / n, y / n, z / n
+        total, low, high = (0.0, 0.0, 0.0), (np.inf, np.inf, np.inf), (-np.inf, -np.inf, -np.inf)
+        for h in range(first[c], first[c + 1]):
+            x = point(face_centres, of_cell[h])
+            total = plus(total, x)
+            low = min(low[0], x[0]), min(low[1], x[1]), min(low[2], x[2])
+            high = max(high[0], x[0]), max(high[1], x[1]), max(high[2], x[2])
+        middle = scale_vector(1.0 / (first[c + 1] - first[c]), total)
+        volume, moment = 0.0, (0.0, 0.0, 0.0)
+        for h in range(first[c], first[c + 1]):
+            f = of_cell[h]
+            d = arm(face_centres, f, middle)
+            pyramid = inner(point(face_areas, f), d) / (3.0 if owner[f] == c else -3.0)
+            volume += pyramid
+            moment = plus(moment, scale_vector(0.75 * pyramid, d))
+        centre = plus(middle, scale_vector(1.0 / volume if volume != 0.0 else 0.0, moment))
+        size = minus(high, low)
+        # Tolerance for round-off.
+        room = 1e-9 * max(size[0], size[1], size[2])
+        for i in range(3):
+            if not low[i] - room <= centre[i] <= high[i] + room:
+                centre = middle
         middles[c, 0], middles[c, 1], middles[c, 2] = middle
-        volume, x, y, z, size = 0.0, 0.0, 0.0, 0.0, 0.0
-        for owned in (True, False):
-            for h in range(first[c], first[c + 1]):
-                f = of_cell[h]
-                if (owner[f] == c) == owned:
-                    d = arm(face_centres, f, middle)
-                    pyramid = inner(point(face_areas, f), d) / (3.0 if owned else -3.0)
-                    volume += pyramid
-                    x, y, z = x + 0.75 * pyramid * d[0], y + 0.75 * pyramid * d[1], z + 0.75 * pyramid * d[2]
-        moment = x, y, z
+        centres[c, 0], centres[c, 1], centres[c, 2] = centre
         volumes[c] = volume
-        inside = volume != 0.0
-        for i in range(3):
-            low, high = np.inf, -np.inf
-            for h in range(first[c], first[c + 1]):
-                low, high = min(low, face_centres[of_cell[h], i]), max(high, face_centres[of_cell[h], i])
-            size = max(size, high - low)
-        for i in range(3):
-            low, high = np.inf, -np.inf
-            for h in range(first[c], first[c + 1]):
-                low, high = min(low, face_centres[of_cell[h], i]), max(high, face_centres[of_cell[h], i])
-            centres[c, i] = middle[i] + moment[i] / volume if volume != 0.0 else middle[i]
-            # Tolerance for round-off.
-            inside &= low - 1e-9 * size <= centres[c, i] <= high + 1e-9 * size
-        if not inside:
-            centres[c, 0], centres[c, 1], centres[c, 2] = middle
 
 
 # Quality by which a fan must exceed the one from the point of the smallest label; of coordinates in single
