@@ -239,8 +239,10 @@ class _Reader:
             if number > _MOST_PARTICLES:
                 reduce(name, _MOST_PARTICLES / factor, unit)
         also = [name for name in own.entries if name not in get_type_hints(kind)]
-        model = read_entries(kind, own, also=also)
-        places = model.places(flow, np.random.default_rng(1), read_positions)
+        places = read_entries(kind, own, also=also).places(flow, np.random.default_rng(1), read_positions)
+        if "parcelConcentration" in own.entries and (n := len(places.t)) > _MOST_PARTICLES:
+            concentration = read_entry(own, "parcelConcentration", float)
+            reduce("parcelConcentration", concentration * _MOST_PARTICLES / n, "1/m3, ")
         self.cloud.last = max(self.cloud.last, float(np.max(places.t, initial=0.0)))
         lines = _lines(own)
         return [line + comments.get(line.split()[0], "") for line in lines]

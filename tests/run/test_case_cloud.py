@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from paths import PIPE
+from pipe_case import edit
 
 from foamprb.cli import main
 from foamprb.cloud.patches import Escape, Rebound
@@ -119,6 +120,15 @@ def test_a_large_injection_is_reduced_to_a_first_run(case):
     assert job.cloud.particles.size == pytest.approx(1e5, rel=0.05)
     # The last particles have time to pass.
     assert job.settings.solution.endTime > 5.0 * job.cloud.particles.t0.max()
+
+
+def test_a_large_concentration_is_reduced_too(case):
+    edit(case, "patchInjection", "patchFlowRateInjection", "constant/kinematicCloudProperties")
+    edit(case, r"parcelsPerSecond 1e9;", "parcelConcentration 1e13;", "constant/kinematicCloudProperties")
+    assert main(["init", "-case", str(case)]) == 0
+    text = (case / "constant/softCloudProperties").read_text()
+    assert re.search(r"parcelConcentration +\S+; +// 1/m3, the case has 1e\+13", text)
+    assert prepare(case).cloud.particles.size == pytest.approx(1e5, rel=0.05)
 
 
 def test_patches_without_a_rule_get_one(case):
