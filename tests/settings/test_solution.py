@@ -71,10 +71,17 @@ def test_iterations_of_a_steady_solver_are_no_time(case: Path, read: Reader, sch
 def test_a_control_dictionary_that_cannot_be_read_gives_nothing(
     case: Path, read: Reader, notes: list[str]
 ) -> None:
-    control(case, "endTime 2; deltaT 0.25; functions { #includeFunc streamlines }")
+    control(case, "endTime 2; deltaT 0.25; #inputMode merge")
     with pytest.raises(InputError, match="solution/deltaT is missing"):
         read((OWN, ""))
-    assert "system/controlDict, line 1: '#includeFunc' is not supported" in notes[0]
+    assert "system/controlDict, line 1: '#inputMode' is not supported" in notes[0]
+
+
+def test_functions_of_the_solver_do_not_hide_the_times_of_a_control_dictionary(
+    case: Path, read: Reader
+) -> None:
+    control(case, "endTime 2; deltaT 0.25; functions { #includeFunc streamlines(p, U) }")
+    assert read((OWN, "")).solution.deltaT == 0.25
 
 
 def test_a_write_interval_of_the_case_that_does_not_fit_names_its_file(case: Path, read: Reader) -> None:
