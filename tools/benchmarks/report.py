@@ -112,7 +112,7 @@ TARGETS = (
     ),
     Target("the same by `paper`", _got(OVER_COMPUTING, "paper"), 1.1),
     Target("share of a default run's time in which it waits for output", _got(WAITING, "default"), 0.1),
-    Target("`foamprb -help`, s", _got("start", "-help"), 0.4),
+    Target("`foamprb -help`, s", _got("start", "help"), 0.4),
     Target("`foamprb info` of 1e6 cells, s", _got("start", INFO), 2),
     Target("compilation in the first run, s on the wall: it less a later one", _compiled, 10),
     Target("first run says that it compiles", _got("first run says so"), 1, least=True),

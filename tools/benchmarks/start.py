@@ -53,12 +53,12 @@ def measure(options: Options) -> list[Row]:
     pipe.write_default_cloud(case, "softCloud", 0.5, OPENFOAM_STEP, 1)
     run = ("run", "-case", str(case), "-threads", "1")
     large = pipe.case("40k" if options.quick else "1M")
-    starts: dict[str, list[Start]] = {"-help": [], "first run": [], "second run": [], INFO: []}
+    starts: dict[str, list[Start]] = {"help": [], "first run": [], "second run": [], INFO: []}
     for _ in range(1 if options.quick else FIRST_RUNS):
         with tempfile.TemporaryDirectory() as cache:
             starts["first run"].append(_foamprb(cache, *run))
             starts["second run"] += [_foamprb(cache, *run) for _ in range(repeats)]
-            starts["-help"] += [_foamprb(cache, "-help") for _ in range(repeats)]
+            starts["help"] += [_foamprb(cache, "-help") for _ in range(repeats)]
             starts[INFO].append(_foamprb(cache, "info", "-case", str(large)))
     walls = {name: statistics.median(start.wall for start in those) for name, those in starts.items()}
     cpu = {name: statistics.median(start.cpu for start in those) for name, those in starts.items()}
