@@ -21,7 +21,7 @@ REMARK = (
 
 
 def shares(quick: bool) -> Outcome:
-    """Return the shares of stuck spheres over time, with and without a force on the bonds."""
+    """Adhesion by bonds."""
     n = 1000 if quick else 20000
     rows = []
     for rate, k_off in ((0.0, 0.0), (0.0, K_OFF), (100.0, K_OFF), (300.0, K_OFF)):
