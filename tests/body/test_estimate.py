@@ -90,12 +90,12 @@ def test_the_modulus_from_a_capillary_number():
 def test_forces_across_the_flow_of_a_channel():
     """At 0.4 of its width: C = 0.24613 at s = 0.2 outwards, with 100/s 1/s at the walls."""
     f, e = across_forces(BEAD, WATER, 50e-6), estimate(BEAD, WATER, 1.0)
-    assert f.duct_lift == pytest.approx(-0.24613 * 1000.0 * 500.0**2 * 2.5e-6**4)
+    assert f.duct_lift == pytest.approx(-0.24613 * 1000.0 * 500.0**2 * 2.5e-6**4, rel=1e-6, abs=0.0)
     drag = 6.0 * pi * 1e-3 * 2.5e-6
-    assert f.wall_lift == pytest.approx(drag * e.lift_speed)
-    assert f.weight == pytest.approx(4.0 / 3.0 * pi * 2.5e-6**3 * 50.0 * 9.81)
+    assert f.wall_lift == pytest.approx(drag * e.lift_speed, rel=1e-6, abs=0.0)
+    assert f.weight == pytest.approx(4.0 / 3.0 * pi * 2.5e-6**3 * 50.0 * 9.81, rel=1e-6, abs=0.0)
     saffman = 6.46 * 1e-3 * 2.5e-6**2 * (1000.0 * 100.0 / 1e-3) ** 0.5 * e.settling_speed
-    assert f.slip_lift == pytest.approx(saffman, rel=2e-3)
+    assert f.slip_lift == pytest.approx(saffman, rel=2e-3, abs=0.0)
     assert across_forces(BEAD, WATER).duct_lift == 0.0
     # Away from the wall nearer to it than 0.18 of the width.
     assert across_forces(BEAD, WATER._replace(wall_distance=8e-6), 50e-6).duct_lift > 0.0
