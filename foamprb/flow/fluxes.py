@@ -88,13 +88,24 @@ CONSTANT = Mass(np.ones(1), np.ones(1), np.zeros(1))
 
 
 class Conservation:
-    """Operator from u and ∇u at the nodes of a mesh to the correction that keeps volume."""
+    """Operator from u and ∇u at the nodes of a mesh to the correction that keeps volume.
 
-    def __init__(self, mesh: Mesh) -> None:
+    Parameters
+    ----------
+    mesh
+        The mesh.
+    valued
+        (n_boundary,) mask of boundary faces whose velocity is given; by default all. The flux through a wall
+        without a velocity may change, as that through an open face.
+    """
+
+    def __init__(self, mesh: Mesh, valued: Mask | None = None) -> None:
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
         self._closed = _types(mesh, _CLOSED)
         # The flux through an open face may change.
         self._open = ~_types(mesh, _CLOSED | WALLS)
+        if valued is not None:
+            self._open |= _types(mesh, WALLS) & ~valued
         self._warned = False
         self.unbalanced = 0.0
         """Flux that cells still make or lose after the last call, over that through their faces (rms)."""

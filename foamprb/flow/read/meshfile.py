@@ -164,11 +164,10 @@ class _NodalVelocity:
         self._path, self._mesh, self._velocity, self._gradient = path, mesh, velocity, gradient
         self.notes: list[str] = []
         self._reconstruct: Reconstruction | None = None
-        self.conserve = Conservation(mesh)
+        faces = np.zeros(len(mesh.boundary_centres), dtype=bool)
         if velocity in grid.cell_data:
             given = [velocity in surface.cell_data for _, surface in surfaces]
             self._valued: list[int] = np.flatnonzero(given).tolist()
-            faces = np.zeros(len(mesh.boundary_centres), dtype=bool)
             for index in self._valued:
                 faces[mesh.patch_start[index] : mesh.patch_start[index + 1]] = True
             self._reconstruct = Reconstruction(mesh, valued=faces)
@@ -188,6 +187,7 @@ class _NodalVelocity:
                 f"{path}: no array {velocity}. {suggestion(velocity, names)} Three scalars are read by "
                 '-velocity "(Ux Uy Uz)".'
             )
+        self.conserve = Conservation(mesh, faces)
 
     def __call__(
         self, grid: Any, surfaces: Sequence[tuple[str, Any]]
