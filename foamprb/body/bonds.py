@@ -37,5 +37,5 @@ def sensitivity(xb: float, T: float) -> float:
 
 
 def off_rate(k_off: Scalar, force: Scalar, per_force: Scalar) -> Scalar:
-    """Return Bell's rate k_off exp(F x_b/k_B T), 1/s, at most 1e300."""
+    """Return Bell's rate k_off exp(F x_b/k_B T), 1/s, at most e⁶⁰⁰ k_off, a number that is still finite."""
     return k_off * np.exp(np.minimum(force * per_force, 600.0))

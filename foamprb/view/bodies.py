@@ -253,10 +253,17 @@ def gather(
 def survey(
     run: Run, name: str, part: str, frames: Sequence[int] | None = None
 ) -> tuple[NDArray[np.int64], Singles | None]:
-    """Return the number of shown bodies at each time, and the finite values of an array at these bodies.
+    """Count the shown bodies at some of the times, by default all, and collect values of an array at them.
 
-    Of very many bodies some are taken, evenly spread. The values are None for an array that is no number of
-    the clouds.
+    Returns
+    -------
+    The numbers, (m,), and the finite values of all times, (v,), in the unit of the array; of very many bodies
+    some are taken, evenly spread. None for an array that is no number of the clouds.
+
+    Raises
+    ------
+    InputError
+        If a file is missing or damaged.
     """
     valued = name in run.components and name not in run.names
     stride = 1 + len(run.entries) * len(run.cloud(-1, ("origId",)).points) // _MOST_VALUES
