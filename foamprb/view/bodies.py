@@ -23,6 +23,8 @@ LARGEST_STRETCH = 128.0
 
 _MOST_VALUES = 4_000_000
 """Values that decide the limits of colours, at most."""
+_JUMP = 10.0
+"""Ratio of the distance between two times to that at the larger velocity above which a body has jumped."""
 SHAPE_ARRAYS = frozenset({"glyph", "deformationGradient", "orientation", "origId", "active"})
 """Point arrays that hold the shape or the number of the body, or repeat another array."""
 
@@ -126,6 +128,18 @@ class Bodies:
     def shown(self) -> Mask:
         """Bodies in the flow or on a wall, (m, n)."""
         return self.present & _inside(self.status.codes, self.status.meanings)
+
+    def jumped(self, t: int) -> Mask:
+        """Return whether bodies moved much farther before time t than their velocities carry them, (n,).
+
+        They passed through a coupled patch.
+        """
+        far = np.linalg.norm(self.x[t] - self.x[t - 1], axis=1)
+        if "U" not in self.fields:
+            return np.zeros(len(far), dtype=bool)
+        speed = np.broadcast_to(self.fields["U"].channel(MAGNITUDE), self.present.shape)
+        fastest = np.maximum(speed[t - 1], speed[t])
+        return np.asarray(far > _JUMP * fastest * (self.times[t] - self.times[t - 1]))
 
 
 def colourable(run: Run) -> tuple[str, ...]:

@@ -38,6 +38,7 @@ from foamprb.view.libraries import load
 from foamprb.view.scene import (
     INSETS,
     MOST_DEPOSITS,
+    MOST_TRAILS,
     SCALE_BAR,
     VIEW_ANGLE,
     Scene,
@@ -61,6 +62,7 @@ _BAR = 280.0
 _GLYPH, _REACH, _LETTER, _AXES, _ARROWS = 56.0, 14.0, 11.0, 64.0, 73.0
 """Width of axes or an arrow, length and letter of an axis, distances of their middles from below; pixels."""
 _UNKNOWN = 153
+_TRAIL_OPACITY = 0.85
 _GRAPHICS, _POINT = 0.7e9, 205.0
 """Address space of the graphics library, and of each point of a body, bytes."""
 _LATER: dict[str, Any] = {"render": False, "reset_camera": False}
@@ -91,8 +93,9 @@ class Drawing:
         """Draw the bodies and the texts of a time."""
         scene, bodies = self.scene, self.scene.bodies
         shown = np.flatnonzero(bodies.shown[frame])
-        for old in ("bodies", "mark"):
+        for old in ("bodies", "mark", "trails"):
             self.plotter.remove_actor(old, render=False)
+        self._draw_trails(frame)
         if len(shown):
             colours = body_colours(scene, frame, shown)
             F = bodies.F[frame, shown].astype(np.float64)
@@ -105,6 +108,17 @@ class Drawing:
             times = bodies.times
             self._write("clock", f"t = {written(times[frame], 's', times[-1])}", 17, "right", 30, bold=True)
             self._write("caption", scene.caption(len(shown)), 14, "right", 53)
+
+    def _draw_trails(self, frame: int) -> None:
+        """Draw the fading trails of the bodies."""
+        points, colours = trails(self.scene, frame)
+        if len(points):
+            lines = pyvista.line_segments_from_points(points.reshape(-1, 3))
+            lines.point_data["colour"] = colours.reshape(-1, 4)
+            self.plotter.add_mesh(
+                lines, scalars="colour", rgb=True, lighting=False, line_width=2.2 * self.scale, name="trails",
+                show_scalar_bar=False, **_LATER,
+            )  # fmt: skip
 
     def _add(self, name: str, mesh: Any) -> None:
         """Draw a mesh with its own colours, in the light of the bodies."""
@@ -141,12 +155,18 @@ class Drawing:
             self._names(scene.codes(name), left)
         for surface in scene.geometry.surfaces if scene.geometry is not None else ():
             if surface.type not in FLAT_TYPES:
-                self.plotter.add_point_labels(
-                    anchor(surface, scene.camera)[None], [surface.name], name=f"patch {surface.name}",
-                    font_size=round(12 * self.scale), text_color=self.style.ink, show_points=False,
-                    shape=None, always_visible=True, justification_horizontal="center",
-                    justification_vertical="bottom", **_LATER,
-                )  # fmt: skip
+                self._name(surface.name, anchor(surface, scene.camera))
+
+    def _name(self, text: str, place: Floats) -> None:
+        """Write the name of a patch on a pill above a place of the scene."""
+        actor = pyvista.Text(f" {text} ")
+        actor.GetPositionCoordinate().SetCoordinateSystemToWorld()
+        actor.GetPositionCoordinate().SetValue(*place)
+        actor.prop.font_size = max(6, round(12 * self.scale))
+        actor.prop.justification_horizontal, actor.prop.justification_vertical = "center", "bottom"
+        actor.prop.color, actor.prop.background_color = self.style.soft, self.style.paper
+        actor.prop.background_opacity = 0.82
+        self.plotter.add_actor(actor, name=f"patch {text}", **_LATER)
 
     def compass(self) -> None:
         """Draw axes, the directions of flow and gravity, and a scale bar, in the lower right corner."""
@@ -498,6 +518,25 @@ def draw_plane(plotter: Any, plane: Slice, style: Style) -> None:
     at = np.clip((values - low) / ((high - low) or 1.0) * 255.0, 0, 255).astype(np.uint8)
     mesh.point_data["colour"] = style.plane[at]
     plotter.add_mesh(mesh, scalars="colour", rgb=True, lighting=False, show_scalar_bar=False, **_LATER)
+
+
+def trails(scene: Scene, frame: int) -> tuple[Floats, Table]:
+    """Return segments of the fading trails at a time, (k, 2, 3), m, and their colours, (k, 2, 4)."""
+    bodies, times, span = scene.bodies, scene.bodies.times, scene.trail
+    points, colours = [np.zeros((0, 2, 3))], [np.zeros((0, 2, 4), dtype=np.uint8)]
+    if span > 0.0 and len(bodies.ids) <= MOST_TRAILS:
+        tail = times[frame] - span
+        for t in range(max(1, int(np.searchsorted(times, tail, side="right"))), frame + 1):
+            rows = np.flatnonzero(bodies.present[t - 1] & bodies.present[t] & ~bodies.jumped(t))
+            cut = max(0.0, (tail - times[t - 1]) / (times[t] - times[t - 1]))
+            ends = bodies.x[t - 1 : t + 1, rows]
+            ends[0] += cut * (ends[1] - ends[0])
+            share = (np.maximum(times[t - 1 : t + 1], tail) - tail) / span
+            alpha = np.broadcast_to(255.0 * _TRAIL_OPACITY * share[:, None] ** 1.5, ends.shape[:2])
+            own = np.stack([body_colours(scene, k, rows) for k in (t - 1, t)])
+            points.append(ends.swapaxes(0, 1))
+            colours.append(np.concatenate([own, alpha[..., None].astype(np.uint8)], axis=2).swapaxes(0, 1))
+    return np.concatenate(points), np.concatenate(colours)
 
 
 def body_colours(scene: Scene, frame: int, shown: Ints) -> Table:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.results.vtk import Tracks
-from foamprb.view.bodies import Bodies, Codes
+from foamprb.view.bodies import MAGNITUDE, Bodies, Codes
 from foamprb.view.colours import MAPS
 from foamprb.view.geometry import Geometry, Slice, Surface
 
@@ -41,6 +41,10 @@ PERCENTILES = (5.0, 95.0)
 """Default percentiles of all shown values that limit the colours; values beyond may be clamped."""
 ALL = (0.0, 100.0)
 """Percentiles that include all values."""
+TRAIL = 0.3
+"""Length of the fading trail of a body with the median speed, as a share of the visible length."""
+MOST_TRAILS = 5000
+"""Largest number of bodies that have trails by default."""
 MOST_DEPOSITS = 3000
 """Largest number of deposits that are marked by default."""
 _SLACK = 1e-5
@@ -150,6 +154,16 @@ class Scene:
         """Least and largest shown value of the chosen array."""
         return extremes_of(self.bodies, *self.colour) or self.limits
 
+    @cached_property
+    def trail(self) -> float:
+        """Time that a fading trail covers, s; zero if the speeds are not known."""
+        bodies, field = self.bodies, self.bodies.fields.get("U")
+        if field is None:
+            return 0.0
+        speeds = field.channel(MAGNITUDE)
+        own = speeds[min(self.first, len(speeds) - 1), bodies.shown[self.first]]
+        return trail_time(own, self.camera)
+
     @property
     def directions(self) -> dict[str, Floats]:
         """Unit vectors of the flow and of gravity, if they have one, by their labels."""
@@ -171,6 +185,13 @@ class Scene:
         number = f"{shown} {'body' if shown == 1 else 'bodies'}"
         scale = f"{self.enlargement:g}× larger" if self.enlargement != 1.0 else "to scale"
         return f"{number}, drawn {scale}"
+
+
+def trail_time(speeds: NDArray[Any], camera: Camera) -> float:
+    """Return the time in which the median speed, m/s, covers :data:`TRAIL` of the visible length, s."""
+    moving = speeds[np.isfinite(speeds) & (speeds > 0.0)]
+    visible = 2.0 * min(float(np.abs(camera.corners[:, :2]).max()), camera.least_width)
+    return TRAIL * visible / float(np.median(moving)) if len(moving) else 0.0
 
 
 def limits_of(

@@ -30,6 +30,7 @@ from foamprb.view.paraview import write_state
 from foamprb.view.picture import film, has_display, picture, require_graphics, window
 from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import (
+    MOST_TRAILS,
     PERCENTILES,
     Scene,
     automatic_enlargement,
@@ -56,6 +57,8 @@ MOST_DRAWN = 100_000
 """Largest number of bodies in a page or a picture, unless -bodies requests more."""
 _SAMPLE, _ESTIMATES = 500, 2
 """Bodies in an estimate of the size of a page, and the number of estimates."""
+_MOST_TRAILING = 16
+"""Largest number of earlier times that the trails of a picture need."""
 _TIMES_TOLERANCE = 1e-9
 PAGE_BEGINS = b"<!doctype html"
 
@@ -227,7 +230,7 @@ def make_scene(request: Request, run: Run, frames: Sequence[int], *, drawn: bool
         range.
     """
     background = _background(request, run)
-    arrays = (background.colour[0], "patch") if drawn else None
+    arrays = (background.colour[0], "patch", "U") if drawn else None
     return background.scene(gather(run, frames, request.bodies, arrays))
 
 
@@ -250,9 +253,22 @@ def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
         request = replace(request, bodies=most)
         log.info("The picture has %d of %d bodies.", most, shown[frame])
     scene = make_scene(request, run, [frame], drawn=True)
+    if len(before := _trailing(run, frame, scene)) > 1:
+        request = replace(request, time=float(run.times[frame]))
+        scene = replace(
+            make_scene(request, run, before, drawn=True), camera=scene.camera, enlargement=scene.enlargement
+        )
     if values is None:
         return scene
     return replace(scene, range=request.range or limits_of_values(values, request.percentiles))
+
+
+def _trailing(run: Run, frame: int, scene: Scene) -> list[int]:
+    """Return the indices of the times that the trails of a picture need."""
+    if not scene.trail or len(scene.bodies.ids) > MOST_TRAILS:
+        return [frame]
+    first = int(np.searchsorted(run.times, run.times[frame] - scene.trail, side="right")) - 1
+    return list(range(max(0, first, frame - _MOST_TRAILING), frame + 1))
 
 
 def _background(request: Request, run: Run) -> _Background:

@@ -463,10 +463,14 @@ class TestControls:
         assert "escaped through lid" in tab.page.locator("#legends").inner_text()
         assert not tab.page.is_visible("#range-row")
 
-    def test_paths_and_deposits(self, tab):
+    def test_trails_and_deposits(self, tab):
         tab.run("foamprb.show(7)")
+        assert tab.page.input_value("#trails") == "fading"
+        fading = tab.pixels()
+        tab.page.select_option("#trails", "none")
         before = tab.pixels()
-        tab.page.select_option("#paths", "all")
+        assert (np.abs(fading.astype(int) - before) > 20).any(axis=2).mean() > 5e-4
+        tab.page.select_option("#trails", "whole")
         with_paths = tab.pixels()
         assert (np.abs(with_paths.astype(int) - before) > 20).any(axis=2).mean() > 0.002
         tab.page.select_option("#deposits", "none")

@@ -14,7 +14,7 @@ from view_run import motion, write_run
 
 from foamprb.cli import main
 from foamprb.view.colours import DARK, LIGHT, rgb
-from foamprb.view.picture import _drawing, draw, mark, sphere_for, window
+from foamprb.view.picture import _drawing, draw, mark, sphere_for, trails, window
 from foamprb.view.results import open_run
 from foamprb.view.show import Request, make_scene
 
@@ -63,6 +63,24 @@ class TestMeshes:
         around = shape.points[:, 0] > 0.95
         assert (near | around).all()
         assert (np.abs(shape.points).min(axis=0) < 0.05).all()
+
+
+class TestTrails:
+    def test_a_trail_ends_at_its_body_and_fades(self, case):
+        scene = make_scene(Request(case), open_run(case), range(5))
+        points, colours = trails(scene, 4)
+        bodies = scene.bodies
+        newest = [np.abs(points[:, 1] - x).max(axis=1).argmin() for x in bodies.x[4, bodies.present[3]]]
+        np.testing.assert_allclose(points[newest, 1], bodies.x[4, bodies.present[3]])
+        assert set(colours[newest, 1, 3]) == {216}
+        tail = bodies.times[4] - scene.trail
+        assert colours[:, 0, 3].min() == 0 if tail > 0.0 else colours[:, 0, 3].min() < 216
+
+    def test_it_does_not_cross_the_domain_with_a_body_that_jumps(self, case):
+        scene = make_scene(Request(case), open_run(case), range(5))
+        all_of_them = len(trails(scene, 1)[0])
+        scene.bodies.x[1, 1] += 50.0
+        assert len(trails(scene, 1)[0]) == all_of_them - 1
 
 
 @drawn

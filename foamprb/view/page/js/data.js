@@ -150,6 +150,14 @@ export async function load() {
     shapeStep: scene.bodies.shapes.step[0],
     bits: await column(scene.bodies.present, Uint8Array),
     bytesOfBits: scene.bodies.present.shape[1],
+    // Whether a body passed through a coupled patch before a time: it moved much farther than its velocities carry it.
+    jumps(t, i) {
+      const a = 3 * (n * (t - 1) + i), b = 3 * (n * t + i), { x } = this;
+      const far = Math.hypot(x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]);
+      if (far < 0.1 || !fields.U) return false;
+      const fastest = Math.max(...[t - 1, t].map((k) => fields.U.value(k, i, "magnitude")));
+      return far * frame.size > 10 * fastest * (scene.times[t] - scene.times[t - 1]);
+    },
     present(t, i) { return (this.bits[t * this.bytesOfBits + (i >> 3)] >> (i & 7)) & 1; },
   };
 }

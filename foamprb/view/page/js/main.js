@@ -8,13 +8,14 @@ import { compassHeight, compassWidth, paintCompass } from "./compass.js";
 import { bytesOf, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
 import { load } from "./data.js";
 import { paintLegends, showLegend } from "./legend.js";
-import { Deposits, Paths, Plane, Walls } from "./surroundings.js";
+import { Deposits, Plane, Walls } from "./surroundings.js";
+import { Trails } from "./trails.js";
 
 const $ = (id) => document.getElementById(id);
 const words = new URLSearchParams(location.hash.slice(1));
 // Digits of the values of a page.
 const DIGITS = 4;
-const MOST_PATHS = 400_000;
+const MOST_SEGMENTS = 400_000;
 const SPEEDS = [2, 5, 10, 15, 25, 30, 60];
 
 const keys = [
@@ -35,7 +36,7 @@ const keys = [
   ["H", "this list", () => $("about").showModal()],
 ];
 
-let data, renderer, eye, bodies, walls, plane, paths, deposits;
+let data, renderer, eye, bodies, walls, plane, trails, ownTrail, deposits;
 const scene = new Scene();
 const state = {
   t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
@@ -57,8 +58,9 @@ async function start() {
   bodies = new Bodies(data);
   walls = new Walls(data);
   deposits = new Deposits();
-  paths = new Paths(data);
-  scene.add(bodies.mesh, walls.group, paths.lines, deposits.points);
+  trails = new Trails(data, 3);
+  ownTrail = new Trails(data, 4);
+  scene.add(bodies.mesh, walls.group, trails.mesh, ownTrail.mesh, deposits.points);
   if (data.slice) scene.add((plane = new Plane(data)).mesh);
   eye = new Eye(canvas, spec.home, insets(), () => { dirty = true; }, tap);
   for (const [name, digits] of Object.entries({ ...spec.maps, ...spec.planeMaps })) textures[name] = { bytes: table(digits), texture: null };
@@ -95,6 +97,7 @@ function loop(now) {
 
 function draw() {
   dirty = false;
+  for (const { material } of [trails, ownTrail]) material.uniforms.size.value.set(eye.width, eye.height);
   const tangent = 2 * Math.tan((data.scene.home.angle * Math.PI) / 360);
   bodies.material.uniforms.pixel.value = tangent / eye.height;
   renderer.render(scene, eye.camera);
@@ -139,11 +142,9 @@ function insets() {
 // In the flow or on a wall.
 const inside = (word) => word === "active" || word === "stuck";
 
-function isShown(i) {
-  if (!data.present(state.t, i)) return false;
-  const { status, fate, injector } = data.codes;
-  const word = status.meaning(state.t, i);
-  if (!inside(word) && !state.gone) return false;
+// Whether a body passes the filters, whether or not it is in the flow.
+function passes(i) {
+  const { fate, injector } = data.codes;
   if (state.fates.has(fate.code(0, i))) return false;
   if (injector && state.injectors.has(injector.code(state.t, i))) return false;
   const { filter } = state;
@@ -154,20 +155,25 @@ function isShown(i) {
   return true;
 }
 
+function isShown(i) {
+  if (!data.present(state.t, i)) return false;
+  return (state.gone || inside(data.codes.status.meaning(state.t, i))) && passes(i);
+}
+
+// Place of a body in the colours at a time, 0 to 1; −1 if unknown.
+function colourAt(t, i) {
+  const codes = data.codes[state.name];
+  if (codes) return codes.code(t, i) / 255;
+  const value = data.fields[state.name].value(t, i, state.part);
+  return Number.isFinite(value) ? Math.max(0, Math.min(1, (value - state.low) / (state.high - state.low || 1))) : -1;
+}
+
 function show(t) {
   const before = state.t;
   state.t = t;
-  const field = data.fields[state.name], codes = data.codes[state.name];
-  const span = state.high - state.low || 1;
-  const colour = codes
-    ? (i) => codes.code(t, i) / 255
-    : (i) => {
-      const value = field.value(t, i, state.part);
-      return Number.isFinite(value) ? Math.max(0, Math.min(1, (value - state.low) / span)) : -1;
-    };
-  state.count = bodies.show(t, isShown, colour);
+  state.count = bodies.show(t, isShown, (i) => colourAt(t, i));
   bodies.material.uniforms.chosen.value = state.chosen;
-  paths.lines.material.uniforms.now.value = data.times[t] * (1 + 1e-6) + 1e-12;
+  showTrails();
   if (state.follow && state.chosen >= 0) {
     const a = 3 * (data.n * before + state.chosen), b = 3 * (data.n * t + state.chosen), { x } = data;
     eye.target.add(new Vector3(x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]));
@@ -205,24 +211,21 @@ function showDeposits() {
   deposits.draw(list);
 }
 
-function showPaths() {
-  const wanted = $("paths").value;
+// Fading trails of the shown bodies and of those that have just left, or whole paths up to now. The selected body
+// has its whole path.
+function showTrails() {
+  const wanted = $("trails").value, { t, chosen } = state, now = data.times[t];
   let list = [];
-  if (wanted === "chosen" && state.chosen >= 0) list = [state.chosen];
-  if (wanted === "all") {
-    for (let i = 0; i < data.n; i++) {
-      const { fate, injector } = data.codes;
-      if (state.fates.has(fate.code(0, i)) || (injector && state.injectors.has(injector.code(data.m - 1, i)))) continue;
-      list.push(i);
-    }
-    const most = Math.max(1, Math.floor(MOST_PATHS / data.m));
-    if (list.length > most) {
-      say(`Paths of ${most} of ${list.length} bodies are drawn.`);
-      list = Array.from({ length: most }, (_, k) => list[Math.floor((k * list.length) / most)]);
-    }
+  if (wanted === "fading" || wanted === "whole") for (let i = 0; i < data.n; i++) if (data.present(t, i) && passes(i)) list.push(i);
+  const most = wanted === "fading" ? data.scene.mostTrails : Math.max(1, Math.floor(MOST_SEGMENTS / data.m));
+  if (list.length > most) {
+    say(`${most} of ${list.length} bodies have trails.`);
+    list = Array.from({ length: most }, (_, k) => list[Math.floor((k * list.length) / most)]);
   }
-  paths.draw(list);
-  paths.lines.material.uniforms.opacity.value = wanted === "chosen" ? 0.95 : Math.max(0.18, Math.min(0.6, 60 / list.length));
+  const fading = wanted === "fading", start = data.times[0] - 1;
+  trails.draw(list, fading ? now - data.scene.trail : start, now, colourAt, fading);
+  trails.material.uniforms.opacity.value = fading ? 0.85 : Math.max(0.18, Math.min(0.6, 60 / list.length));
+  ownTrail.draw(wanted !== "none" && chosen >= 0 ? [chosen] : [], start, now, colourAt, false);
   dirty = true;
 }
 
@@ -304,6 +307,7 @@ function fill(spec) {
   if (injector) choices($("injectors"), injector, (i) => injector.code(data.m - 1, i), state.injectors);
   $("injectors").hidden = !injector || injector.meanings.length < 2;
   $("deposits-row").hidden = !fate.meanings.some((word) => word.startsWith("stuck"));
+  $("trails").value = data.m > 1 && spec.trail > 0 && data.n <= spec.mostTrails ? "fading" : "none";
   if (data.n > spec.mostDeposits) $("deposits").value = "none";
   else $("deposits").value = "now";
   $("walls").hidden = data.surfaces.length === 0;
@@ -343,7 +347,6 @@ function choices(details, codes, codeOf, hidden) {
   for (const [code, count] of [...counts].sort((a, b) => a[0] - b[0])) {
     const label = check(codes.meanings[code] ?? "none", true, (on) => {
       hidden[on ? "delete" : "add"](code);
-      showPaths();
       show(state.t);
     });
     const number = document.createElement("span");
@@ -398,7 +401,7 @@ function setMap(name) {
 }
 
 function setTexture(entry, sharp) {
-  bodies.material.uniforms.colours.value = textureOf(entry, sharp);
+  for (const { material } of [bodies, trails, ownTrail]) material.uniforms.colours.value = textureOf(entry, sharp);
   dirty = true;
 }
 
@@ -464,7 +467,6 @@ function paint() {
   walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent") }, $("opacity").value, dark());
   bodies.material.uniforms.darkness.value = dark() ? 1 : 0;
   bodies.material.uniforms.accent.value.set(...rgb("--accent"));
-  paths.lines.material.uniforms.base.value.set(...rgb("--ink"));
   deposits.points.material.uniforms.base.value.set(...rgb("--deposit"));
   deposits.points.material.uniforms.paper.value.set(...paper);
   dirty = true;
@@ -513,7 +515,6 @@ function choose(i) {
     openPanel(false);
     say(`Body ${data.ids[i]} is selected.`);
   }
-  showPaths();
   show(state.t);
   resize();
   if (i >= 0) bringIntoView(i);
@@ -729,7 +730,7 @@ function listen() {
     setEnlargement(value < 1.02 ? 1 : Number(value.toPrecision(2)));
   });
   on("mark", "change", () => { bodies.material.uniforms.mark.value = $("mark").checked ? 1 : 0; dirty = true; });
-  on("paths", "change", showPaths);
+  on("trails", "change", showTrails);
   on("deposits", "change", () => { showDeposits(); dirty = true; });
   on("gone", "change", () => { state.gone = $("gone").checked; show(state.t); });
   for (const id of ["filter", "filter-low", "filter-high"]) on(id, "change", setFilter);

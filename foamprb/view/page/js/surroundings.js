@@ -1,4 +1,4 @@
-// Surroundings of the bodies: walls, edges, a plane through the flow, paths, and marks of deposits.
+// Surroundings of the bodies: walls, edges, a plane through the flow, and marks of deposits.
 
 import {
   BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, GLSL3, Group, LineSegments, Mesh, Points,
@@ -26,7 +26,8 @@ uniform float opacity;
 out vec4 colour;
 ${SHADE}
 void main() {
-  vec3 normal = normalize(gl_FrontFacing ? across : -across);
+  // Towards the viewer: gl_FrontFacing is true for the visible side of any material.
+  vec3 normal = normalize(dot(across, place) < 0.0 ? across : -across);
   vec3 towards = normalize(-place);
   float facing = abs(dot(normal, towards));
   float lit = 0.5 + 0.5 * dot(normal, normalize(vec3(-0.35, 0.75, 0.55)));
@@ -38,11 +39,8 @@ void main() {
 const LINE_VERTEX = `
 precision highp float;
 in vec3 position;
-in float time;
 uniform mat4 modelViewMatrix, projectionMatrix;
-out float when;
 void main() {
-  when = time;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   // Edges lie in front of their walls.
   gl_Position.z -= 2e-5 * gl_Position.w;
@@ -50,12 +48,10 @@ void main() {
 
 const LINE_FRAGMENT = `
 precision highp float;
-in float when;
 uniform vec3 base;
-uniform float opacity, now;
+uniform float opacity;
 out vec4 colour;
 void main() {
-  if (when > now) discard;
   colour = vec4(base, opacity);
 }`;
 
@@ -132,8 +128,7 @@ export class Walls {
     });
     const edges = new BufferGeometry();
     edges.setAttribute("position", new BufferAttribute(data.edges, 3));
-    edges.setAttribute("time", new BufferAttribute(new Float32Array(data.edges.length / 3), 1));
-    this.edges = new LineSegments(edges, material(LINE_VERTEX, LINE_FRAGMENT, { base: new Vector3(), opacity: 0.75, now: 1 }, { transparent: true, depthWrite: false }));
+    this.edges = new LineSegments(edges, material(LINE_VERTEX, LINE_FRAGMENT, { base: new Vector3(), opacity: 0.75 }, { transparent: true, depthWrite: false }));
     this.edges.renderOrder = 4;
     this.group.add(this.edges);
   }
@@ -176,54 +171,6 @@ export class Plane {
       this.value.array[i] = (field.low[0] + field.step[0] * field.whole[i] - low) / (high - low || 1);
     }
     this.value.needsUpdate = true;
-  }
-}
-
-// Paths of bodies up to the shown time: recorded by the run, else through the written times.
-export class Paths {
-  constructor(data) {
-    this.data = data;
-    this.lines = new LineSegments(new BufferGeometry(), material(LINE_VERTEX, LINE_FRAGMENT,
-      { base: new Vector3(), opacity: 0.5, now: 0 }, { transparent: true, depthWrite: false }));
-    this.lines.frustumCulled = false;
-    this.lines.renderOrder = 3;
-    this.recorded = new Map();
-    if (data.paths) {
-      // A path through a coupled patch has several parts.
-      data.paths.bodies.forEach((body, k) => this.recorded.set(body, [...(this.recorded.get(body) ?? []), k]));
-    }
-  }
-
-  // Draw the paths of some bodies.
-  draw(bodies) {
-    const { data } = this;
-    const { n, m, x, times, paths } = data;
-    const places = [], when = [];
-    const add = (from, i, to, j, time) => {
-      places.push(from[3 * i], from[3 * i + 1], from[3 * i + 2], to[3 * j], to[3 * j + 1], to[3 * j + 2]);
-      when.push(time, time);
-    };
-    for (const body of bodies) {
-      const parts = this.recorded.get(body);
-      if (parts) {
-        for (const k of parts) {
-          for (let i = paths.start[k] + 1; i < paths.start[k + 1]; i++) add(paths.points, i - 1, paths.points, i, paths.times[i]);
-        }
-      } else {
-        for (let t = 1; t < m; t++) {
-          const i = n * (t - 1) + body, j = n * t + body;
-          if (!data.present(t - 1, body) || !data.present(t, body)) continue;
-          if (x[3 * i] === x[3 * j] && x[3 * i + 1] === x[3 * j + 1] && x[3 * i + 2] === x[3 * j + 2]) continue;
-          add(x, i, x, j, times[t]);
-        }
-      }
-    }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(new Float32Array(places), 3));
-    geometry.setAttribute("time", new BufferAttribute(new Float32Array(when), 1));
-    this.lines.geometry.dispose();
-    this.lines.geometry = geometry;
-    this.lines.visible = places.length > 0;
   }
 }
 
