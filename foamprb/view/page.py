@@ -111,7 +111,7 @@ class Page:
             "version": self._version,
             "title": html.escape(f"{self.scene.title} – {self.scene.subtitle}"),
             "style": style,
-            "licence": html.escape(_text("LICENSE.three"), quote=False),
+            "licence": html.escape("\n".join(map(_text, ("LICENSE.three", "LICENSE.uplot"))), quote=False),
             # Only this character could end a script element.
             "scene": header.replace("<", "\\u003c"),
             "script": script,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import csv
 import io
 import math
@@ -383,6 +384,70 @@ class TestChoosing:
         tab.page.keyboard.press(".")
         after = tab.run("foamprb.placeOf(4)")
         assert (after["x"], after["y"]) == pytest.approx((before["x"], before["y"]), abs=0.5)
+
+    def test_its_shapes_are_drawn_at_one_scale_beside_a_bar(self, tab, moved):
+        """The area of an ellipsoid's shadow is π times the root of the determinant of its 2×2 part."""
+        tab.run("foamprb.choose(4)")
+        tab.run("foamprb.draw()")
+        data = tab.run("document.getElementById('gallery').toDataURL()").split(",")[1]
+        image = np.array(Image.open(io.BytesIO(base64.b64decode(data))).convert("RGBA")).astype(float)
+        label = tab.page.get_attribute("#gallery", "aria-label")
+        assert label.startswith("Shape at 8 times from 0 s to 0.7 s, to scale; bar of ")
+        # Columns of the bar, from its right end on.
+        bar = (image[-14:-11, ::-1, 3] > 128).any(axis=0)[6:]
+        pixel = 1e-3 * float(re.search(r"bar of (\S+) mm", label)[1]) / (bar.argmin() + 1.25)
+        axes = tab.run("(a => [a.right.toArray(), a.up.toArray()])(foamprb.eye.axes())")
+        tile = image.shape[1] // 4
+        for k in range(M):
+            G = np.array(axes) @ moved.F[k, 4] * moved.radius[4]
+            area = np.pi * math.sqrt(np.linalg.det(G @ G.T)) / pixel**2
+            top, left = k // 4 * (tile + 15), k % 4 * tile
+            found = (image[top : top + tile, left : left + tile, :3].min(axis=2) < 235).sum()
+            assert found == pytest.approx(area, rel=0.08)
+
+
+class TestPlot:
+    def test_median_and_band_are_those_of_the_shown_bodies(self, tab, scene):
+        assert not tab.page.is_visible("#plot")
+        tab.page.keyboard.press("t")
+        tab.run("foamprb.draw()")
+        found = np.array(tab.run("foamprb.plot.plot.data.slice(1)"))
+        values = np.where(scene.bodies.shown, scene.bodies.fields["taylorDeformation"].channel(""), np.nan)
+        expected = np.nanquantile(values, [0.95, 0.5, 0.05], axis=1)
+        np.testing.assert_allclose(found, expected, rtol=2e-4, atol=1e-6)
+        tab.page.click("#plot-close")
+        assert not tab.page.is_visible("#plot")
+
+    def test_a_click_sets_the_time_and_a_drag_filters(self, tab, scene):
+        tab.page.click("#open-plot")
+        tab.run("foamprb.draw()")
+        over = tab.page.locator("#curves .u-over").bounding_box()
+        tab.page.mouse.click(over["x"] + 0.99 * over["width"], over["y"] + 20)
+        assert tab.run("foamprb.state.t") == M - 1
+        tab.run("foamprb.show(4)")
+        tab.page.mouse.move(over["x"] + 0.5 * over["width"], over["y"] + 5)
+        tab.page.mouse.down()
+        tab.page.mouse.move(over["x"] + 0.65 * over["width"], over["y"] + 0.5 * over["height"], steps=4)
+        tab.page.mouse.up()
+        box = tab.run("foamprb.plot.box")
+        values = np.where(scene.bodies.shown, scene.bodies.fields["taylorDeformation"].channel(""), np.nan)
+        inside = (scene.bodies.times >= box["from"]) & (scene.bodies.times <= box["to"])
+        passing = ((values >= box["low"]) & (values <= box["high"]))[inside].any(axis=0)
+        assert inside.tolist() == [False] * 4 + [True] + [False] * 3
+        assert tab.text("caption").startswith(f"{passing.sum()} bodies")
+        tab.page.click("#plot-clear")
+        assert tab.text("caption").startswith("30 bodies")
+
+    def test_curves_of_chosen_bodies_and_numbers_by_name(self, tab, scene):
+        tab.run("foamprb.choose(4)")
+        tab.page.check("#keep")
+        tab.run("foamprb.choose(7)")
+        tab.run("foamprb.draw()")
+        assert tab.page.locator("#plot-keys span").all_inner_texts() == ["4", "7"]
+        tab.page.select_option("#colour", "injector:")
+        tab.run("foamprb.draw()")
+        half = [scene.bodies.shown[:, k::2].sum(axis=1).tolist() for k in (0, 1)]
+        assert tab.run("foamprb.plot.plot.data.slice(1)") == half
 
 
 class TestTime:

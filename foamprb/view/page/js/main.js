@@ -5,9 +5,11 @@ import { Bodies } from "./bodies.js";
 import { Eye } from "./camera.js";
 import { drawChart } from "./chart.js";
 import { compassHeight, compassWidth, paintCompass } from "./compass.js";
-import { bytesOf, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
+import { bytesOf, colourOfName, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
 import { load } from "./data.js";
+import { GALLERY, Gallery } from "./gallery.js";
 import { paintLegends, showLegend } from "./legend.js";
+import { CURVES, TimePlot, curveKey, quantiles, through } from "./plot.js";
 import { Deposits, Plane, Walls } from "./surroundings.js";
 import { Trails } from "./trails.js";
 
@@ -32,17 +34,18 @@ const keys = [
   ["M", "mark on the surface", () => toggle("mark")],
   ["S", "save the picture", () => savePicture()],
   ["D", "light or dark", () => setTheme(dark() ? "light" : "dark")],
+  ["T", "values over time", () => openPlot($("plot").hidden)],
   ["O", "options", () => openPanel(!$("panel").classList.contains("open"))],
   ["H", "this list", () => $("about").showModal()],
 ];
 
-let data, renderer, eye, bodies, walls, plane, trails, ownTrail, deposits;
+let data, renderer, eye, bodies, walls, plane, trails, ownTrail, deposits, plot, gallery;
 const scene = new Scene();
 const state = {
   t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
-  enlargement: 1, fates: new Set(), injectors: new Set(), gone: false, curve: null, count: 0,
+  enlargement: 1, fates: new Set(), injectors: new Set(), gone: false, curve: null, count: 0, kept: [], boxed: null,
 };
-let legends = [], dirty = false, textures = {};
+let legends = [], dirty = false, stale = false, textures = {};
 
 async function start() {
   if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it needs WebGL 2, which this browser or computer does not provide");
@@ -65,6 +68,8 @@ async function start() {
   eye = new Eye(canvas, spec.home, insets(), () => { dirty = true; }, tap);
   for (const [name, digits] of Object.entries({ ...spec.maps, ...spec.planeMaps })) textures[name] = { bytes: table(digits), texture: null };
 
+  gallery = new Gallery(data);
+  plot = new TimePlot($("curves"), (time) => { play(false); show(nearestFrame(time)); }, setBox);
   describe(spec);
   fill(spec);
   listen();
@@ -76,6 +81,7 @@ async function start() {
   setSlice();
   $("app").classList.remove("loading");
   $("notice").textContent = "";
+  if (innerWidth >= 1100 && innerHeight >= 820 && data.m > 2) openPlot(true);
   resize();
   eye.goHome();
   new ResizeObserver(resize).observe($("stage"));
@@ -100,9 +106,20 @@ function draw() {
   for (const { material } of [trails, ownTrail]) material.uniforms.size.value.set(eye.width, eye.height);
   const tangent = 2 * Math.tan((data.scene.home.angle * Math.PI) / 360);
   bodies.material.uniforms.pixel.value = tangent / eye.height;
+  if (stale) drawPlot();
+  if (!$("card").hidden) drawGallery();
   renderer.render(scene, eye.camera);
   placeLabels();
   drawCompass();
+}
+
+function drawGallery() {
+  const i = state.chosen, life = [...data.times.keys()].filter((t) => counts(t, i));
+  const number = Math.min(GALLERY, life.length), frames = Array.from({ length: number }, (_, k) => life[Math.round((k * (life.length - 1)) / Math.max(1, number - 1))]);
+  $("gallery").hidden = number === 0;
+  if (number === 0) return;
+  const style = { ...textStyle(), raised: new Color().setRGB(...bytesOf(variable("--raised")).map((byte) => byte / 255)) };
+  $("gallery").setAttribute("aria-label", gallery.paint($("gallery"), renderer, i, frames, state.t, colourAt, eye.axes(), bodies.material, style));
 }
 
 function drawCompass() {
@@ -143,13 +160,12 @@ function insets() {
 const inside = (word) => word === "active" || word === "stuck";
 
 // Whether a body passes the filters, whether or not it is in the flow.
-function passes(i) {
-  const { fate, injector } = data.codes;
-  if (state.fates.has(fate.code(0, i))) return false;
-  if (injector && state.injectors.has(injector.code(state.t, i))) return false;
-  const { filter } = state;
+function passes(i, t = state.t) {
+  const { fate, injector } = data.codes, { filter, boxed } = state;
+  if (state.fates.has(fate.code(0, i)) || (boxed && !boxed[i])) return false;
+  if (injector && state.injectors.has(injector.code(t, i))) return false;
   if (filter && filter.field) {
-    const value = filter.field.value(state.t, i, filter.part);
+    const value = filter.field.value(t, i, filter.part);
     if (!(value >= filter.low && value <= filter.high)) return false;
   }
   return true;
@@ -180,6 +196,7 @@ function show(t) {
     eye.place();
   }
   showDeposits();
+  plot.at(data.times[t]);
   $("time").value = t;
   const text = written(data.times[t], "s", data.times[data.m - 1]);
   $("time").setAttribute("aria-valuetext", text);
@@ -227,6 +244,70 @@ function showTrails() {
   trails.material.uniforms.opacity.value = fading ? 0.85 : Math.max(0.18, Math.min(0.6, 60 / list.length));
   ownTrail.draw(wanted !== "none" && chosen >= 0 ? [chosen] : [], start, now, colourAt, false);
   dirty = true;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Values over time
+
+const nearestFrame = (time) => data.times.reduce((best, t, k) => (Math.abs(t - time) < Math.abs(data.times[best] - time) ? k : best), 0);
+
+function restale() {
+  stale = dirty = true;
+}
+
+function openPlot(on) {
+  $("plot").hidden = !on;
+  $("open-plot").setAttribute("aria-expanded", String(on));
+  document.documentElement.classList.toggle("plotted", on);
+  restale();
+}
+
+// Whether a body counts at a time, and its value.
+const counts = (t, i) => data.present(t, i) && inside(data.codes.status.meaning(t, i));
+const valueAt = (t, i) => (counts(t, i) ? data.fields[state.name].value(t, i, state.part) : NaN);
+
+function drawPlot() {
+  stale = false;
+  if ($("plot").hidden) return;
+  const field = data.fields[state.name], codes = data.codes[state.name], every = Array.from({ length: data.n }, (_, i) => i);
+  const list = state.chosen >= 0 && !state.kept.includes(state.chosen) ? [...state.kept, state.chosen] : state.kept;
+  const curves = field ? list.map((i, k) => ({ values: series(field, state.part, i), colour: CURVES[k], text: `${data.ids[i]}` })) : [];
+  const numbers = field ? [] : legends[0].names.map(([code, text]) => ({ code, text, values: data.times.map(() => 0) }));
+  for (const { code, values } of numbers) {
+    values.forEach((_, t) => { for (let i = 0; i < data.n; i++) if (codes.code(t, i) === code && counts(t, i) && passes(i, t)) values[t]++; });
+  }
+  const band = field ? quantiles(data.m, every, (t, i) => (passes(i, t) ? valueAt(t, i) : NaN)) : null;
+  const style = { ...textStyle(), line: variable("--line"), mark: variable("--deposit"), band: dark() ? "rgb(173 185 197 / 28%)" : "rgb(76 89 102 / 20%)" };
+  plot.draw({
+    times: data.times, unit: field?.unit ?? "", band, curves, counts: numbers, style,
+    table: field && textures[state.map]?.bytes, limits: [state.low, state.high],
+  });
+  const { unit, clock } = plot.scale, name = field ? capital(nameOf(field, state.part)) : "Bodies in the flow or on walls";
+  $("plot-title").textContent = `${name}${unit ? ` (${unit})` : ""} over time (${clock})`;
+  $("plot-words").textContent = field ? "Median and 5–95 % of the shown bodies" : "";
+  $("plot-keys").replaceChildren(...[...curves.map(({ text }, k) => [text, CURVES[k], k]), ...numbers.map(({ code, text }) => [text, colourOfName(code), 0])]
+    .map(([text, colour, k]) => curveKey(text, colour, k)));
+  plot.at(data.times[state.t]);
+}
+
+// Show only the bodies whose curves pass through a box of the plot; all if it is null.
+function setBox(box) {
+  plot.box = box;
+  const field = data.fields[state.name], codes = data.codes[state.name];
+  state.boxed = box && field && !codes ? through(data.times, data.n, box, valueAt) : null;
+  const count = state.boxed?.reduce((a, b) => a + b, 0);
+  $("plot-clear").hidden = !state.boxed;
+  $("plot-clear").textContent = `${count} ${count === 1 ? "body passes" : "bodies pass"} through the box. Show all`;
+  if (state.boxed) say($("plot-clear").textContent);
+  restale();
+  show(state.t);
+}
+
+function keep(on) {
+  state.kept = state.kept.filter((i) => i !== state.chosen);
+  if (on) state.kept = [...state.kept, state.chosen].slice(-CURVES.length + 1);
+  if (on) openPlot(true);
+  restale();
 }
 
 // Place the names of patches; a name that would overlap an earlier one is hidden.
@@ -347,6 +428,7 @@ function choices(details, codes, codeOf, hidden) {
   for (const [code, count] of [...counts].sort((a, b) => a[0] - b[0])) {
     const label = check(codes.meanings[code] ?? "none", true, (on) => {
       hidden[on ? "delete" : "add"](code);
+      restale();
       show(state.t);
     });
     const number = document.createElement("span");
@@ -359,6 +441,8 @@ function choices(details, codes, codeOf, hidden) {
 
 function setColour(name, part, range = null) {
   Object.assign(state, { name, part });
+  if (state.boxed) setBox(null);
+  restale();
   $("colour").value = `${name}:${part}`;
   const codes = data.codes[name];
   for (const id of ["range-row", "range-buttons", "map-row"]) $(id).hidden = Boolean(codes);
@@ -386,6 +470,7 @@ function setRange(low, high, redraw = true) {
   $("range-word").textContent = `Range${unit}`;
   const [least, most] = field.ranges[state.part].extremes;
   legends[0] = { label: capital(nameOf(field, state.part)), unit: field.unit, low, high, least, most, table: textures[state.map]?.bytes };
+  restale();
   if (redraw) { showLegends(); show(state.t); }
 }
 
@@ -396,6 +481,7 @@ function setMap(name) {
   state.map = name;
   $("map").value = name;
   setTexture(textures[name], false);
+  restale();
   if (legends[0] && !legends[0].names) legends[0].table = textures[name].bytes;
   showLegends();
 }
@@ -453,6 +539,7 @@ function setTheme(wanted) {
   document.documentElement.dataset.theme = wanted === "auto" ? (system ? "dark" : "light") : wanted;
   paint();
   setSlice();
+  restale();
 }
 
 function variable(name) {
@@ -509,6 +596,8 @@ function tap({ x, y }) {
 
 function choose(i) {
   state.chosen = i;
+  restale();
+  $("keep").checked = state.kept.includes(i);
   if (i < 0) follow(false);
   $("card").hidden = i < 0;
   if (i >= 0) {
@@ -701,6 +790,7 @@ function readNumber(id, otherwise) {
 function setFilter() {
   const [name, part] = $("filter").value.split(":");
   state.filter = name ? { field: data.fields[name], part, low: readNumber("filter-low", -Infinity), high: readNumber("filter-high", Infinity) } : null;
+  restale();
   show(state.t);
 }
 
@@ -750,6 +840,10 @@ function listen() {
   on("picture", "click", savePicture);
   on("help", "click", () => $("about").showModal());
   on("follow", "change", () => follow($("follow").checked));
+  on("keep", "change", () => keep($("keep").checked));
+  on("open-plot", "click", () => openPlot($("plot").hidden));
+  on("plot-close", "click", () => { openPlot(false); $("open-plot").focus(); });
+  on("plot-clear", "click", () => setBox(null));
   on("card-close", "click", () => { choose(-1); $("canvas").focus(); });
   on("card-next", "click", () => chooseNext(1));
   on("card-previous", "click", () => chooseNext(-1));
@@ -798,6 +892,7 @@ window.foamprb = {
   ready, state, show, choose, bodyAt, setColour, setEnlargement, paintPicture, draw, placeOf,
   get data() { return data; },
   get eye() { return eye; },
+  get plot() { return plot; },
   get bodies() { return bodies; },
   get renderer() { return renderer; },
 };
