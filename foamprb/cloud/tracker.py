@@ -33,14 +33,14 @@ from foamprb.cloud.integrators.base import track_share
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import LoopLimits
-from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, beyond, clearance_of, reach_end
+from foamprb.cloud.motion import RARE, UNLISTED, PatchTable
 from foamprb.cloud.patches import MIRROR, NO_BOND, Adhere, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.viscosity import model_of
-from foamprb.compile.link import compile_part, is_compiled, link, linked, read_by
+from foamprb.compile.link import is_compiled, link, linked, read_by
 from foamprb.errors import InputError, closest
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
@@ -235,38 +235,6 @@ class Tracker:
             flow, self.table, self.medium, empty(0), nothing, 0, 0, self.dt, self.start, scratch,
             self.options,
         )  # fmt: skip
-
-    def compile_moves(self, flow: Any) -> None:
-        """Compile the moves at the end of each step."""
-        self._compile(reach_end, {"flow": flow})
-
-    def compile_contact(self, flow: Any) -> None:
-        """Compile contacts with walls, coupled patches and the first of the rare parts.
-
-        The other rare parts are compiled with the loop; together they take as long as the first.
-        """
-        self._compile(clearance_of, {"flow": flow})
-        for part in (beyond, *self.integrator.rare[:1]):
-            self._compile(part, {"flow": flow})
-
-    def compile_stages(self) -> None:
-        """Compile the stages."""
-        for stage in self.integrator.stages:
-            self._compile(stage, {})
-
-    def _compile(self, function: Callable[..., Any], arguments: dict[str, Any]) -> None:
-        """Compile a part of the loop with examples of its arguments."""
-        scratch, vector = self._scratch(), (0.0, 0.0, 0.0)
-        arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
-        arguments |= {"M": scratch.matrix}
-        arguments |= {"p": empty(0), "members": np.empty(0, dtype=np.int64)}
-        arguments |= dict.fromkeys(
-            ("i", "patch", "code", "triangle", "ahead", "step", "last", "kind"), np.int64(0)
-        )
-        arguments |= dict.fromkeys(("goal", "x0", "x1"), vector)
-        arguments |= dict.fromkeys(("tolerance", "allowed", "t", "t_end", "h", "dt", "start"), 0.0)
-        arguments |= {"held": False}
-        compile_part(function, arguments, self.bindings, self.separate)
 
     def _scratch(self, stop: Any = None, bounds: LoopLimits = LoopLimits()) -> Scratch:  # noqa: B008
         kept = self.layout.kept, self.layout.fresh

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import dis
 import hashlib
-import inspect
 import logging
 import os
 import platform
@@ -36,7 +35,7 @@ from foamprb.compile.trace import TRACED, branch
 if TYPE_CHECKING:
     from foamprb.compile.internals import Role
 
-__all__ = ["bound", "compile_part", "is_compiled", "link", "linked", "read_by", "traced"]
+__all__ = ["bound", "is_compiled", "link", "linked", "read_by", "traced"]
 
 log = logging.getLogger("foamprb")
 
@@ -131,29 +130,6 @@ def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
     """Mark a stage that is traced where it is a separate callee (:mod:`foamprb.compile.trace`)."""
     setattr(stage, TRACED, True)
     return stage
-
-
-def compile_part(
-    function: Callable[..., Any],
-    arguments: Mapping[str, Any],
-    bindings: Mapping[str, Any],
-    separate: Collection[Callable[..., Any]],
-) -> None:
-    """Compile a callee of an entry before the entry is compiled, here or in another process.
-
-    Parameters
-    ----------
-    arguments
-        An example of each argument, by the names of the parameters; others are ignored.
-    bindings, separate
-        Those of the entry. Only separate callees are saved in the cache.
-    """
-    if numba.config.DISABLE_JIT:
-        return
-    role: Role = "separate" if function in separate else "inlined"
-    part = _link(function, _Linkage(dict(bindings), frozenset(separate)), role)
-    names = inspect.signature(function).parameters
-    part.dispatcher.compile(tuple(numba.typeof(arguments[name]) for name in names))
 
 
 def is_compiled(dispatcher: Any) -> bool:

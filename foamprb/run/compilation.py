@@ -1,14 +1,13 @@
 """Compilation of the particle loop: for one run with a second process, or for all common runs beforehand.
 
 If the loop is not in the cache and there is a processor to spare, a second process compiles it while this one
-compiles some of its parts and reads the flow. Each process finds the other's code in the cache. If the second
-process fails, or compiled another loop than the run needs, this process compiles.
+reads the flow, for which it compiles about as much. This process finds the loop in the cache. If the second
+process fails, or compiled another loop than the run needs, this one compiles.
 """
 
 from __future__ import annotations
 
 import atexit
-import gc
 import logging
 import os
 import pickle
@@ -20,8 +19,8 @@ import numpy as np
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.measures import FlowSamples, context, measure
-from foamprb.cloud.state import Status, empty, spheres
+from foamprb.cloud.measures import context, measure
+from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models, Tracker, available_threads
 from foamprb.compile.cache import cache_directory
 from foamprb.flow.meshflow import MeshFlow
@@ -63,11 +62,6 @@ class Compilation:
         # The process may have ended already, if it cannot import its modules.
         with suppress(BrokenPipeError), self._process.stdin as pipe:
             pickle.dump((tracker, flow), pipe)
-        # The parts that the other process compiles last, and the measures: about half of the work.
-        arguments = flow.nothing()
-        tracker.compile_contact(arguments)
-        tracker.compile_stages()
-        context(empty(0), FlowSamples(np.empty((0, 3)), np.empty((0, 9))), 1.0, 0.0)
 
     def wait(self) -> None:
         """Wait until the process has ended."""
@@ -150,10 +144,7 @@ def compile_all() -> None:
 
 def main() -> None:
     """Compile the loop that the standard input describes."""
-    # The process lives for seconds: collecting garbage would only delay the other one.
-    gc.disable()
     tracker, flow = pickle.load(sys.stdin.buffer)
-    tracker.compile_moves(flow.nothing())
     tracker.compile(flow.nothing())
     os._exit(0)
 

@@ -16,7 +16,7 @@ from llvmlite import binding
 import foamprb
 from foamprb.body.tensor import longest_stretch, principal_frame
 from foamprb.compile import link as compiling
-from foamprb.compile.link import compile_part, link, read_by
+from foamprb.compile.link import link, read_by
 
 FIRST, SECOND = 2, 3
 
@@ -169,7 +169,7 @@ def test_unread_name_in_bindings_is_an_error(cache):
 
 
 def test_called_functions_are_found_by_other_processes(cache, monkeypatch):
-    compile_part(doubled, {"x": 1.25}, {}, (doubled,))
+    assert link(quadrupled, separate=(doubled,))(1.25) == 5.0
     monkeypatch.setattr(compiling, "_parts", {})
     assert link(octupled, separate=(doubled,))(1.25) == 10.0
     (part,) = [p for p in compiling._parts.values() if p.dispatcher.py_func.__code__ is doubled.__code__]

@@ -1,7 +1,9 @@
 """Tracing of stages: one execution on symbols gives the code for numbers."""
 
+import inspect
 import math
 
+import numba
 import numpy as np
 import pytest
 from hypothesis import given
@@ -124,7 +126,13 @@ def test_stages_of_all_integrators_are_traced(fresh):
     for integrator in INTEGRATORS.values():
         models = foamprb.Models(integrator=integrator.name)
         tracker = Tracker(models, MeshFlow.kernels, medium, [], 1e-3, 0.0, shaped=True, tense=False)
-        tracker.compile_stages()
+        scratch = tracker._scratch()
+        examples = {"block": scratch.block, "M": scratch.matrix, "medium": tracker.medium, "i": np.int64(0)}
+        examples |= {"allowed": 1.0, "tolerance": 1.0}
+        for stage in integrator.stages:
+            linkage = compiling._Linkage(tracker.bindings, frozenset(tracker.separate))
+            kinds = tuple(numba.typeof(examples[name]) for name in inspect.signature(stage).parameters)
+            compiling._link(stage, linkage, "separate").dispatcher.compile(kinds)
         unmarked = {stage for stage in integrator.stages if not hasattr(stage, TRACED)}
         # It solves the equations of a single lane.
         assert unmarked <= {dense_newton}

@@ -53,14 +53,7 @@ def test_one_processor_compiles_alone(two_processors, monkeypatch):
     Compilation(loop(), MeshFlow).wait()
 
 
-@pytest.fixture
-def nothing_to_compile(monkeypatch):
-    """The first process compiles none of the parts."""
-    for name in ("compile_contact", "compile_stages"):
-        monkeypatch.setattr(Tracker, name, lambda *_: None)
-
-
-@pytest.mark.usefixtures("two_processors", "nothing_to_compile")
+@pytest.mark.usefixtures("two_processors")
 def test_no_process_outlives_an_error_in_the_input(tmp_path, monkeypatch, capsys):
     started, popen = [], subprocess.Popen
 
@@ -76,7 +69,7 @@ def test_no_process_outlives_an_error_in_the_input(tmp_path, monkeypatch, capsys
     assert started[0].returncode is not None
 
 
-@pytest.mark.usefixtures("two_processors", "nothing_to_compile")
+@pytest.mark.usefixtures("two_processors")
 def test_a_stopped_process_is_not_waited_for():
     tracker = loop()
     compilation = Compilation(tracker, MeshFlow)
@@ -86,7 +79,7 @@ def test_a_stopped_process_is_not_waited_for():
     assert not tracker.compiled
 
 
-@pytest.mark.usefixtures("two_processors", "nothing_to_compile")
+@pytest.mark.usefixtures("two_processors")
 def test_a_process_that_cannot_start_is_ignored(monkeypatch):
     monkeypatch.setattr("foamprb.run.compilation.sys.executable", "/bin/false")
     tracker = loop()
@@ -116,9 +109,6 @@ def test_code_of_the_second_process_is_used(two_processors, tmp_path, monkeypatc
     stats = cloud.tracker._track.stats
     assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
     assert p.x[0, 0] > 0.5
-    # The stages as the first process would compile them are those that the loop is made of.
-    monkeypatch.setattr(compiling, "_parts", {})
-    assert not [stage.__name__ for stage in early.integrator.stages if early._compile(stage, {})]
 
 
 def test_after_compile_no_run_has_to(capsys):
