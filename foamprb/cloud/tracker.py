@@ -191,9 +191,12 @@ class Tracker:
         breaks = any(isinstance(interaction, Adhere) and interaction.breaks for interaction in interactions)
         self.movable = (Status.PENDING, Status.ACTIVE, *((Status.STUCK,) if breaks else ()))
         """Statuses of particles that may move again."""
+        g1, g2, g3 = map(float, medium.gravity)
         self.medium = medium._replace(
             # No kernel reads it where it varies.
-            mu=np.nan if model_of(medium.mu) else medium.mu,
+            mu=np.nan if model_of(medium.mu) else float(medium.mu),
+            rho=float(medium.rho),
+            gravity=(g1, g2, g3),
             coefficients=coefficients(models.forces),
             surroundings=surroundings.coefficients(around, patches),
         )
