@@ -5,6 +5,7 @@ from __future__ import annotations
 import colorsys
 import math
 import re
+from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -124,6 +125,38 @@ def ticks(low: float, high: float, wanted: int = 5) -> list[float]:
     inner = step * np.arange(math.ceil(low / step), math.floor(high / step) + 1)
     far = (inner - low > 0.6 * step) & (high - inner > 0.6 * step)
     return [low, *(float(f"{value:.12g}") for value in inner[far]), high]
+
+
+def round_limits(low: float, high: float) -> tuple[float, float]:
+    """Return round numbers, the first not above ``low``, the second not below ``high``.
+
+    A range on one side of zero that reaches near it begins at zero. A range on both sides is symmetric.
+    """
+    if low < 0.0 < high:
+        most = _round_up(max(-low, high))
+        return -most, most
+    if high <= 0.0 and low < 0.0:
+        a, b = round_limits(-high, -low)
+        return -b, -a
+    if high == 0.0:
+        return 0.0, 1.0
+    if low <= 0.3 * high or high - low <= 1e-6 * high:
+        return 0.0, _round_up(high)
+    step = _round_up(high - low) / 10.0
+    return math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step
+
+
+def _round_up(value: float) -> float:
+    """Return the least number of one digit that is not below a positive value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return float(f"{math.ceil(value / power * (1 - 1e-6)) * power:.12g}")
+
+
+def round_down(value: float, digits: Sequence[int] = (1, 2, 3, 4, 5, 6, 8)) -> float:
+    """Return the largest of some digits times a power of ten that is not above a positive value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    digit = max(digit for digit in digits if digit * power <= value * (1 + 1e-12))
+    return float(f"{digit * power:.12g}")
 
 
 def _pretty(unit: str) -> str:

@@ -1,17 +1,13 @@
-"""Boundary of the mesh, its edges, and planes through the flow."""
+"""Boundary of the mesh, and its edges."""
 
 from __future__ import annotations
 
-import re
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.viscosity import shear_rate
-from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.meshflow import MeshFlow
 from foamprb.view.libraries import load
 
 pyvista = load("pyvista")
@@ -24,14 +20,6 @@ MOST_TRIANGLES = 200_000
 _FEATURE_ANGLE = 30.0
 FLAT_TYPES = frozenset({"empty", "wedge"})
 """Types of patches of two-dimensional cases; these patches are not drawn."""
-PLANE = "speed"
-"""Default quantity of a plane through the flow."""
-
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-_VECTOR = rf"\(\s*({_NUMBER})\s+({_NUMBER})\s+({_NUMBER})\s*\)"
-_HOW_TO_SLICE = (
-    "Allowed: x, y or z (through the middle), z=0.01, or '(point) (normal)' such as '(0 0 0) (1 0 1)'."
-)
 
 
 class Surface(NamedTuple):
@@ -70,17 +58,6 @@ class Geometry(NamedTuple):
     def points(self) -> Floats:
         """All corners, (v, 3), m."""
         return np.concatenate([surface.points for surface in self.surfaces])
-
-
-class Slice(NamedTuple):
-    """Plane through the flow."""
-
-    points: Floats
-    """(v, 3), m."""
-    triangles: Ints
-    """(t, 3)."""
-    values: dict[str, tuple[str, str, Floats]]
-    """Label, unit and values (v,) by name."""
 
 
 def boundary(mesh: Mesh) -> Geometry:
@@ -138,90 +115,3 @@ def flat_normal(surfaces: list[Surface]) -> Floats | None:
     axes = np.linalg.eigh(sum(a.T @ a for a in areas))[1]
     normal = axes[:, 2]
     return np.asarray(normal * np.sign(normal[np.argmax(np.abs(normal))]))
-
-
-def read_plane(text: str, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Return point and unit normal of the plane of ``-slice``, in the box of a mesh.
-
-    Raises
-    ------
-    InputError
-        If the text has no allowed form, or the plane misses the box.
-    """
-    by_axis = re.fullmatch(rf"([xyz])(?:=({_NUMBER}))?", text.strip())
-    by_normal = re.fullmatch(rf"{_VECTOR}\s*{_VECTOR}", text.strip())
-    if by_axis:
-        axis = "xyz".index(by_axis[1])
-        origin, normal = 0.5 * (low + high), np.eye(3)[axis]
-        if by_axis[2]:
-            origin[axis] = float(by_axis[2])
-    elif by_normal:
-        numbers = [float(number) for number in by_normal.groups()]
-        origin, normal = np.array(numbers[:3]), np.array(numbers[3:])
-    else:
-        raise InputError(f"-slice {text}: not a plane. {_HOW_TO_SLICE}")
-    size = float(np.linalg.norm(normal))
-    if size == 0.0:
-        raise InputError(f"-slice {text}: the normal is zero.")
-    normal = normal / size
-    corners = np.array(
-        [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-    )
-    sides = (corners - origin) @ normal
-    if sides.min() > 0.0 or sides.max() < 0.0:
-        box = " to ".join("({:g} {:g} {:g})".format(*corner) for corner in (low, high))
-        raise InputError(f"-slice {text}: the plane misses the mesh, whose box is {box}.")
-    return origin, normal
-
-
-def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
-    """Return speed and shear rate of a flow on a plane, from the values at the nodes.
-
-    Parameters
-    ----------
-    flow
-        The flow.
-    origin, normal
-        A point of the plane, m, and its unit normal, each (3,).
-    """
-    mesh = flow.mesh
-    nodes, tets = mesh.nodes, mesh.tets.astype(np.int64)
-    distance = (nodes - origin) @ normal
-    # Nodes on the plane, such as cell centres of a mesh with one layer, count as above it.
-    distance += 1e-9 * np.ptp(nodes, axis=0).max()
-    above = distance[tets] > 0.0
-    n_above = above.sum(axis=1)
-    # Vertices of each tetrahedron; vertices below the plane come first.
-    order = np.argsort(above, axis=1, kind="stable")
-    pairs, hosts = [], []
-    for number, corners in _CUTS:
-        own = np.flatnonzero(n_above == number)
-        vertices = np.take_along_axis(tets[own], order[own], axis=1)
-        pairs.append(vertices[:, corners].reshape(-1, 2))
-        hosts.append(np.repeat(own, 3))
-    ends = np.sort(np.concatenate(pairs), axis=1)
-    unique, first, corner = np.unique(
-        ends[:, 0] * len(nodes) + ends[:, 1], return_index=True, return_inverse=True
-    )
-    one, other = unique // len(nodes), unique % len(nodes)
-    share = distance[one] / (distance[one] - distance[other])
-    points = nodes[one] + share[:, None] * (nodes[other] - nodes[one])
-    u, l = flow.sample(points, np.concatenate(hosts)[first].astype(np.int32), 0.0)
-    rate = np.asarray(shear_rate(tuple(l.reshape(-1, 9).T)))  # type: ignore[arg-type]
-    return Slice(
-        points,
-        corner.reshape(-1, 3).astype(np.int64),
-        {
-            "speed": ("speed of the flow", "m/s", np.linalg.norm(u, axis=1)),
-            "shearRate": ("shear rate of the flow", "1/s", rate),
-        },
-    )
-
-
-# Number of vertices above the plane, and the vertex pairs, below first, of the corners of a triangle.
-_CUTS = (
-    (1, (0, 3, 1, 3, 2, 3)),
-    (3, (0, 1, 0, 2, 0, 3)),
-    (2, (0, 2, 0, 3, 1, 3)),
-    (2, (0, 2, 1, 3, 1, 2)),
-)

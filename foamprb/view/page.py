@@ -19,7 +19,8 @@ from foamprb.view import encode
 from foamprb.view.bodies import Codes
 from foamprb.view.colours import DARK, LIGHT, MAPS, colour_map
 from foamprb.view.encode import Column, Grid
-from foamprb.view.geometry import Slice, Surface
+from foamprb.view.flowfield import QUANTITIES, STREAM_OPACITY, FlowField
+from foamprb.view.geometry import Surface
 from foamprb.view.scene import (
     INSETS,
     MARGIN,
@@ -33,7 +34,6 @@ from foamprb.view.scene import (
     anchor,
     extremes_of,
     limits_of,
-    round_limits,
 )
 
 _FOLDER = Path(__file__).parent / "page"
@@ -72,7 +72,7 @@ class Page:
         bodies, geometry = scene.bodies, scene.geometry
         shown = [geometry.points] if geometry is not None else []
         shown += [bodies.x[bodies.present]]
-        shown += [part.points for part in (scene.slice, scene.paths) if part is not None]
+        shown += [scene.paths.points] if scene.paths is not None else []
         low, high = encode.bounds(*shown)
         # The coordinates of the page: the origin is the middle of the box, the unit its longest side.
         self._middle, self._size = 0.5 * (low + high), float((high - low).max()) or 1.0
@@ -191,7 +191,7 @@ class Page:
         return {
             "surfaces": [self._surface(surface, grid) for surface in surfaces],
             "edges": self._add(encode.pack_points(edges, grid)),
-            "slice": None if scene.slice is None else self._slice(scene.slice, grid),
+            "flow": None if scene.flowfield is None else self._flow(scene.flowfield, grid),
             "paths": self._paths(grid),
         }
 
@@ -204,17 +204,30 @@ class Page:
             "triangles": self._add(encode.pack(surface.triangles)),
         }
 
-    def _slice(self, plane: Slice, grid: Grid) -> dict[str, Any]:
-        # The sections of the values come first.
-        values = [
-            {"name": name, "label": label, "unit": unit, "range": round_limits(value.min(), value.max())}
-            | self._add(encode.pack_values(value))
-            for name, (label, unit, value) in plane.values.items()
-        ]
+    def _flow(self, field: FlowField, grid: Grid) -> dict[str, Any]:
+        volume, plane = field.grid, field.plane
+        values = []
+        for name, own in volume.values.items():
+            label, unit = QUANTITIES[name]
+            low, high = field.scales[name].limits
+            described = {
+                "label": label,
+                "unit": unit,
+                "range": [low, high],
+                "extremes": field.scales[name].extremes,
+            }
+            share = np.clip((own - low) / ((high - low) or 1.0), 0.0, 1.0)
+            values.append(described | self._add(encode.pack(np.rint(255.0 * share))))
         return {
-            "points": self._add(encode.pack_points(plane.points, grid)),
-            "triangles": self._add(encode.pack(plane.triangles)),
+            "lines": {
+                "points": self._add(encode.pack_points(field.lines.points, grid)),
+                "start": self._add(encode.pack(field.lines.start)),
+                "opacity": STREAM_OPACITY,
+            },
+            "low": self._inside(volume.low),
+            "high": self._inside(volume.high),
             "values": values,
+            "plane": None if plane is None else [self._inside(plane[0]), _rounded(plane[1])],
         }
 
     def _paths(self, grid: Grid) -> dict[str, Any] | None:

@@ -30,10 +30,12 @@ from foamprb.view.colours import (
     number,
     readable,
     rgb,
+    round_down,
     ticks,
     written,
 )
-from foamprb.view.geometry import FLAT_TYPES, PLANE, Geometry, Slice
+from foamprb.view.flowfield import PLANE, QUANTITIES, STREAM_OPACITY, FlowField
+from foamprb.view.geometry import FLAT_TYPES, Geometry
 from foamprb.view.libraries import load
 from foamprb.view.scene import (
     INSETS,
@@ -43,8 +45,6 @@ from foamprb.view.scene import (
     VIEW_ANGLE,
     Scene,
     anchor,
-    round_down,
-    round_limits,
 )
 
 pyvista = load("pyvista")
@@ -133,10 +133,17 @@ class Drawing:
         self._write("title", scene.title, 17, "left", 30, bold=True)
         self._write("subtitle", scene.subtitle, 14, "left", 53)
         left = 22.0
-        if scene.slice is not None:
-            label, unit, values = scene.slice.values[PLANE]
-            limits = round_limits(float(values.min()), float(values.max()))
-            left = self._bar("plane", label, unit, limits, self.style.plane, left)
+        if scene.flowfield is not None and scene.flowfield.slice is not None:
+            scale = scene.flowfield.scales[PLANE]
+            left = self._bar(
+                "plane",
+                *QUANTITIES[PLANE],
+                scale.limits,
+                self.style.plane,
+                left,
+                scale.beyond,
+                scale.extremes,
+            )
         name, part = scene.colour
         if name in scene.bodies.fields:
             field = scene.bodies.fields[name]
@@ -450,8 +457,8 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool, off
     drawing = Drawing(plotter, scene, texts, style, scale)
     if scene.geometry is not None:
         draw_geometry(plotter, scene.geometry, style)
-    if scene.slice is not None:
-        draw_plane(plotter, scene.slice, style)
+    if scene.flowfield is not None:
+        draw_flow(plotter, scene.flowfield, style)
     if texts:
         drawing.label()
     _place_camera(plotter, scene, size, [inset * scale for inset in INSETS] if texts else [0.0, 0.0])
@@ -510,14 +517,17 @@ def draw_geometry(plotter: Any, geometry: Geometry, style: Style) -> None:
         plotter.add_mesh(lines, color=style.edge, line_width=1.0, lighting=False, **_LATER)
 
 
-def draw_plane(plotter: Any, plane: Slice, style: Style) -> None:
-    """Draw the plane through the flow, coloured by the speed."""
-    values = plane.values[PLANE][2]
-    low, high = round_limits(float(values.min()), float(values.max()))
-    mesh = pyvista.PolyData.from_regular_faces(plane.points, plane.triangles)
-    at = np.clip((values - low) / ((high - low) or 1.0) * 255.0, 0, 255).astype(np.uint8)
-    mesh.point_data["colour"] = style.plane[at]
-    plotter.add_mesh(mesh, scalars="colour", rgb=True, lighting=False, show_scalar_bar=False, **_LATER)
+def draw_flow(plotter: Any, field: FlowField, style: Style) -> None:
+    """Draw streamlines, faintly, and the plane through the flow, coloured by the speed."""
+    if len(field.lines.points):
+        lines = pyvista.line_segments_from_points(field.lines.segments.reshape(-1, 3))
+        plotter.add_mesh(lines, color=style.soft, opacity=STREAM_OPACITY, lighting=False, **_LATER)
+    if field.slice is not None:
+        low, high = field.scales[PLANE].limits
+        mesh = pyvista.PolyData.from_regular_faces(field.slice.points, field.slice.triangles)
+        share = (field.slice.values[PLANE] - low) / ((high - low) or 1.0)
+        mesh.point_data["colour"] = style.plane[np.clip(255.0 * share, 0, 255).astype(np.uint8)]
+        plotter.add_mesh(mesh, scalars="colour", rgb=True, lighting=False, show_scalar_bar=False, **_LATER)
 
 
 def trails(scene: Scene, frame: int) -> tuple[Floats, Table]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -14,8 +13,9 @@ from numpy.typing import NDArray
 
 from foamprb.results.vtk import Tracks
 from foamprb.view.bodies import MAGNITUDE, Bodies, Codes
-from foamprb.view.colours import MAPS
-from foamprb.view.geometry import Geometry, Slice, Surface
+from foamprb.view.colours import MAPS, round_down, round_limits
+from foamprb.view.flowfield import FlowField
+from foamprb.view.geometry import Geometry, Surface
 
 Floats = NDArray[np.float64]
 
@@ -99,8 +99,8 @@ class Scene:
         Fate of each body, (1, n).
     geometry
         Boundary of the mesh, if it could be read.
-    slice
-        Plane through the flow, if requested.
+    flowfield
+        Streamlines and planes, if the flow was read.
     paths
         Paths that are finer than the bodies' times, if the run recorded them.
     camera
@@ -126,7 +126,7 @@ class Scene:
     bodies: Bodies
     fate: Codes
     geometry: Geometry | None
-    slice: Slice | None
+    flowfield: FlowField | None
     paths: Tracks | None
     camera: Camera
     enlargement: float
@@ -230,38 +230,6 @@ def extremes_of(bodies: Bodies, name: str, part: str) -> tuple[float, float] | N
 def _values(bodies: Bodies, name: str, part: str) -> Floats:
     values = np.broadcast_to(bodies.fields[name].channel(part), bodies.present.shape)[bodies.shown]
     return np.asarray(values[np.isfinite(values)])
-
-
-def round_limits(low: float, high: float) -> tuple[float, float]:
-    """Return round numbers, the first not above ``low``, the second not below ``high``.
-
-    A range on one side of zero that reaches near it begins at zero. A range on both sides is symmetric.
-    """
-    if low < 0.0 < high:
-        most = _round_up(max(-low, high))
-        return -most, most
-    if high <= 0.0 and low < 0.0:
-        a, b = round_limits(-high, -low)
-        return -b, -a
-    if high == 0.0:
-        return 0.0, 1.0
-    if low <= 0.3 * high or high - low <= 1e-6 * high:
-        return 0.0, _round_up(high)
-    step = _round_up(high - low) / 10.0
-    return math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step
-
-
-def _round_up(value: float) -> float:
-    """Return the least number of one digit that is not below a positive value."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return float(f"{math.ceil(value / power * (1 - 1e-6)) * power:.12g}")
-
-
-def round_down(value: float, digits: Sequence[int] = (1, 2, 3, 4, 5, 6, 8)) -> float:
-    """Return the largest of some digits times a power of ten that is not above a positive value."""
-    power = 10.0 ** math.floor(math.log10(value))
-    digit = max(digit for digit in digits if digit * power <= value * (1 + 1e-12))
-    return float(f"{digit * power:.12g}")
 
 
 def main_direction(mean: object) -> Floats:

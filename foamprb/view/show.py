@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.flows import read_flow, read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
@@ -24,7 +25,8 @@ from foamprb.results.vtk import Tracks
 from foamprb.settings.fluid import read_gravity
 from foamprb.view.bodies import Bodies, fates_of, fields_of_fates, gather, require_array, survey
 from foamprb.view.colours import DARK, LIGHT
-from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
+from foamprb.view.flowfield import FlowField, field_of
+from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.page import Page
 from foamprb.view.paraview import write_state
 from foamprb.view.picture import film, has_display, picture, require_graphics, window
@@ -55,6 +57,8 @@ _BYTES_PER_STATE = 8
 """Least size of a body at one time in a page."""
 MOST_DRAWN = 100_000
 """Largest number of bodies in a page or a picture, unless -bodies requests more."""
+MOST_CELLS = 250_000
+"""Largest number of cells of a mesh whose flow is read for streamlines."""
 _SAMPLE, _ESTIMATES = 500, 2
 """Bodies in an estimate of the size of a page, and the number of estimates."""
 _MOST_TRAILING = 16
@@ -117,7 +121,7 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
         raise InputError(f"-maxSize {megabytes:g}: at least 1 (MB) is needed.")
     most = int(megabytes * 1e6)
     run = _run_of(request)
-    background = _background(request, run)
+    background = _background(request, run, drawn=False)
     written, released = len(run.entries), len(run.cloud(-1, ("origId",)).points)
     known = min(released, request.bodies or MOST_DRAWN)
 
@@ -174,7 +178,7 @@ class _Background:
     colour: tuple[str, str]
     fates: Table | None
     geometry: Geometry | None
-    slice: Slice | None
+    flowfield: FlowField | None
     paths: Tracks | None
     flow: Floats
     gravity: Floats
@@ -196,7 +200,7 @@ class _Background:
             bodies=bodies,
             fate=fates_of(bodies, self.run, self.fates),
             geometry=geometry,
-            slice=self.slice,
+            flowfield=self.flowfield,
             paths=self.paths,
             camera=camera_for(geometry, bodies, first, g),
             enlargement=request.enlargement or automatic_enlargement(bodies, corners[1] - corners[0]),
@@ -229,7 +233,7 @@ def make_scene(request: Request, run: Run, frames: Sequence[int], *, drawn: bool
         If files are missing or damaged, an array is unknown, the plane is not valid, or a number is out of
         range.
     """
-    background = _background(request, run)
+    background = _background(request, run, drawn=drawn)
     arrays = (background.colour[0], "patch", "U") if drawn else None
     return background.scene(gather(run, frames, request.bodies, arrays))
 
@@ -271,7 +275,7 @@ def _trailing(run: Run, frame: int, scene: Scene) -> list[int]:
     return list(range(max(0, first, frame - _MOST_TRAILING), frame + 1))
 
 
-def _background(request: Request, run: Run) -> _Background:
+def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
     if request.bodies is not None and request.bodies < 1:
         raise InputError(f"-bodies {request.bodies}: a number >= 1 is needed.")
     if request.enlargement is not None and not 0.0 < request.enlargement < math.inf:
@@ -287,7 +291,7 @@ def _background(request: Request, run: Run) -> _Background:
         )
     colour = require_array(run, request.colour)
     fates = run.fates()
-    geometry, plane = _surroundings(request, run)
+    geometry, field = _surroundings(request, run, drawn=drawn)
     g = np.zeros(3)
     with suppress(InputError):
         g = np.array(read_gravity(request.case, run.results.region))
@@ -297,7 +301,7 @@ def _background(request: Request, run: Run) -> _Background:
         log.warning("The direction of the flow is not shown: %s", error)
         flow = None
     direction = main_direction(flow.get("direction") if isinstance(flow, dict) else None)
-    return _Background(request, run, colour, fates, geometry, plane, run.paths(), direction, g)
+    return _Background(request, run, colour, fates, geometry, field, run.paths(), direction, g)
 
 
 def title_of(case: Path) -> str:
@@ -310,20 +314,36 @@ def _run_of(request: Request) -> Run:
     return open_run(request.case, request.cloud, region, request.results)
 
 
-def _surroundings(request: Request, run: Run) -> tuple[Geometry | None, Slice | None]:
-    """Return the geometry, and the plane through the flow if requested."""
+def _surroundings(request: Request, run: Run, *, drawn: bool) -> tuple[Geometry | None, FlowField | None]:
+    """Return the geometry, and the flow unless the mesh is large and no plane is requested."""
     source = run.source(request.source)
+
+    def read() -> MeshFlow:
+        return read_flow(request.case, request.flow_time, source)
+
+    flow = None
     try:
-        if request.slice is None:
-            return boundary(read_mesh(request.case, request.flow_time, source)), None
-        flow = read_flow(request.case, request.flow_time, source)
+        if request.slice is None and source.file is None:
+            mesh = read_mesh(request.case, request.flow_time, source)
+        else:
+            flow = read()
+            mesh = flow.mesh
     except InputError as error:
         given = request.source not in (None, FlowSource())
         if given or request.slice is not None or request.flow_time != LATEST:
             raise
         log.warning("No geometry is shown: %s", error)
         return None, None
-    return boundary(flow.mesh), cut(flow, *read_plane(request.slice, *flow.bounds))
+    geometry = boundary(mesh)
+    if flow is None and mesh.n_cells > MOST_CELLS:
+        log.info("%d cells: no streamlines are shown. -slice x shows them, and a plane.", mesh.n_cells)
+    elif flow is None:
+        del mesh
+        try:
+            flow = read()
+        except InputError as error:
+            log.info("No streamlines are shown: %s", error)
+    return geometry, None if flow is None else field_of(flow, request.slice, drawn=drawn)
 
 
 def picture_of(

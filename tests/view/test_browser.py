@@ -551,7 +551,17 @@ class TestControls:
         tab.run("foamprb.draw()")
         assert not any(label.is_visible() for label in labels.all())
         before = tab.pixels()
+        tab.page.focus("#handle")
+        tab.page.keyboard.press("ArrowUp")
+        assert tab.text("offset-text") == "0.04 m"
+        tab.page.hover("#handle")
+        tab.page.mouse.down()
+        tab.page.mouse.move(300, 200)
+        tab.page.mouse.up()
+        assert tab.text("offset-text") != "0.04 m"
         tab.page.select_option("#slice", "none")
+        tab.run("foamprb.draw()")
+        assert not tab.page.is_visible("#handle")
         tab.page.select_option("#opacity", "none")
         assert (np.abs(tab.pixels().astype(int) - before) > 10).any(axis=2).mean() > 0.05
         assert tab.page.locator(".legend").count() == 1

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from foam_writer import GRADIENT
 from page_reader import PageReader
 from paths import ROOT
 from view_run import motion, write_run
@@ -88,7 +89,7 @@ class TestContents:
         assert page.whole(codes["fate"])[0, :3].tolist() == [0, 1, 2]
         assert codes["injector"]["meanings"] == ["soft", "stiff"]
 
-    def test_patches_triangles_and_the_plane(self, page):
+    def test_patches_and_triangles(self, page):
         assert [s["name"] for s in page.scene["surfaces"]] == ["floor", "lid", "sides"]
         area = 0.0
         for surface in page.scene["surfaces"]:
@@ -96,9 +97,29 @@ class TestContents:
             a, b, c = points[page.whole(surface["triangles"])].transpose(1, 0, 2)
             area += 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
         assert area == pytest.approx(6.0, rel=1e-5)
-        plane = page.scene["slice"]
-        assert np.ptp(page.values(plane["points"])[:, 2]) < 1e-6
-        assert [value["name"] for value in plane["values"]] == ["speed", "shearRate"]
+
+    def test_streamlines_and_the_grid_of_the_flow(self, page):
+        """The flow of the cube is linear."""
+        flow = page.scene["flow"]
+        start = page.whole(flow["lines"]["start"])
+        points = page.values(flow["lines"]["points"])
+        assert start[-1] == len(points)
+        along = np.diff(points, axis=0)
+        u = (0.5 * (points[1:] + points[:-1])) @ GRADIENT.T
+        inside = np.isin(np.arange(1, len(points)), start[1:-1], invert=True)
+        along, u = along[inside], u[inside]
+        sizes = np.linalg.norm(along, axis=1) * np.linalg.norm(u, axis=1)
+        cosines = np.einsum("ij,ij->i", along, u) / sizes
+        assert cosines[sizes > 1e-3].min() > 0.98
+        assert flow["plane"][1] == [0.0, 0.0, 1.0]
+        speed, rate = flow["values"]
+        assert [speed["unit"], rate["unit"]] == ["m/s", "1/s"]
+        n = speed["shape"]
+        x = np.linspace(0.0, 1.0, n[0])
+        places = np.stack(np.meshgrid(x, x, x, indexing="ij"), axis=-1)[..., ::-1]
+        expected = np.linalg.norm(places @ GRADIENT.T, axis=-1)
+        found = page.whole(speed) / 255.0 * speed["range"][1]
+        assert np.abs(np.minimum(expected, speed["range"][1]) - found).max() < 0.003 * speed["range"][1]
 
     def test_titles_are_text(self, text, page):
         assert page.scene["title"] == "duct <of> glass & steel"
@@ -238,7 +259,7 @@ class TestCommand:
         assert "No geometry is shown" in captured.out
         page = PageReader((tmp_path / "postProcessing/softCloud/softCloud.html").read_text())
         assert page.scene["surfaces"] == []
-        assert page.scene["slice"] is None
+        assert page.scene["flow"] is None
 
     @pytest.mark.parametrize(
         ("options", "said"),

@@ -123,11 +123,11 @@ export async function load() {
   for (const spec of scene.surfaces) {
     surfaces.push({ ...spec, points: await places(spec.points, frame), triangles: await column(spec.triangles, Uint32Array) });
   }
-  let slice = null;
-  if (scene.slice) {
-    const values = [];
-    for (const spec of scene.slice.values) values.push({ ...spec, whole: await column(spec) });
-    slice = { points: await places(scene.slice.points, frame), triangles: await column(scene.slice.triangles, Uint32Array), values };
+  let flow = null;
+  if (scene.flow) {
+    const { lines } = scene.flow, values = [];
+    for (const spec of scene.flow.values) values.push({ ...spec, whole: await column(spec, Uint8Array) });
+    flow = { ...scene.flow, values, lines: { ...lines, points: await places(lines.points, frame), start: await column(lines.start) } };
   }
   let paths = null;
   if (scene.paths) {
@@ -142,7 +142,7 @@ export async function load() {
   const packed = await column(scene.bodies.radius);
   for (let i = 0; i < n; i++) radius[i] = (scene.bodies.radius.low[0] + scene.bodies.radius.step[0] * packed[i]) / frame.size;
   return {
-    scene, n, m, times: scene.times, codes, fields, surfaces, slice, paths, radius,
+    scene, n, m, times: scene.times, codes, fields, surfaces, flow, paths, radius,
     edges: await places(scene.edges, frame),
     ids: await column(scene.bodies.ids, Float64Array),
     x: await places(scene.bodies.places, frame),

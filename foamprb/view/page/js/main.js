@@ -7,10 +7,11 @@ import { drawChart } from "./chart.js";
 import { compassHeight, compassWidth, paintCompass } from "./compass.js";
 import { bytesOf, colourOfName, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
 import { load } from "./data.js";
+import { FlowPlane, streamlines } from "./flow.js";
 import { GALLERY, Gallery } from "./gallery.js";
 import { paintLegends, showLegend } from "./legend.js";
 import { CURVES, TimePlot, curveKey, quantiles, through } from "./plot.js";
-import { Deposits, Plane, Walls } from "./surroundings.js";
+import { Deposits, Walls } from "./surroundings.js";
 import { Trails } from "./trails.js";
 
 const $ = (id) => document.getElementById(id);
@@ -39,7 +40,7 @@ const keys = [
   ["H", "this list", () => $("about").showModal()],
 ];
 
-let data, renderer, eye, bodies, walls, plane, trails, ownTrail, deposits, plot, gallery;
+let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, plot, gallery;
 const scene = new Scene();
 const state = {
   t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
@@ -56,7 +57,7 @@ async function start() {
   const { scene: spec } = data;
   const canvas = $("canvas");
   ColorManagement.enabled = false;
-  renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, preserveDrawingBuffer: false });
+  renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: true, preserveDrawingBuffer: false });
   renderer.outputColorSpace = LinearSRGBColorSpace;
   bodies = new Bodies(data);
   walls = new Walls(data);
@@ -64,7 +65,7 @@ async function start() {
   trails = new Trails(data, 3);
   ownTrail = new Trails(data, 4);
   scene.add(bodies.mesh, walls.group, trails.mesh, ownTrail.mesh, deposits.points);
-  if (data.slice) scene.add((plane = new Plane(data)).mesh);
+  if (data.flow) scene.add((plane = new FlowPlane(data, walls)).group, (streams = streamlines(data.flow)));
   eye = new Eye(canvas, spec.home, insets(), () => { dirty = true; }, tap);
   for (const [name, digits] of Object.entries({ ...spec.maps, ...spec.planeMaps })) textures[name] = { bytes: table(digits), texture: null };
 
@@ -108,8 +109,10 @@ function draw() {
   bodies.material.uniforms.pixel.value = tangent / eye.height;
   if (stale) drawPlot();
   if (!$("card").hidden) drawGallery();
+  plane?.face(eye.camera.position);
   renderer.render(scene, eye.camera);
   placeLabels();
+  placeHandle();
   drawCompass();
 }
 
@@ -404,11 +407,8 @@ function fill(spec) {
     name.dataset.patch = k;
     $("labels").append(name);
   });
-  $("plane").hidden = !data.slice;
-  if (data.slice) {
-    data.slice.values.forEach((value, k) => option($("slice"), k, value.label));
-    option($("slice"), "none", "not shown");
-  }
+  $("flow").hidden = !data.flow;
+  if (data.flow) fillFlow();
 }
 
 function check(text, on, change) {
@@ -500,15 +500,87 @@ function textureOf(entry, sharp) {
   return entry.texture;
 }
 
+// Names and directions of the normals of planes.
+let normals = [];
+
+function fillFlow() {
+  const { plane: given, values } = data.flow;
+  option($("slice"), "none", "none");
+  values.forEach((value, k) => option($("slice"), k, value.label));
+  normals = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
+  const like = given && normals.findIndex(([, normal]) => normal.every((c, k) => Math.abs(Math.abs(c) - Math.abs(given[1][k])) < 1e-9));
+  if (like === -1) normals.push([data.flow.plane[1].map((c) => number(c, 2)).join(", "), given[1]]);
+  normals.forEach(([name], k) => option($("normal"), k, name));
+  // Without a plane of its own: the middle of the box, normal to the shortest side.
+  const sides = plane.high.clone().sub(plane.low).toArray(), thin = sides.indexOf(Math.min(...sides));
+  $("normal").value = given ? (like + normals.length) % normals.length : thin;
+  $("slice").value = given ? "0" : "none";
+  turnPlane();
+  if (given) setOffset(new Vector3(...given[0]).dot(plane.normal));
+}
+
+function turnPlane() {
+  const normal = new Vector3(...normals[Number($("normal").value)][1]), [low, high] = plane.range(normal);
+  plane.place(normal, 0.5 * (low + high));
+  setOffset(0.5 * (low + high));
+}
+
+function setOffset(offset) {
+  const [low, high] = plane.range(plane.normal), { middle, size } = data.scene.frame;
+  plane.place(plane.normal, Math.max(low, Math.min(high, offset)));
+  $("offset").value = (plane.offset - low) / (high - low || 1);
+  const text = written(plane.normal.dot(new Vector3(...middle)) + size * plane.offset, "m", size);
+  $("offset").setAttribute("aria-valuetext", text);
+  $("offset-text").textContent = text;
+  dirty = true;
+}
+
+// Pixels by which a point of the plane moves on the screen if the plane moves by the unit of length along its normal.
+function pixelsOfPlane() {
+  const [from, to] = [0, 1e-3].map((step) => plane.centre.clone().addScaledVector(plane.normal, step).project(eye.camera));
+  return [(to.x - from.x) * 500 * eye.width, (from.y - to.y) * 500 * eye.height];
+}
+
+function placeHandle() {
+  const shown = plane?.group.visible, handle = $("handle");
+  handle.hidden = !shown;
+  if (!shown) return;
+  const { x, y } = plane.centre.clone().project(eye.camera), [dx, dy] = pixelsOfPlane();
+  const [left, top] = [(0.5 + 0.5 * x) * eye.width, (0.5 - 0.5 * y) * eye.height];
+  handle.hidden = !(left > 0 && left < eye.width && top > 0 && top < eye.height);
+  const angle = Math.hypot(dx, dy) < 1 ? 0 : Math.atan2(dx, -dy);
+  handle.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px) rotate(${angle.toFixed(3)}rad)`;
+}
+
+function dragPlane() {
+  const handle = $("handle");
+  let last = null;
+  handle.addEventListener("pointerdown", (event) => { handle.setPointerCapture(event.pointerId); last = event; });
+  handle.addEventListener("pointermove", (event) => {
+    if (!last) return;
+    const [dx, dy] = pixelsOfPlane(), [mx, my] = [event.clientX - last.clientX, event.clientY - last.clientY];
+    // A plane that is seen from the front moves with the vertical motion.
+    const unit = eye.height / eye.distance, size = dx * dx + dy * dy;
+    setOffset(plane.offset + (size > (0.1 * unit) ** 2 ? (mx * dx + my * dy) / size : -my / unit));
+    last = event;
+  });
+  for (const kind of ["pointerup", "pointercancel"]) handle.addEventListener(kind, () => { last = null; });
+  handle.addEventListener("keydown", (event) => {
+    const way = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 }[event.key];
+    if (!way) return;
+    const [low, high] = plane.range(plane.normal);
+    setOffset(plane.offset + 0.02 * way * (high - low));
+    event.preventDefault();
+  });
+}
+
 function setSlice() {
   if (!plane) return;
-  const field = data.slice.values[Number($("slice").value)];
-  plane.colour(field);
-  if (field) {
-    const map = textures[dark() ? "dark" : "light"];
-    plane.material.uniforms.colours.value = textureOf(map, false);
-    legends[1] = { label: capital(field.label), unit: field.unit, low: field.range[0], high: field.range[1], table: map.bytes };
-  } else legends.length = 1;
+  const k = $("slice").value, field = data.flow.values[k], map = textures[dark() ? "dark" : "light"];
+  plane.show(k, textureOf(map, false));
+  $("plane-place").hidden = !field;
+  if (field) legends[1] = { label: capital(field.label), unit: field.unit, low: field.range[0], high: field.range[1], least: field.extremes[0], most: field.extremes[1], table: map.bytes };
+  else legends.length = 1;
   showLegends();
   dirty = true;
 }
@@ -554,6 +626,10 @@ function paint() {
   walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent") }, $("opacity").value, dark());
   bodies.material.uniforms.darkness.value = dark() ? 1 : 0;
   bodies.material.uniforms.accent.value.set(...rgb("--accent"));
+  if (streams) {
+    streams.visible = $("streams").checked;
+    streams.material.uniforms.base.value.set(...rgb("--soft"));
+  }
   deposits.points.material.uniforms.base.value.set(...rgb("--deposit"));
   deposits.points.material.uniforms.paper.value.set(...paper);
   dirty = true;
@@ -834,6 +910,13 @@ function listen() {
   on("opacity", "change", paint);
   on("names", "change", () => { dirty = true; });
   on("slice", "change", setSlice);
+  on("normal", "change", turnPlane);
+  on("offset", "input", () => {
+    const [low, high] = plane.range(plane.normal);
+    setOffset(low + Number($("offset").value) * (high - low));
+  });
+  on("streams", "change", paint);
+  dragPlane();
   on("home", "click", () => eye.goHome());
   on("whole", "click", () => eye.showAll(halves()));
   on("theme", "change", () => setTheme($("theme").value));

@@ -1,7 +1,7 @@
-// Surroundings of the bodies: walls, edges, a plane through the flow, and marks of deposits.
+// Surroundings of the bodies: walls, edges, and marks of deposits.
 
 import {
-  BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, GLSL3, Group, LineSegments, Mesh, Points,
+  BackSide, BufferAttribute, BufferGeometry, FrontSide, GLSL3, Group, LineSegments, Mesh, Points,
   RawShaderMaterial, Vector3,
 } from "three";
 import { SHADE } from "./shade.js";
@@ -55,25 +55,6 @@ void main() {
   colour = vec4(base, opacity);
 }`;
 
-const PLANE_VERTEX = `
-precision highp float;
-in vec3 position;
-in float value;
-uniform mat4 modelViewMatrix, projectionMatrix;
-out float at;
-void main() {
-  at = value;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  gl_Position.z += 4e-5 * gl_Position.w;
-}`;
-
-const PLANE_FRAGMENT = `
-precision highp float;
-in float at;
-uniform sampler2D colours;
-out vec4 colour;
-void main() { colour = vec4(texture(colours, vec2((at * 255.0 + 0.5) / 256.0, 0.5)).rgb, 1.0); }`;
-
 const POINT_VERTEX = `
 precision highp float;
 in vec3 position;
@@ -102,6 +83,8 @@ function material(vertexShader, fragmentShader, uniforms, more = {}) {
   return new RawShaderMaterial({ glslVersion: GLSL3, vertexShader, fragmentShader, uniforms: values, ...more });
 }
 
+export const lineMaterial = (opacity) => material(LINE_VERTEX, LINE_FRAGMENT, { base: new Vector3(), opacity }, { transparent: true, depthWrite: false });
+
 export const isWall = (patch) => patch.type === "wall" || patch.type === "mappedWall";
 export const isFlat = (patch) => patch.type === "empty" || patch.type === "wedge";
 
@@ -128,7 +111,7 @@ export class Walls {
     });
     const edges = new BufferGeometry();
     edges.setAttribute("position", new BufferAttribute(data.edges, 3));
-    this.edges = new LineSegments(edges, material(LINE_VERTEX, LINE_FRAGMENT, { base: new Vector3(), opacity: 0.75 }, { transparent: true, depthWrite: false }));
+    this.edges = new LineSegments(edges, lineMaterial(0.75));
     this.edges.renderOrder = 4;
     this.group.add(this.edges);
   }
@@ -148,29 +131,6 @@ export class Walls {
       }
     }
     this.edges.material.uniforms.base.value.set(...palette.edge);
-  }
-}
-
-export class Plane {
-  constructor(data) {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(data.slice.points, 3));
-    geometry.setIndex(new BufferAttribute(data.slice.triangles, 1));
-    this.value = new BufferAttribute(new Float32Array(data.slice.points.length / 3), 1);
-    geometry.setAttribute("value", this.value);
-    this.material = material(PLANE_VERTEX, PLANE_FRAGMENT, { colours: null }, { side: DoubleSide });
-    this.mesh = new Mesh(geometry, this.material);
-    this.mesh.renderOrder = 1;
-  }
-
-  colour(field) {
-    this.mesh.visible = Boolean(field);
-    if (!field) return;
-    const [low, high] = field.range;
-    for (let i = 0; i < field.whole.length; i++) {
-      this.value.array[i] = (field.low[0] + field.step[0] * field.whole[i] - low) / (high - low || 1);
-    }
-    this.value.needsUpdate = true;
   }
 }
 

@@ -1,0 +1,332 @@
+"""Flow in a picture: planes, streamlines, and a grid of values through which the page draws planes."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
+from scipy.spatial import cKDTree
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+from foamprb.body.viscosity import shear_rate
+from foamprb.errors import InputError
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.view.colours import round_limits
+from foamprb.view.libraries import load
+
+pyvista = load("pyvista")
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+QUANTITIES = {"speed": ("speed of the flow", "m/s"), "shearRate": ("shear rate of the flow", "1/s")}
+"""Label and unit of each quantity of a plane."""
+PLANE = "speed"
+"""Default quantity of a plane through the flow."""
+_HIGHEST = 99.0
+"""Percentile of the values at the nodes at which the colours of a plane end."""
+STREAM_OPACITY = 0.3
+_POINTS = 100_000
+"""Points of the grid, about."""
+_STARTS, _LINES = 150, 36
+"""Starts of streamlines, and the number of lines that are taken, far from each other."""
+_LONGEST = 3.0
+"""Largest length of a streamline each way, in longest sides."""
+_SLOW = 1e-3
+"""Share of the mean speed below which a streamline ends."""
+_BEND, _PIECE = 0.06, 0.5
+"""Largest bend, rad, and length, in second longest sides, of a piece of a drawn streamline."""
+
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_VECTOR = rf"\(\s*({_NUMBER})\s+({_NUMBER})\s+({_NUMBER})\s*\)"
+_HOW_TO_SLICE = (
+    "Allowed: x, y or z (through the middle), z=0.01, or '(point) (normal)' such as '(0 0 0) (1 0 1)'."
+)
+
+
+class Slice(NamedTuple):
+    """Plane through the flow."""
+
+    points: Floats
+    """(v, 3), m."""
+    triangles: Ints
+    """(t, 3)."""
+    values: dict[str, Floats]
+    """(v,) by name."""
+
+
+class Streamlines(NamedTuple):
+    """Lines along the velocity."""
+
+    points: Floats
+    """(v, 3), m, line after line."""
+    start: Ints
+    """(k + 1,): line i has the points from ``start[i]`` to ``start[i + 1]``."""
+
+    @property
+    def segments(self) -> Floats:
+        """Ends of all segments, (s, 2, 3), m."""
+        pairs = np.stack([self.points[:-1], self.points[1:]], axis=1)
+        within = np.ones(len(pairs), dtype=bool)
+        within[self.start[1:-1] - 1] = False
+        return np.asarray(pairs[within])
+
+
+class Scale(NamedTuple):
+    """Limits of the colours of a quantity, and its least and largest value."""
+
+    limits: tuple[float, float]
+    extremes: tuple[float, float]
+
+    @property
+    def beyond(self) -> tuple[bool, bool]:
+        """Whether values lie below the limits, and above them."""
+        return self.extremes[0] < self.limits[0], self.extremes[1] > self.limits[1]
+
+
+class Grid(NamedTuple):
+    """Flow on a regular grid over the box of a mesh, (nz, ny, nx) points."""
+
+    low: Floats
+    """First point, (3,), m."""
+    high: Floats
+    """Last point."""
+    u: Floats
+    """Velocity, (nz, ny, nx, 3), m/s; zero outside the mesh."""
+    values: dict[str, Floats]
+    """Quantities of a plane, (nz, ny, nx), by name; outside the mesh those of the nearest point inside."""
+
+
+@dataclass(frozen=True)
+class FlowField:
+    """Everything of a flow that is drawn."""
+
+    lines: Streamlines
+    scales: dict[str, Scale]
+    """Of the quantities of a plane."""
+    plane: tuple[Floats, Floats] | None
+    """Point, m, and unit normal of the requested plane."""
+    slice: Slice | None
+    """The flow on this plane, for pictures."""
+    grid: Grid
+    """For a page, which draws any plane."""
+
+
+def field_of(flow: MeshFlow, plane: str | None, *, drawn: bool) -> FlowField:
+    """Return what is drawn of a flow, in a picture if ``drawn``, else on a page; ``plane`` is ``-slice``.
+
+    Raises
+    ------
+    InputError
+        See :func:`read_plane`.
+    """
+    at = None if plane is None else read_plane(plane, *flow.bounds)
+    cut_there = cut(flow, *at) if drawn and at is not None else None
+    grid = sample_grid(flow)
+    return FlowField(streamlines(flow, grid), scales_of(flow), at, cut_there, grid)
+
+
+def scales_of(flow: MeshFlow) -> dict[str, Scale]:
+    """Return the scales of the quantities of a plane, from the values at the nodes."""
+    _, u, l = flow.at_nodes()
+    found = {}
+    for name, values in (("speed", np.linalg.norm(u, axis=1)), ("shearRate", _rate(l))):
+        low, high = float(values.min()), float(values.max())
+        found[name] = Scale(round_limits(low, float(np.percentile(values, _HIGHEST)) or high), (low, high))
+    return found
+
+
+def sample_grid(flow: MeshFlow) -> Grid:
+    """Return a flow on a grid of about :data:`_POINTS` points."""
+    low, high = (np.asarray(corner, dtype=np.float64) for corner in flow.bounds)
+    number = _numbers(high - low)
+    # Points on the boundary could lie outside by round-off; one point lies in the middle.
+    inset = np.where(number > 1, 1e-6, 0.5) * (high - low)
+    low, high = low + inset, high - inset
+    axes = [np.linspace(low[k], high[k], number[k]) for k in range(3)]
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).transpose(2, 1, 0, 3)
+    shape = points.shape[:3]
+    points = points.reshape(-1, 3)
+    hosts = flow.locate(points)
+    inside = np.flatnonzero(hosts >= 0)
+    u, l = np.zeros((len(points), 3)), np.zeros((len(points), 9))
+    if len(inside):
+        u[inside], own = flow.sample(points[inside], hosts[inside], 0.0)
+        l[inside] = own.reshape(-1, 9)
+    spacing = np.maximum((high - low) / np.maximum(number - 1, 1), 1e-300)[::-1]
+    outside = (hosts < 0).reshape(shape)
+    nearest = distance_transform_edt(outside, spacing, return_distances=False, return_indices=True)
+    values = {"speed": np.linalg.norm(u, axis=1), "shearRate": _rate(l)}
+    return Grid(
+        low,
+        high,
+        u.reshape(*shape, 3),
+        {name: own.reshape(shape)[tuple(nearest)] for name, own in values.items()},
+    )
+
+
+def streamlines(flow: MeshFlow, grid: Grid) -> Streamlines:
+    """Return lines along the velocity by VTK's tracer on a grid; where more fluid flows, more lines begin."""
+    mesh = flow.mesh
+    speed = np.linalg.norm(flow.at_nodes()[1][mesh.n_points :], axis=1)
+    weight = mesh.volumes * speed
+    shape = np.array(grid.u.shape[2::-1])
+    empty = Streamlines(np.zeros((0, 3)), np.zeros(1, dtype=np.int64))
+    if not weight.sum() > 0.0:
+        return empty
+    starts = mesh.centres[np.random.default_rng(0).choice(len(weight), _STARTS, p=weight / weight.sum())]
+    sides = np.sort(grid.high - grid.low)
+    # A grid of one layer becomes one of two.
+    thin = shape == 1
+    u = grid.u.repeat(1 + thin[2], axis=0).repeat(1 + thin[1], axis=1).repeat(1 + thin[0], axis=2)
+    spacing = np.where(thin, 1e-2 * sides[2], (grid.high - grid.low) / np.maximum(shape - 1, 1))
+    image = pyvista.ImageData(
+        dimensions=shape + thin, spacing=spacing, origin=grid.low - np.where(thin, 0.5 * spacing, 0.0)
+    )
+    image.point_data["u"] = u.reshape(-1, 3)
+    image.point_data.active_vectors_name = "u"
+    with vtk_messages():
+        traced = image.streamlines_from_source(
+            pyvista.PolyData(starts), vectors="u", integration_direction="both", compute_vorticity=False,
+            max_length=_LONGEST * sides[2], terminal_speed=_SLOW * float(weight.sum() / mesh.volumes.sum()),
+            max_steps=4000,
+        )  # fmt: skip
+    points, places = (
+        np.asarray(traced.points, dtype=np.float64),
+        vtk_to_numpy(traced.GetLines().GetConnectivityArray()),
+    )
+    ends, seeds = vtk_to_numpy(traced.GetLines().GetOffsetsArray()), traced.cell_data["SeedIds"]
+    halves: dict[int, list[Floats]] = {}
+    for seed, a, b in zip(seeds.tolist(), ends[:-1], ends[1:], strict=True):
+        halves.setdefault(seed, []).append(points[places[a:b]])
+    # Each half begins at the start; the first one follows the flow.
+    whole = {
+        seed: np.concatenate([half[1][:0:-1], half[0]]) if len(half) > 1 else half[0]
+        for seed, half in halves.items()
+    }
+    apart, kept = np.full(len(starts), np.inf), []
+    for _ in range(min(_LINES, len(whole))):
+        seed = max(whole, key=lambda seed: apart[seed])
+        line = whole.pop(seed)
+        kept.append(_simplified(line, _PIECE * sides[1]))
+        apart = np.minimum(apart, cKDTree(line).query(starts)[0])
+    return Streamlines(np.concatenate(kept), np.cumsum([0, *map(len, kept)])) if kept else empty
+
+
+def _simplified(line: Floats, longest: float) -> Floats:
+    """Return the points of a line between which it bends little, and its ends."""
+    steps = np.diff(line, axis=0)
+    steps /= np.linalg.norm(steps, axis=1, keepdims=True)
+    kept = [0]
+    for k in range(1, len(line) - 1):
+        from_last = steps[k] @ steps[kept[-1]]
+        if from_last < np.cos(_BEND) or np.linalg.norm(line[k] - line[kept[-1]]) > longest:
+            kept.append(k)
+    return line[[*kept, len(line) - 1]]
+
+
+def _numbers(sides: Floats) -> Ints:
+    """Return the numbers of points along three sides, (3,); one along a side shorter than the step."""
+    thick = np.ones(3, dtype=bool)
+    number = np.ones(3, dtype=np.int64)
+    for _ in range(3):
+        pitch = float((sides[thick].prod() / _POINTS) ** (1.0 / thick.sum()))
+        thin = thick & (sides < pitch)
+        if not thin.any():
+            number[thick] = np.maximum(1, np.rint(sides[thick] / pitch)).astype(np.int64)
+            break
+        thick &= ~thin
+    return number
+
+
+def _rate(l: Floats) -> Floats:
+    return np.asarray(shear_rate(tuple(l.T)))
+
+
+def read_plane(text: str, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    """Return point and unit normal of the plane of ``-slice``, in the box of a mesh.
+
+    Raises
+    ------
+    InputError
+        If the text has no allowed form, or the plane misses the box.
+    """
+    by_axis = re.fullmatch(rf"([xyz])(?:=({_NUMBER}))?", text.strip())
+    by_normal = re.fullmatch(rf"{_VECTOR}\s*{_VECTOR}", text.strip())
+    if by_axis:
+        axis = "xyz".index(by_axis[1])
+        origin, normal = 0.5 * (low + high), np.eye(3)[axis]
+        if by_axis[2]:
+            origin[axis] = float(by_axis[2])
+    elif by_normal:
+        numbers = [float(number) for number in by_normal.groups()]
+        origin, normal = np.array(numbers[:3]), np.array(numbers[3:])
+    else:
+        raise InputError(f"-slice {text}: not a plane. {_HOW_TO_SLICE}")
+    size = float(np.linalg.norm(normal))
+    if size == 0.0:
+        raise InputError(f"-slice {text}: the normal is zero.")
+    normal = normal / size
+    corners = np.array(
+        [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    )
+    sides = (corners - origin) @ normal
+    if sides.min() > 0.0 or sides.max() < 0.0:
+        box = " to ".join("({:g} {:g} {:g})".format(*corner) for corner in (low, high))
+        raise InputError(f"-slice {text}: the plane misses the mesh, whose box is {box}.")
+    return origin, normal
+
+
+def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
+    """Return speed and shear rate of a flow on a plane, from the values at the nodes.
+
+    Parameters
+    ----------
+    flow
+        The flow.
+    origin, normal
+        A point of the plane, m, and its unit normal, each (3,).
+    """
+    mesh = flow.mesh
+    nodes, tets = mesh.nodes, mesh.tets.astype(np.int64)
+    distance = (nodes - origin) @ normal
+    # Nodes on the plane, such as cell centres of a mesh with one layer, count as above it.
+    distance += 1e-9 * np.ptp(nodes, axis=0).max()
+    above = distance[tets] > 0.0
+    n_above = above.sum(axis=1)
+    # Vertices of each tetrahedron; vertices below the plane come first.
+    order = np.argsort(above, axis=1, kind="stable")
+    pairs, hosts = [], []
+    for number, corners in _CUTS:
+        own = np.flatnonzero(n_above == number)
+        vertices = np.take_along_axis(tets[own], order[own], axis=1)
+        pairs.append(vertices[:, corners].reshape(-1, 2))
+        hosts.append(np.repeat(own, 3))
+    ends = np.sort(np.concatenate(pairs), axis=1)
+    unique, first, corner = np.unique(
+        ends[:, 0] * len(nodes) + ends[:, 1], return_index=True, return_inverse=True
+    )
+    one, other = unique // len(nodes), unique % len(nodes)
+    share = distance[one] / (distance[one] - distance[other])
+    points = nodes[one] + share[:, None] * (nodes[other] - nodes[one])
+    u, l = flow.sample(points, np.concatenate(hosts)[first].astype(np.int32), 0.0)
+    return Slice(
+        points,
+        corner.reshape(-1, 3).astype(np.int64),
+        {"speed": np.linalg.norm(u, axis=1), "shearRate": _rate(l.reshape(-1, 9))},
+    )
+
+
+# Number of vertices above the plane, and the vertex pairs, below first, of the corners of a triangle.
+_CUTS = (
+    (1, (0, 3, 1, 3, 2, 3)),
+    (3, (0, 1, 0, 2, 0, 3)),
+    (2, (0, 2, 0, 3, 1, 3)),
+    (2, (0, 2, 1, 3, 1, 2)),
+)
