@@ -1,56 +1,149 @@
-"""The site made of these pages: sphinx-build -W docs site (the extra ``docs``)."""
+"""The site of these pages: sphinx-build -W docs site (the extra ``docs``)."""
 
 from __future__ import annotations
 
+import os
 import re
+import tempfile
 from importlib.metadata import version as version_of
 from pathlib import Path
 from typing import Any
 
+HERE = Path(__file__).parent
+ROOT = HERE.parent
+
 project = "foamprb"
 author = "The authors of foamprb"
 release = version = version_of("foamprb")
-extensions = ["myst_parser"]
-root_doc = "README"
+extensions = [
+    "myst_nb",
+    "numpydoc",
+    "sphinx.ext.autodoc",
+    "sphinx_copybutton",
+    "sphinx_design",
+]
 exclude_patterns = ["_build", "site"]
 myst_heading_anchors = 4
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["attrs_inline", "colon_fence"]
 html_theme = "pydata_sphinx_theme"
 html_title = "foamprb"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_show_sourcelink = False
+html_sidebars = {"index": []}
 html_theme_options: dict[str, Any] = {
-    "show_prev_next": False,
-    "secondary_sidebar_items": ["page-toc"],
     "navbar_align": "left",
+    "header_links_before_dropdown": 5,
+    "secondary_sidebar_items": ["page-toc"],
+    "show_nav_level": 1,
     "pygments_light_style": "a11y-high-contrast-light",
     "pygments_dark_style": "a11y-high-contrast-dark",
+    "footer_start": ["copyright"],
+    "footer_end": [],
 }
-HERE = Path(__file__).parent
+copyright = "The authors of foamprb. GPL-3.0-or-later"  # noqa: A001
+copybutton_exclude = ".linenos, .gp, .go"
+
+# Notebooks are executed when the site is built, and again when they change. Without this variable their
+# figures are shown below the cells.
+os.environ.pop("MPLBACKEND", None)
+nb_execution_mode = "cache"
+nb_execution_timeout = 120
+nb_execution_raise_on_error = True
+nb_merge_streams = True
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autodoc_class_signature = "mixed"
+numpydoc_show_class_members = False
+
+SECTIONS = ("tutorials/index", "how-to", "models/index", "reference/index", "evidence")
+"""Pages that list others: links of theirs make the table of contents."""
+CASES = sorted((HERE / "cases").glob("*.md"))
+PAGES = {
+    "README.md": "index.md",
+    "CHANGELOG.md": "changelog.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "tools/README.md": "tools.md",
+    **{f"cases/{page.stem}/README.md": f"cases/{page.name}" for page in CASES},
+}
+"""Files outside this folder, and the pages of the site that include them."""
 
 
-def within_the_site(_: Any, name: str, source: list[str]) -> None:
-    """Make words of links to what is no page of the site, and list all pages under the first."""
+def within_the_site(text: str, folder: Path, page: Path) -> str:
+    """Return the text of a file in a folder for a page, with links to the pages that include other files."""
+
+    def link(found: re.Match[str]) -> str:
+        path, mark, anchor = found[2].partition("#")
+        target = (folder / path).resolve()
+        if target.is_relative_to(ROOT) and (own := PAGES.get(str(target.relative_to(ROOT)))):
+            target = HERE / own
+        return f"{found[1]}({os.path.relpath(target, page.parent)}{mark}{anchor})"
+
+    return re.sub(r"(!?\[[^\]]*\])\((?![a-z]+:|#)([^)\s]+)\)", link, text)
+
+
+def change_page(_: Any, name: str, source: list[str]) -> None:
+    """Change the links of a page as it is read."""
     page = HERE / f"{name}.md"
+    if not page.exists():
+        return
+    if name in SECTIONS:
+        items = "".join(re.findall(r"^\* .*\n", source[0], re.MULTILINE))
+        pages = dict.fromkeys(re.findall(r"\]\(((?:\.\./)?[\w/-]+)\.md\)", items))
+        source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
+    if name == "reference/commands":
+        source[0] += commands()
+    source[0] = within_the_site(source[0], page.parent, page)
 
-    def word(link: re.Match[str]) -> str:
-        target = (page.parent / link[2].partition("#")[0]).resolve()
-        return link[0] if target.is_relative_to(HERE) and target.is_file() else link[1]
 
-    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\((?![a-z]+://|#)([^)]+)\)", word, source[0])
-    if name == root_doc:
-        pages = re.findall(r"\]\(((?!\.\.)[\w/-]+)\.md\)", source[0])
-        listed = "\n".join(dict.fromkeys(pages))
-        source[0] += f"\n```{{toctree}}\n:hidden:\n\n{listed}\n```\n"
+def commands() -> str:
+    """Return a section for each command, with a table of its options, from the parser of the command line."""
+    from foamprb.cli.main import _parser
+
+    (chosen,) = (action for action in _parser()._actions if action.choices)
+    text = ""
+    for help_, (name, parser) in zip(chosen._choices_actions, chosen.choices.items(), strict=True):
+        rows = [(option(action), action.help) for action in parser._actions if action.dest != "help"]
+        lines = [f"| `{words}` | {meaning.replace('|', '/')} |" for words, meaning in rows]
+        text += (
+            f"\n## {name}\n\n`foamprb {name}`: {help_.help}\n\n| | |\n|---|---|\n" + "\n".join(lines) + "\n"
+        )
+    return text
 
 
-def as_index(app: Any, failure: Exception | None) -> None:
-    """Let the site begin at index.html."""
-    first = Path(app.outdir) / f"{root_doc}.html"
-    if failure is None and first.exists():
-        (first.parent / "index.html").write_bytes(first.read_bytes())
+def option(action: Any) -> str:
+    """Return an option with its argument, in OpenFOAM's manner with a single dash."""
+    choices = f"{{{','.join(map(str, action.choices))}}}" if action.choices else action.dest.upper()
+    value = action.metavar or choices
+    if not action.option_strings:
+        return f"[{value}]" if action.nargs == "?" else str(value)
+    words = [word.replace("--", "-", 1) for word in action.option_strings]
+    takes = "" if action.nargs == 0 else " " + (" ".join(value) if isinstance(value, tuple) else str(value))
+    return ", ".join(words) + takes
+
+
+def change_included(_: Any, path: Path, _parent: str, source: list[str]) -> None:
+    """Change the links of an included file as it is read."""
+    file = (HERE / path).resolve()
+    source[0] = within_the_site(source[0], file.parent, HERE / PAGES[str(file.relative_to(ROOT))])
+
+
+def write_scene(app: Any, failure: Exception | None) -> None:
+    """Write the page of ``foamprb view`` that the first page shows, from a run of the pipe case."""
+    if failure is not None or app.builder.name != "html":
+        return
+    import foamprb
+
+    with tempfile.TemporaryDirectory() as scratch:
+        job = foamprb.prepare(ROOT / "cases/pipe", output=scratch)
+        foamprb.execute(job)
+        run = foamprb.open_run(ROOT / "cases/pipe", results=scratch)
+        run.view(Path(app.outdir) / "scene.html", max_size=3.0, enlargement=50.0)
 
 
 def setup(app: Any) -> None:
-    """Change pages as they are read, and add the first when all are written."""
-    app.connect("source-read", within_the_site)
-    app.connect("build-finished", as_index)
+    """Change pages as they are read, and add the scene when all are written."""
+    app.connect("source-read", change_page)
+    app.connect("include-read", change_included)
+    app.connect("build-finished", write_scene)

@@ -1,4 +1,4 @@
-"""Names for :doc:`user-defined models <own-models>`: rows of a block of particles, and bounds of entries."""
+"""Names for :doc:`user-defined models </own-models>`: rows of a block of particles, and bounds of entries."""
 
 from foamprb.cloud.block import at, load3, load9, store3, store9
 from foamprb.cloud.layout import LANES, Row, offsets

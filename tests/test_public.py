@@ -14,6 +14,9 @@ import foamprb
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "cases").glob("*/README.md")])
 # Whoever changes the package needs its other names.
 PAGES.remove(ROOT / "docs/development.md")
+# Directives of the reference, which name modules of the package.
+REFERENCE = sorted((ROOT / "docs/reference").glob("*.md"))
+PAGES = [page for page in PAGES if page not in REFERENCE]
 SCRIPTS = sorted((ROOT / "cases").glob("*/*.py"))
 
 
@@ -41,6 +44,12 @@ def test_public_names_have_docstrings_and_belong_to_the_package():
     assert [name for name, value in found.items() if not value.__doc__] == []
     homes = {name: getattr(value, "__module__", value.__name__) for name, value in found.items()}
     assert [name for name, home in homes.items() if not home.startswith("foamprb.")] == []
+
+
+def test_reference_has_every_public_name_once():
+    pages = "".join(page.read_text() for page in REFERENCE)
+    found = re.findall(r"^\.\. auto\w+:: foamprb\.(\w+)$", pages, re.MULTILINE)
+    assert sorted(found) == sorted(foamprb.__all__)
 
 
 def test_other_names_are_refused():

@@ -231,8 +231,8 @@ def from_frame(Q: Tensor, T: Tensor) -> Tensor:
 def log_ratio(J: Scalar) -> Scalar:
     """Return ln J for J in [1/8, 8], to 4 units in the last place of 1, without a branch or library call.
 
-    ln J = 8 artanh z with z = (r − 1)/(r + 1), r = J^¼. The odd series in z (|z| ≤ 0.255) ends where its next
-    term is below 1e-17.
+    ln J = 8 artanh z with z = (r − 1)/(r + 1), r = J^¼. The odd series in z, with z² ≤ 0.065, ends where
+    its next term is below 1e-17.
     """
     r = np.sqrt(np.sqrt(J))
     z = (r - 1.0) / (r + 1.0)

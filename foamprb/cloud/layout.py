@@ -26,7 +26,7 @@ class Row(NamedTuple):
     """Declaration of one quantity of a block."""
 
     components: int
-    """Number of rows: 1, 3 or 9, one for each component."""
+    """Number of rows (1, 3 or 9), one for each component."""
     unit: str
     meaning: str
     initial: float | tuple[float, ...] = 0.0

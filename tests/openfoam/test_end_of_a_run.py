@@ -41,7 +41,7 @@ def case() -> Iterator[Path]:
 
 def test_the_solver_starts_foamprb_at_its_end(case: Path) -> None:
     """What the solver calls says where and with which words; the same is then done here."""
-    page = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/tutorials/openfoam.md").read_text(encoding="utf-8")
     block = re.search(r"<!-- controlDict -->\n```\n(.*?)```", page, re.DOTALL)
     assert block
     with (case / "system/controlDict").open("a") as file:
