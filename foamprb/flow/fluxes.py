@@ -33,8 +33,10 @@ from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector
 from foamprb.compile.link import link
 from foamprb.flow.base import WALLS, Caveat, Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
+from foamprb.flow.mesh.faces import group_faces
 from foamprb.flow.mesh.lists import Mask, share, together
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.submesh import Halo
 
 log = logging.getLogger("foamprb")
 
@@ -97,9 +99,12 @@ class Conservation:
     valued
         (n_boundary,) mask of boundary faces whose velocity is given; by default all. The flux through a wall
         without a velocity may change, as that through an open face.
+    halo
+        The nodes that hold a part of the mesh each, if this is a part. The first balances all cells.
     """
 
-    def __init__(self, mesh: Mesh, valued: Mask | None = None) -> None:
+    def __init__(self, mesh: Mesh, valued: Mask | None = None, halo: Halo | None = None) -> None:
+        self._halo = halo
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
         self._closed = _types(mesh, _CLOSED)
         # The flux through an open face may change.
@@ -138,7 +143,11 @@ class Conservation:
             # What leaves through a coupled patch enters through its partner.
             outer[coupling.faces] = 0.5 * (interpolated[coupling.faces] - interpolated[coupling.partners])
         if mass is not None:
-            self.unbalanced = _Balance(mesh, self._nodes, u, self._open, fluxes)(fluxes, mass)
+            measures = _measured(mesh, self._nodes, u, fluxes)
+            if self._halo is None:
+                self.unbalanced = _Balance(mesh, *measures, self._open)(fluxes, mass)
+            else:
+                fluxes, self.unbalanced = self._balanced_together(self._halo, measures, fluxes)
         correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
         most = int(np.diff(mesh.cell_start).max(initial=0))
         arrays = (
@@ -152,6 +161,30 @@ class Conservation:
 
         share(mesh.n_cells, cells)
         return correction
+
+    def _balanced_together(self, halo: Halo, measures: Floats, fluxes: Floats) -> tuple[Floats, float]:
+        """Return the balanced fluxes of a part of the mesh, and what is left; only volume is kept."""
+        part, mesh, faces, own = halo.part, self._mesh, halo.own_faces, np.flatnonzero(halo.part.own)
+        beyond = np.full(len(mesh.owner), -1, dtype=np.int64)
+        beyond[: mesh.n_internal] = part.cells[mesh.neighbour]
+        free = np.zeros(len(mesh.owner), dtype=bool)
+        free[mesh.n_internal :] = self._open
+        ends = part.cells[mesh.owner[faces]], beyond[faces]
+        of_faces = halo.gather(
+            part.faces[faces],
+            *(cells.astype(np.int32) for cells in ends),
+            *(values[faces] for values in (free, fluxes, *measures)),
+        )
+        of_cells = halo.gather(part.cells[own], mesh.centres[own], mesh.volumes[own])
+        balanced, left = None, 0.0
+        if of_faces:
+            owner, neighbour, free, balanced, *whole = of_faces
+            n, n_cells = part.n_internal, len(of_cells[0])
+            listed = np.zeros(n_cells + 1, dtype=np.int32), np.empty(len(owner) + n, dtype=np.int32)
+            link(group_faces)(owner, neighbour[:n], *listed)
+            graph = _Graph(n, n_cells, *listed, owner, neighbour[:n], *of_cells)
+            left = _Balance(graph, *whole, free[n:])(balanced, CONSTANT)
+        return halo.scatter(part.faces, balanced), halo.team.spread(left)
 
     def caveats(self) -> list[Caveat]:
         """Return a warning if the last correction leaves cells that make or lose fluid."""
@@ -172,6 +205,19 @@ class Conservation:
             log.warning("At time %s %s", time, caveat)
 
 
+class _Graph(NamedTuple):
+    """Faces between cells, and the cells; see :class:`~foamprb.flow.mesh.mesh.Mesh`."""
+
+    n_internal: int
+    n_cells: int
+    cell_face_start: Ints
+    cell_faces: Ints
+    owner: Ints
+    neighbour: Ints
+    centres: Floats
+    volumes: Floats
+
+
 class _Balance:
     """Least change of the fluxes through the faces of the cells that keeps the mass of each cell.
 
@@ -183,18 +229,23 @@ class _Balance:
 
     Parameters
     ----------
-    nodes, u
-        Places and velocities of the nodes.
+    mesh
+        Cells and faces.
+    weight, error, square
+        Results of :func:`weigh_faces` (n_faces,); the first two are overwritten.
     free
         Boundary faces through which the flux may change.
-    fluxes
-        (n_faces,) interpolated fluxes, m³/s.
     """
 
-    def __init__(self, mesh: Mesh, nodes: Floats, u: Floats, free: Mask, fluxes: Floats) -> None:
+    def __init__(
+        self, mesh: Mesh | _Graph, weight: Floats, error: Floats, square: Floats, free: Mask
+    ) -> None:
         self._mesh, self._closed = mesh, not free.any()
         n, cells = mesh.n_internal, mesh.n_cells
-        self._weight = weight = _weights(mesh, nodes, u, fluxes)
+        error += _LEAST_ERROR * np.mean(error) + 1e-12 * np.mean(square) + 1e-300
+        weight *= error
+        weight /= weight.max(initial=1e-300)
+        self._weight = weight
         weight[n:][~free] = 0.0
         # Unsigned, which avoids a check for negative indices.
         start, columns = np.empty(cells + 1, dtype=np.uint32), np.empty(2 * n, dtype=np.uint32)
@@ -286,17 +337,13 @@ class _Balance:
         return together(*(partial(kernel, *part, *arguments, *row) for part, row in parts))
 
 
-def _weights(mesh: Mesh, nodes: Floats, u: Floats, fluxes: Floats) -> Floats:
-    """Return the weights of the faces; see :class:`_Balance`."""
-    weight, weigh = np.empty(len(fluxes)), link(weigh_faces)
-    errors = error, square = np.empty((2, len(fluxes)))
+def _measured(mesh: Mesh, nodes: Floats, u: Floats, fluxes: Floats) -> Floats:
+    """Return the results of :func:`weigh_faces`, (3, n_faces)."""
+    measures, weigh = np.empty((3, len(fluxes))), link(weigh_faces)
     given = nodes, u, mesh.n_points, mesh.boundary_centres, mesh.neighbour
     own = mesh.face_start, mesh.face_points, mesh.owner, fluxes
-    share(len(fluxes), lambda low, high: weigh(low, high, *given, *own, weight, *errors))
-    error += _LEAST_ERROR * np.mean(error) + 1e-12 * np.mean(square) + 1e-300
-    weight *= error
-    weight /= weight.max(initial=1e-300)
-    return weight
+    share(len(fluxes), lambda low, high: weigh(low, high, *given, *own, *measures))
+    return measures
 
 
 def _blocks(centres: Floats) -> tuple[Ints, int]:

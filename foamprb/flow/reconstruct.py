@@ -15,6 +15,7 @@ image (:mod:`foamprb.flow.images`) with known values, which counts as a neighbou
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 
 import numpy as np
@@ -32,6 +33,7 @@ from foamprb.flow.gradient import (
 from foamprb.flow.images import Images, points_of_faces
 from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.submesh import Halo, total_of
 
 VALUELESS = frozenset(
     {
@@ -61,9 +63,12 @@ class Reconstruction:
         The mesh.
     valued
         (n_boundary,) mask of boundary faces with a value; by default all except :data:`VALUELESS` patches.
+    halo
+        The nodes that hold a part of the mesh each, if this is a part.
     """
 
-    def __init__(self, mesh: Mesh, valued: Mask | None = None) -> None:
+    def __init__(self, mesh: Mesh, valued: Mask | None = None, halo: Halo | None = None) -> None:
+        self._halo = halo
         patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
         if valued is None:
             valued = np.array([p.type not in VALUELESS for p in mesh.patches], dtype=bool)[patch_of_face]
@@ -90,6 +95,8 @@ class Reconstruction:
         # Their neighbours lie evenly around hexahedra; beside a wall the errors of a finite-volume solution
         # exceed those of the first estimate.
         self._settled = np.flatnonzero(regular)
+        unsettled = len(self._settled) < n
+        self._passes = 1 + (_MOST_PASSES if (halo.any(unsettled) if halo else unsettled) else 0)
         rows, columns = (part.astype(np.int32) for part in points_of_faces(mesh, faces))
         of_cells = np.repeat(np.arange(n, dtype=np.int32), np.diff(mesh.cell_point_start))
         self._around = grouped(
@@ -123,7 +130,18 @@ class Reconstruction:
         self._impose_walls(at_points[0], boundary, slopes, bends)
         for values in at_points:
             self._images.agree(values)
+            self._fill("points", values)
         return u_nodes, l_nodes
+
+    def _fill(self, kind: str, values: Floats) -> None:
+        """Fill the rows of cells or points of other nodes."""
+        if self._halo is not None:
+            self._halo.fill(kind, values)
+
+    def _norm(self, values: Floats) -> float:
+        """Return the norm of values at the cells."""
+        squares = np.einsum("ci,ci->c", values.reshape(len(values), -1), values.reshape(len(values), -1))
+        return math.sqrt(self._halo.total(squares) if self._halo else total_of(squares))
 
     def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
         """Reconstruct three scalars within the range of the values around a node, so that they stay positive.
@@ -143,6 +161,7 @@ class Reconstruction:
         at_sites = np.concatenate([cells, boundary[self._valued], cells[images.cells]])
         slopes_of_cells = np.zeros((n, m, 3))
         self._gradient(at_sites, slopes_of_cells)
+        self._fill("cells", slopes_of_cells)
         values = np.concatenate([self._means(at_sites), cells])
         if len(self._walls):
             rows, columns = points_of_faces(mesh, self._walls)
@@ -157,6 +176,8 @@ class Reconstruction:
             slopes[: mesh.n_points, f] = self._means(np.concatenate([own, own[owner], images.turned(own)]))
             images.agree(slopes[: mesh.n_points, f])
             slopes[mesh.n_points :, f] = own
+        for part in (values, slopes):
+            self._fill("points", part)
         return values, slopes
 
     def scalar(self, cells: Floats, boundary: Floats) -> Floats:
@@ -179,12 +200,14 @@ class Reconstruction:
         flat = values.reshape(len(values), -1)
         found = np.zeros((n, flat.shape[1], 3))
         self._gradient(flat, found)
+        self._fill("cells", found)
         slopes = found.reshape(*cells.shape, 3)
         of_sites = np.concatenate([slopes, slopes[owner], turned(slopes)]).reshape(len(values), -1, 3)
         at_points = np.empty((self.mesh.n_points, flat.shape[1]))
         for k in range(0, flat.shape[1], 3):
             three = np.minimum(np.arange(k, k + 3), flat.shape[1] - 1)
             at_points[:, three] = self._means(np.take(flat, three, 1), np.take(of_sites, three, 1))
+        self._fill("points", at_points)
         return np.concatenate([at_points.reshape(-1, *cells.shape[1:]), cells])
 
     def _means(self, values: Floats, slopes: Floats | None = None) -> Floats:
@@ -224,11 +247,11 @@ class Reconstruction:
         around, nothing = np.empty((n + n_points, 3, 3)), np.empty((n_points, 3))
         if given is None:
             self._gradient(u, slopes[:n])
+            self._fill("cells", slopes[:n])
         else:
             slopes[:n] = given
         self._beyond(u, slopes, bends, own)
-        passes = 1 if len(self._settled) == n else 1 + _MOST_PASSES
-        for number in range(passes):
+        for number in range(self._passes):
             if number == 0:
                 self._across.bends(slopes, bends[:n])
             else:
@@ -238,12 +261,14 @@ class Reconstruction:
                 self._inside.average(around.reshape(-1, 9))
                 self._inside.fit.bends(around, bends[:n])
                 bends[self._settled] = kept
-            before = slopes[:n].copy() if given is None and passes > 1 else slopes[:0]
+            self._fill("cells", bends[:n])
+            before = slopes[:n].copy() if given is None and self._passes > 1 else slopes[:0]
             if given is None:
                 self._gradient(u, slopes[:n], bends=bends[:n])
+                self._fill("cells", slopes[:n])
             self._beyond(u, slopes, bends, own)
             before -= slopes[: len(before)]
-            if np.linalg.norm(before) <= _CHANGE * np.linalg.norm(slopes[:n]):
+            if len(before) == 0 or self._norm(before) <= _CHANGE * self._norm(slopes[:n]):
                 break
         return slopes, bends
 

@@ -8,7 +8,7 @@ linear on them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -139,8 +139,15 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     return assemble(poly_of_grid(grid, surfaces, source), source)
 
 
-def assemble(poly: PolyMesh, source: str) -> Mesh:
-    """Find neighbours, tetrahedra and coupled patches of a mesh; ``source`` is its name for messages.
+def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) -> Mesh:
+    """Find neighbours, tetrahedra and coupled patches of a mesh.
+
+    Parameters
+    ----------
+    poly, source
+        Points, faces and patches; the name of the mesh for messages.
+    coupled
+        Finds the coupled patches as :func:`foamprb.flow.mesh.coupling.couple` does.
 
     Raises
     ------
@@ -153,7 +160,7 @@ def assemble(poly: PolyMesh, source: str) -> Mesh:
     points, faces, cell_points = part_points(points, faces, cell_start, cell_points)
     poly = poly._replace(points=points, faces=faces)
     for _ in range(_MOST_TURNS):
-        mesh, astray = _assemble(poly, (cell_start, cell_points), source)
+        mesh, astray = _assemble(poly, (cell_start, cell_points), source, coupled)
         if len(astray) == 0:
             return mesh
         turn_alike(faces, astray)
@@ -163,7 +170,9 @@ def assemble(poly: PolyMesh, source: str) -> Mesh:
     )
 
 
-def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Mesh, Index]:
+def _assemble(
+    poly: PolyMesh, cells: tuple[Ints, Ints], source: str, coupled: Callable[..., Any]
+) -> tuple[Mesh, Index]:
     """Return the mesh, and the cells with neighbouring faces that turn against each other."""
     points, faces, surfaces, patch_start = poly
     # The bases of the fans must not depend on the number of turns of a face.
@@ -179,7 +188,7 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
         else patch
         for patch, first, end in zip(surfaces, patch_start[:-1], patch_start[1:], strict=True)
     ]
-    patches, couplings = couple(
+    patches, couplings = coupled(
         [Patch(patch.name, patch.type, patch.neighbour, patch.groups) for patch in surfaces],
         *(patch_start, boundary_centres, boundary_areas, surfaces, source),
     )

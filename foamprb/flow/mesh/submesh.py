@@ -1,0 +1,276 @@
+"""Mesh of the cells that a node of a parallel run holds, equal to the whole mesh to the last bit.
+
+Cells, faces and points rise in the numbers of the whole mesh, so that sums over neighbours have its order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.errors import InputError
+from foamprb.flow.base import Floats, Patch
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.coupling import Coupling, couple
+from foamprb.flow.mesh.fragment import Grown, Labels, Team
+from foamprb.flow.mesh.geometry import faces_of
+from foamprb.flow.mesh.lists import Index, int32, ragged, starts
+from foamprb.flow.mesh.mesh import Mesh, assemble
+
+CUT = PatchSurface("(cut)", "processor", None)
+"""Patch of the faces where the cells of a node end."""
+_COUPLED = frozenset({"cyclic", "wedge"})
+RINGS = 2
+"""Outermost layers of cells, in which the shapes of cells differ in round-off, or their neighbours lack."""
+
+
+@dataclass(frozen=True)
+class SubMesh:
+    """Cells of a node with layers of others around them."""
+
+    mesh: Mesh
+    """The last patch has the faces where these cells end."""
+    cells: Labels
+    """(n_cells,) their numbers in the whole mesh, rising."""
+    points: Labels
+    """(n_points,) numbers of the points, rising."""
+    faces: Labels
+    """(n_faces,) numbers of the faces."""
+    layer: NDArray[np.uint8]
+    """(n_cells,) 0 for own cells."""
+    node: NDArray[np.int32]
+    """(n_cells,) the node that owns the cell."""
+    n_internal: int
+    """Number of faces between cells in the whole mesh."""
+
+    @property
+    def own(self) -> NDArray[np.bool_]:
+        """Return True for own cells, (n_cells,)."""
+        return self.layer == 0
+
+
+def partners_of(patches: Sequence[PatchSurface], patch_start: Index) -> Labels:
+    """Return the boundary face that continues each boundary face of cyclic patches, −1 for none."""
+    partners = np.full(int(patch_start[-1]), -1, dtype=np.int64)
+    names = [patch.name for patch in patches]
+    for k, patch in enumerate(patches):
+        if patch.type == "cyclic" and patch.neighbour in names:
+            other = names.index(patch.neighbour)
+            own, there = (np.arange(*patch_start[i : i + 2]) for i in (k, other))
+            if len(own) == len(there):
+                partners[own] = there
+    return partners
+
+
+def assemble_part(
+    grown: Grown,
+    patches: Sequence[PatchSurface],
+    patch_start: Index,
+    n_internal: int,
+    team: Team,
+    source: str,
+) -> SubMesh:
+    """Return the mesh of a node.
+
+    Parameters
+    ----------
+    grown
+        Its cells.
+    patches, patch_start
+        Patches of the whole mesh, and the first boundary face of each.
+    n_internal
+        Number of faces between cells in the whole mesh.
+    team, source
+        The nodes; the name of the mesh for messages.
+    """
+    f = grown.fragment
+    owner, neighbour = (_places(f.cells, side) for side in (f.owner, f.neighbour))
+    inside = (owner >= 0) & (neighbour >= 0)
+    outside = f.faces >= n_internal
+    order = np.concatenate([np.flatnonzero(m) for m in (inside, outside, ~inside & ~outside)])
+    turned = owner[order] < 0
+    sizes = np.diff(f.start)[order]
+    begin = f.start[:-1][order]
+    within = ragged(np.zeros(len(order), dtype=np.intp), sizes)
+    size_of, turn_of = np.repeat(sizes, sizes), np.repeat(turned, sizes)
+    within = np.where(turn_of, -within % size_of, within)
+    lists = np.searchsorted(f.points, f.lists[np.repeat(begin, sizes) + within])
+    owner = np.where(turned, neighbour[order], owner[order])
+    n_inside, boundary = int(inside.sum()), f.faces[outside] - n_internal
+    ends = np.concatenate([np.searchsorted(boundary, patch_start), [len(order) - n_inside]])
+    faces = faces_of(
+        int32(starts(sizes)), int32(lists), int32(owner), int32(neighbour[order[:n_inside]]), len(f.cells)
+    )
+    poly = PolyMesh(f.places, faces, [*patches, CUT], ends)
+    own = grown.layer == 0
+    local = _LocalCoupling(team, patch_start, boundary, own[owner[n_inside : n_inside + len(boundary)]])
+    mesh = assemble(poly, source, local)
+    if max(team.exchange([len(mesh.points) - len(f.points)] * team.size)) > 0:
+        raise InputError(
+            f"{source}: the mesh has baffles, walls without thickness between cells, which cannot yet be "
+            "distributed over computers. Run reconstructPar, or use one computer."
+        )
+    return SubMesh(mesh, f.cells, f.points, f.faces[order], grown.layer, grown.node, n_internal)
+
+
+def _places(numbers: Labels, wanted: Labels) -> Index:
+    """Return the index of each wanted number, −1 for those that are missing."""
+    at = np.minimum(np.searchsorted(numbers, wanted), max(len(numbers) - 1, 0))
+    return np.where(numbers[at] == wanted, at, -1)
+
+
+class _LocalCoupling:
+    """Coupled patches of a node: motions by the faces of all nodes, pairs of faces that are here.
+
+    Parameters
+    ----------
+    team
+        The nodes.
+    patch_start
+        The first boundary face of each patch of the whole mesh.
+    boundary, own
+        (n,) numbers of the boundary faces here, rising, and whether their cells are own ones.
+    """
+
+    def __init__(self, team: Team, patch_start: Index, boundary: Labels, own: NDArray[np.bool_]) -> None:
+        self._team, self._start, self._boundary, self._own = team, patch_start, boundary, own
+        self._found: tuple[tuple[Patch, ...], tuple[Coupling, ...]] | None = None
+
+    def __call__(
+        self,
+        patches: Sequence[Patch],
+        patch_start: Index,  # noqa: ARG002
+        centres: Floats,
+        areas: Floats,
+        surfaces: Sequence[PatchSurface],
+        source: str,
+    ) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
+        """See :func:`foamprb.flow.mesh.coupling.couple`; all nodes call it once."""
+        if self._found is None:
+            self._found = self._couple(patches, centres, areas, surfaces, source)
+        return self._found
+
+    def _couple(
+        self,
+        patches: Sequence[Patch],
+        centres: Floats,
+        areas: Floats,
+        surfaces: Sequence[PatchSurface],
+        source: str,
+    ) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
+        coupled = [p.type in _COUPLED for p in patches[:-1]]
+        if not any(coupled):
+            return tuple(patches), ()
+        counts = np.where(coupled, np.diff(self._start), 0)
+        # The faces of coupled patches alone.
+        faces = ragged(self._start[:-1], counts)
+        own = np.flatnonzero(self._own & np.isin(self._boundary, faces))
+        everywhere = self._team.exchange([(self._boundary[own], centres[own], areas[own])] * self._team.size)
+        both = np.zeros((2, len(faces), 3))
+        for numbers, *values in everywhere:
+            both[:, np.searchsorted(faces, numbers)] = values
+        start = np.concatenate([starts(counts), [len(faces)]])
+        named, found = couple(patches, start, both[0], both[1], surfaces, source)
+        here = [_places(self._boundary, faces[side]) for c in found for side in (c.faces, c.partners)]
+        kept = []
+        for k, coupling in enumerate(found):
+            pairs = (here[2 * k] >= 0) & (here[2 * k + 1] >= 0)
+            kept.append(coupling._replace(faces=here[2 * k][pairs], partners=here[2 * k + 1][pairs]))
+        return named, tuple(kept)
+
+
+class Halo:
+    """Exchange of values between the nodes that hold a mesh.
+
+    Parameters
+    ----------
+    part
+        Cells of this node.
+    team
+        The nodes.
+    """
+
+    def __init__(self, part: SubMesh, team: Team) -> None:
+        self.part, self.team = part, team
+        mesh, cells = part.mesh, part.cells
+        everyone = range(team.size)
+        n_boundary = int(mesh.patch_start[-2])
+        owner = mesh.owner[mesh.n_internal :][:n_boundary]
+        # Any node with a cell around a point that it owns can compute the values there.
+        lowest = np.full(mesh.n_points, mesh.n_cells, dtype=np.int64)
+        of_points = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
+        np.minimum.at(lowest, mesh.cell_points, of_points)
+        giver = part.node[lowest]
+        giver[mesh.cell_points[np.repeat(part.own, np.diff(mesh.cell_point_start))]] = team.rank
+        self._plans = {}
+        del of_points, lowest
+        for name, numbers, node in (
+            ("cells", cells, part.node),
+            ("points", part.points, giver),
+            ("boundary", part.faces[mesh.n_internal :][:n_boundary], part.node[owner]),
+        ):
+            wanted = [np.flatnonzero(node == k) if k != team.rank else np.empty(0, np.intp) for k in everyone]
+            asked = team.exchange([numbers[rows] for rows in wanted])
+            self._plans[name] = [np.searchsorted(numbers, ids) for ids in asked], wanted
+
+    def fill(self, kind: str, values: NDArray[Any]) -> None:
+        """Fill the rows of ``cells``, ``points`` or ``boundary`` faces of other nodes, in place."""
+        given, taken = self._plans[kind]
+        for rows, found in zip(taken, self.team.exchange([values[rows] for rows in given]), strict=True):
+            values[rows] = found
+
+    def of_all(self, value: Any) -> list[Any]:
+        """Return the values of all nodes."""
+        return self.team.exchange([value] * self.team.size)
+
+    def any(self, value: bool) -> bool:
+        """Return True if the value is true on any node."""
+        return any(self.of_all(bool(value)))
+
+    def total(self, values: Floats) -> float:
+        """Return the sum of values of the own cells of all nodes; see :func:`total_of`."""
+        return total_of(values[self.part.own], self.of_all)
+
+    @property
+    def own_faces(self) -> Index:
+        """Return the faces that this node counts; every face is counted by one node."""
+        mesh = self.part.mesh
+        counted = self.part.own[mesh.owner]
+        counted[mesh.n_internal + int(mesh.patch_start[-2]) :] = False
+        return np.flatnonzero(counted)
+
+    def gather(self, numbers: Labels, *values: NDArray[Any]) -> list[NDArray[Any]]:
+        """Return values of all nodes in the order of the whole mesh on node 0; none on the others."""
+        parts = self.team.collect((numbers, values))
+        n = sum(len(part) for part, _ in parts)
+        whole = [np.empty((n, *a.shape[1:]), dtype=a.dtype) for a in values if parts]
+        for part, own in parts:
+            for result, array in zip(whole, own, strict=True):
+                result[part] = array
+        return whole
+
+    def scatter(self, numbers: Labels, whole: NDArray[Any] | None) -> NDArray[Any]:
+        """Return the rows of an array of node 0."""
+        asked = self.team.collect(numbers)
+        parcels = [whole[rows] for rows in asked] if whole is not None else [None] * self.team.size
+        found: NDArray[Any] = self.team.exchange(parcels)[0]
+        return found
+
+
+def total_of(values: Floats, of_all: Callable[[Any], list[Any]] = lambda value: [value]) -> float:
+    """Return the sum of values that are not negative, the same in any order and any division among nodes.
+
+    The values are rounded to multiples of a power of two, which add without round-off; it is 2⁶⁰ times less
+    than the largest value times their number. ``of_all`` returns a value of each node.
+    """
+    ends = of_all((float(values.max(initial=0.0)), len(values)))
+    peak, n = max(peak for peak, _ in ends), sum(n for _, n in ends)
+    if not 0.0 < peak < np.inf:
+        return peak
+    unit = int(np.frexp(peak)[1]) + max(n, 1).bit_length() - 61
+    own = int(np.rint(np.ldexp(values, -unit)).astype(np.int64).sum())
+    return float(np.ldexp(float(sum(of_all(own))), unit))

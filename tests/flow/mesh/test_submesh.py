@@ -1,0 +1,104 @@
+"""Parts of a mesh, on which nodes compute what one process computes on the whole, bit by bit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mesh_shapes import block, box_patches, cyclic_row, pipe, pipe_patches, wedge, wedge_patches
+from threads_team import together
+
+from foamprb.flow.fluxes import Conservation
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.fragment import Fragment, grow
+from foamprb.flow.mesh.geometry import faces_of
+from foamprb.flow.mesh.mesh import assemble, build_mesh
+from foamprb.flow.mesh.submesh import RINGS, Halo, assemble_part, partners_of, total_of
+from foamprb.flow.reconstruct import Reconstruction
+
+
+def whole_of(poly):
+    """All cells of a mesh as a fragment."""
+    points, faces, *_ = poly
+    neighbour = np.full(len(faces.owner), -1, dtype=np.int64)
+    neighbour[: len(faces.neighbour)] = faces.neighbour
+    return Fragment(
+        np.arange(len(faces.first) - 1), np.arange(len(points)), points, np.arange(len(faces.owner)),
+        faces.start.astype(np.intp), faces.points.astype(np.int64), faces.owner.astype(np.int64), neighbour,
+    )  # fmt: skip
+
+
+def poly_of(mesh):
+    """Points, faces and patches of a mesh, as they are read from a case."""
+    sides = mesh.owner.copy(), mesh.neighbour.copy()
+    faces = faces_of(mesh.face_start, mesh.face_points.copy(), *sides, mesh.n_cells)
+    patches = [PatchSurface(p.name, p.type, None, p.neighbour) for p in mesh.patches]
+    return PolyMesh(mesh.points, faces, patches, mesh.patch_start.astype(np.intp))
+
+
+def part_of(poly, cells, team, layers):
+    """The sub-mesh of a node that owns some cells and does not know what lies beyond them."""
+    own = whole_of(poly).take(cells)
+    known = [np.where(np.isin(side, own.cells), side, -1) for side in (own.owner, own.neighbour)]
+    own = own._replace(owner=known[0], neighbour=known[1])
+    n = len(poly.faces.neighbour)
+    grown = grow(own, team, layers, partners_of(poly.patches, poly.patch_start), n)
+    return assemble_part(grown, poly.patches, poly.patch_start, n, team, "mesh")
+
+
+SHAPES = {
+    "pipe": lambda: build_mesh(shape := pipe(6, axial=12), pipe_patches(shape)),
+    "polyhedra": lambda: build_mesh(shape := block(8, kind="polyhedra"), box_patches(shape)),
+    "tetrahedra": lambda: build_mesh(shape := block(6, kind="tetrahedra"), box_patches(shape)),
+    "cyclics": lambda: cyclic_row(30.0, 2, cells=6),
+    "wedge": lambda: build_mesh(shape := wedge(24), wedge_patches(shape)),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_nodes_compute_the_flow_of_the_whole(shape, random):
+    poly = poly_of(SHAPES[shape]())
+    mesh = assemble(poly, "mesh")
+    x, y, z = mesh.centres.T
+    cells = np.stack([np.sin(3 * y) + x * z, np.cos(2 * x) * z, y * y - x], axis=1)
+    boundary = np.where(mesh.boundary_areas[:, :1] > 0.0, 0.1 * mesh.boundary_centres, 0.0)
+    u, l = Reconstruction(mesh)(cells, boundary)
+    conserve = Conservation(mesh)
+    correction = conserve(u, l)
+    # Slices, with a cell of another node in one of them.
+    parts = np.clip((3 * (x - x.min()) / np.ptp(x)).astype(int), 0, 2)
+    parts[random.integers(mesh.n_cells)] = 0
+
+    def work(team):
+        sub = part_of(poly, parts == team.rank, team, layers=2 + RINGS)
+        halo = Halo(sub, team)
+        own_cells = np.where(sub.own[:, None], cells[sub.cells], np.nan)
+        halo.fill("cells", own_cells)
+        faces = sub.faces[sub.mesh.n_internal :][: sub.mesh.patch_start[-2]] - sub.n_internal
+        on_faces = np.zeros((len(sub.mesh.boundary_centres), 3))
+        on_faces[: len(faces)] = boundary[faces]
+        u, l = Reconstruction(sub.mesh, halo=halo)(own_cells, on_faces)
+        conserve = Conservation(sub.mesh, halo=halo)
+        return sub, u, l, conserve(u, l), conserve.unbalanced
+
+    for sub, u_part, l_part, c_part, left in together(3, work):
+        n, inner = sub.mesh.n_points, sub.layer <= 2
+        nodes = np.concatenate([sub.points, mesh.n_points + sub.cells])
+        of_inner = sub.mesh.cell_points[np.repeat(inner, np.diff(sub.mesh.cell_point_start))]
+        some = np.concatenate([np.unique(of_inner), n + np.flatnonzero(inner)])
+        np.testing.assert_array_equal(sub.mesh.nodes[some], mesh.nodes[nodes][some])
+        np.testing.assert_array_equal(u_part[some], u[nodes][some])
+        np.testing.assert_array_equal(l_part[some], l[nodes][some])
+        tets = np.concatenate([np.arange(*mesh.cell_start[c : c + 2]) for c in sub.cells[inner]])
+        own = np.concatenate([np.arange(*sub.mesh.cell_start[c : c + 2]) for c in np.flatnonzero(inner)])
+        np.testing.assert_array_equal(nodes[sub.mesh.tets[own]], mesh.tets[tets])
+        np.testing.assert_array_equal(c_part[own], correction[tets])
+        assert left == conserve.unbalanced
+
+
+def test_sums_depend_on_no_order(random):
+    values = random.random(1000) ** 8
+    parts = np.split(random.permutation(values), [10, 500])
+    alone = total_of(values)
+    assert alone == pytest.approx(values.sum(), rel=1e-12)
+    sums = together(3, lambda team: total_of(parts[team.rank], lambda v: team.exchange([v] * 3)))
+    assert sums == [alone] * 3

@@ -1,0 +1,51 @@
+"""Nodes of a parallel run, as threads of one process."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+
+class ThreadTeam:
+    """One of several nodes; see :class:`foamprb.flow.mesh.fragment.Team`."""
+
+    def __init__(self, rank: int, size: int, desk: list[Any], barrier: threading.Barrier) -> None:
+        self.rank, self.size, self._desk, self._barrier = rank, size, desk, barrier
+
+    def exchange(self, parcels):
+        self._desk[self.rank] = list(parcels)
+        self._barrier.wait()
+        found = [self._desk[k][self.rank] for k in range(self.size)]
+        self._barrier.wait()
+        return found
+
+    def collect(self, value):
+        found = self.exchange([value] * self.size)
+        return found if self.rank == 0 else []
+
+    def spread(self, value):
+        return self.exchange([value] * self.size)[0]
+
+
+def together(size: int, work: Callable[[ThreadTeam], Any]) -> list[Any]:
+    """Return the results of all nodes; raise the first error."""
+    desk, barrier, results, errors = [None] * size, threading.Barrier(size), [None] * size, []
+
+    def run(rank: int) -> None:
+        try:
+            results[rank] = work(ThreadTeam(rank, size, desk, barrier))
+        except threading.BrokenBarrierError:
+            pass
+        except BaseException as error:
+            errors.append(error)
+            barrier.abort()
+
+    threads = [threading.Thread(target=run, args=(rank,)) for rank in range(size)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    if errors:
+        raise errors[0]
+    return results
