@@ -38,7 +38,7 @@ from foamprb.flow.walk import (
     walk_on,
 )
 from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
-from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall
+from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall, walls_at
 
 LONG: tuple[Callable[..., Any], ...] = (
     follow,
@@ -59,29 +59,42 @@ _FACING = 0.01
 """Fraction of the boundary area that must face along an axis for the flow to end there."""
 
 
-def _width(mesh: Mesh) -> float:
-    """Return the shortest extent of the mesh along axes on which it ends at walls or openings, m."""
+def end_triangles(mesh: Mesh) -> NDArray[np.intp]:
+    """Return the boundary triangles at which the flow ends: walls and openings."""
     ends = [not (patch.neighbour or patch.type in _NO_END) for patch in mesh.patches]
-    rows = np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
-    if len(rows) == 0:
+    return np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
+
+
+def shortest_extent(corners: Floats) -> float:
+    """Return the shortest extent of a flow along axes on which it ends, m.
+
+    ``corners`` (n, 3, 3) are those of the triangles where it ends.
+    """
+    if len(corners) == 0:
         return float(np.inf)
-    corners = mesh.points[mesh.triangles[rows]]
     areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])).sum(axis=0)
     extents = corners.max(axis=(0, 1)) - corners.min(axis=(0, 1))
     return float(extents[areas > _FACING * areas.sum()].min())
 
 
-def _folds(mesh: Mesh, nodes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], Ints, Ints]:
-    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
+def _folds(
+    mesh: Mesh, nodes: Floats, tree: Tree, everywhere: Callable[[Floats], Floats]
+) -> tuple[NDArray[np.uint8], Ints, Ints]:
+    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`.
+
+    ``everywhere`` returns the boxes of inverted tetrahedra of the whole mesh, if this is a part.
+    """
     folds = np.zeros(mesh.n_cells, dtype=np.uint8)
     folded = np.empty((mesh.inverted, 6))
     n = link(grade)(nodes, mesh.tets, mesh.n_points, folds, folded)
+    folded = everywhere(folded[:n])
     start, rim = np.zeros(mesh.n_cells + 1, dtype=np.int32), np.empty(0, dtype=np.int32)
-    if n > 0:
+    if len(folded) > 0:
         boxes = cell_boxes(mesh)
-        folds[np.diff(pairs_near(boxes, tree, folded[:n])[0]) > 0] = FOLDED
+        folds[np.diff(pairs_near(boxes, tree, folded)[0]) > 0] = FOLDED
         corners = mesh.points[mesh.triangles]
         targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
+        targets[mesh.triangle_patch < 0] = np.nan
         where, triangles = pairs_near(boxes, tree, targets)
         counts = np.diff(where)
         rim = triangles[np.repeat(folds == FOLDED, counts)]
@@ -159,8 +172,7 @@ class MeshFlow:
                 f"{mesh.inverted} of {len(mesh.tets)} tetrahedra are inverted: the mesh has cells "
                 "far from convex there, and paths through them take longer.",
             )
-        self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
-        self.width = _width(mesh)
+        self.bounds, self.width = self._extents(mesh)
         tree = build_tree(cell_boxes(mesh))
         nodes, columns = np.empty((len(u), 16)), (mesh.nodes, u, l.reshape(-1, 9), free_nodes(mesh)[:, None])
         share(
@@ -169,7 +181,7 @@ class MeshFlow:
         )
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
-        folds, rim_start, rim = _folds(mesh, nodes, tree)
+        folds, rim_start, rim = _folds(mesh, nodes, tree, self._everywhere)
         across, partners = triangles_across(mesh)
         self._arrays = no_mesh()._replace(
             nodes=nodes,
@@ -195,7 +207,17 @@ class MeshFlow:
             wall_boxes=np.empty((2, 6)),
             seen_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             correction=np.empty((0, 4), dtype=np.float32) if correction is None else correction,
+            strayed=np.zeros(1, dtype=np.int32),
         )
+
+    def _everywhere(self, rows: Floats) -> Floats:
+        """Return rows of all parts of the mesh; here there is one."""
+        return rows
+
+    def _extents(self, mesh: Mesh) -> tuple[tuple[Floats, Floats], float]:
+        """Return ``bounds`` and ``width``; see :class:`foamprb.flow.base.Flow`."""
+        bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
+        return bounds, shortest_extent(mesh.points[mesh.triangles[end_triangles(mesh)]])
 
     @staticmethod
     def nothing() -> MeshArrays:
@@ -234,12 +256,10 @@ class MeshFlow:
     ) -> MeshArrays:
         """Return the arrays with the walls that bodies touch and see, and their images at coupled patches."""
         mesh, arrays = self.mesh, self._arrays
-        names = np.flatnonzero(np.isin(mesh.triangle_patch, [*touchable, *seen])).astype(np.int32)
-        walls = Walls(
-            mesh.points[mesh.triangles[names]], mesh.triangle_normals[names], mesh.triangle_patch[names]
+        names, walls, images = self._walls(
+            [*touchable, *seen], max(reach if touchable else 0.0, sight if seen else 0.0)
         )
-        if mesh.couplings:
-            images = images_of_walls(mesh, walls, max(reach if touchable else 0.0, sight if seen else 0.0))
+        if images is not None:
             n, nodes, triangles = len(images.patches), len(arrays.nodes), len(arrays.triangles)
             beyond = np.zeros((3 * n, 16))
             beyond[:, :3] = images.corners.reshape(-1, 3)
@@ -271,6 +291,16 @@ class MeshFlow:
                 start, found = seen_walls(tree, boxes, sight, own)
                 arrays = arrays._replace(seen_start=start, seen=found)
         return arrays
+
+    def _walls(self, patches: Sequence[int], reach: float) -> tuple[Ints, Walls, Walls | None]:
+        """Return the triangles of some patches, these as walls, and walls to add to the triangles, if any.
+
+        The latter are images of walls within ``reach`` (m) of coupled patches.
+        """
+        mesh = self.mesh
+        names = np.flatnonzero(np.isin(mesh.triangle_patch, patches)).astype(np.int32)
+        walls = walls_at(mesh, names)
+        return names, walls, images_of_walls(mesh, walls, reach) if mesh.couplings else None
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """Replace the constant arrays, without the lists of walls, by the copies that ``place`` returns."""
@@ -308,7 +338,7 @@ class MeshFlow:
         arrays = self._arrays._asdict()
         if len(arrays["viscosity"]) == 0:
             del arrays["viscosity"]
-        fixed = {name: a for name, a in arrays.items() if not name.startswith(("wall_", "seen"))}
+        fixed = {name: a for name, a in arrays.items() if not name.startswith(("wall_", "seen", "strayed"))}
         return fixed | ({"sampled": self.field_table} if self.field_columns else {})
 
     def locate(self, points: Floats) -> Ints:

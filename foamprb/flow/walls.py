@@ -5,7 +5,8 @@ Walls beyond a cyclic patch or a wedge are included as images on this side of it
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -147,23 +148,39 @@ class Walls(NamedTuple):
         return Walls(*(array[rows] for array in self))
 
 
-def images_of_walls(mesh: Mesh, walls: Walls, reach: float) -> Walls:
+def walls_at(mesh: Mesh, triangles: Any) -> Walls:
+    """Return boundary triangles as walls."""
+    return Walls(
+        mesh.points[mesh.triangles[triangles]],
+        mesh.triangle_normals[triangles],
+        mesh.triangle_patch[triangles],
+    )
+
+
+Box: TypeAlias = tuple[Floats, Floats]
+"""Lower and upper corner, m."""
+
+
+def images_of_walls(mesh: Mesh, walls: Walls, reach: float, boxes: Mapping[int, Box] | None = None) -> Walls:
     """Return images of the walls beyond coupled patches, within ``reach`` (m) of them.
 
-    Where two pairs of patches meet, there are images of images.
+    Where two pairs of patches meet, there are images of images. ``boxes`` are those of the coupled patches,
+    by index, if the mesh is a part of another.
     """
+    if boxes is None:
+        boxes = {c.other: face_box(mesh, c.partners) for c in mesh.couplings if len(c.partners)}
     found: list[Walls] = []
     sources = [(-1, walls)]
     for _ in range(2):
         images = []
         for pair, seen in sources:
             for coupling in mesh.couplings:
-                if min(coupling.patch, coupling.other) == pair or len(coupling.faces) == 0:
+                if min(coupling.patch, coupling.other) == pair or coupling.other not in boxes:
                     continue
                 # The walls before the neighbour appear beyond the patch.
-                boxes = _face_box(mesh, coupling.partners)
+                box = boxes[coupling.other]
                 low, high = seen.corners.min(axis=1), seen.corners.max(axis=1)
-                near = np.all((high >= boxes[0] - reach) & (low <= boxes[1] + reach), axis=1)
+                near = np.all((high >= box[0] - reach) & (low <= box[1] + reach), axis=1)
                 back = coupling.reverse()
                 image = seen.take(near).moved(back.turn, back.shift)
                 images.append((min(coupling.patch, coupling.other), image))
@@ -172,7 +189,7 @@ def images_of_walls(mesh: Mesh, walls: Walls, reach: float) -> Walls:
     return Walls(*(np.concatenate(arrays) for arrays in zip(walls.take(slice(0)), *found, strict=True)))
 
 
-def _face_box(mesh: Mesh, faces: Any) -> tuple[Floats, Floats]:
-    """Return the corners of the box around boundary faces."""
+def face_box(mesh: Mesh, faces: Any) -> Box:
+    """Return the box around boundary faces."""
     points = mesh.points[mesh.triangles[np.isin(mesh.triangle_face, faces)]].reshape(-1, 3)
     return points.min(axis=0), points.max(axis=0)

@@ -81,6 +81,8 @@ class MeshArrays(NamedTuple):
     """(n_tets, 4), 1/s, of the velocity between the nodes (:mod:`foamprb.flow.fluxes`): the additional flux
     through the side opposite each vertex over the volume and the number of the side's nodes that lie on no
     wall. No rows for no correction."""
+    strayed: Ints
+    """(1,) set to 1 by a path that leaves the cells of a node, through a triangle of the patch −2."""
 
 
 _FLOATS = {

@@ -159,7 +159,7 @@ def _deepest(flow: MeshArrays, cell: int, x: Vector, best: int, depth: float) ->
     """Return the tetrahedron of a cell with the largest smallest weight at x, if above ``depth``, and it."""
     for tet in range(flow.cell_start[cell], flow.cell_start[cell + 1]):
         smallest = _depth(flow, tet, x)
-        if smallest > depth:
+        if smallest > depth or (smallest == depth and tet < best):
             best, depth = tet, smallest
     return best, depth
 
@@ -178,8 +178,8 @@ def is_in_mesh(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
     """Return True if x in a tetrahedron is a point of the mesh from which a walk can go that way."""
     if is_flat(flow, tet):
         return False
-    _, _, patch, _ = trace(flow, tet, x, plus(x, way))
-    return patch != _FAILED
+    _, _, patch, triangle = trace(flow, tet, x, plus(x, way))
+    return patch != _FAILED or triangle >= 0
 
 
 def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:

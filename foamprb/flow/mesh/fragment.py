@@ -117,6 +117,8 @@ class Grown(NamedTuple):
     """(n_cells,) 0 for own cells, 1 for those that touch these, and so on."""
     node: NDArray[np.int32]
     """(n_cells,) the node that owns the cell."""
+    layers: int
+    """Number of layers that were added."""
 
 
 def grow(own: Fragment, team: Team, layers: int, partners: Labels, n_internal: int) -> Grown:
@@ -167,4 +169,4 @@ def grow(own: Fragment, team: Team, layers: int, partners: Labels, n_internal: i
     order = np.argsort(cells)
     counts = [len(numbers) for numbers, _, _ in found]
     node, layer = (np.repeat(np.array([row[k] for row in found]), counts)[order] for k in (1, 2))
-    return Grown(fragment, layer.astype(np.uint8), node.astype(np.int32))
+    return Grown(fragment, layer.astype(np.uint8), node.astype(np.int32), layers)

@@ -56,7 +56,7 @@ def seek(flow: MeshArrays, x: Vector, way: Vector) -> int:
     """Return the tetrahedron that holds x and from which a walk in direction ``way`` can start, −1 for none.
 
     Of several (x on a shared face) it is the one with the largest smallest barycentric weight, then the first
-    in the order of the tree. A tetrahedron in a fold counts only if x is a point of the mesh in it.
+    of them. A tetrahedron in a fold counts only if x is a point of the mesh in it.
     """
     cells, first_tet = flow.tree_cells, flow.cell_start
     best, depth = -1, -TOLERANCE
@@ -73,7 +73,8 @@ def seek(flow: MeshArrays, x: Vector, way: Vector) -> int:
                 if volume == 0.0:
                     continue
                 smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
-                if smallest > depth and (flow.folds[cell] == SOUND or is_in_mesh(flow, tet, x, way)):
+                better = smallest > depth or (smallest == depth and tet < best)
+                if better and (flow.folds[cell] == SOUND or is_in_mesh(flow, tet, x, way)):
                     best, depth = tet, smallest
         node = next_node(node, n_leaves, hit)
     return best

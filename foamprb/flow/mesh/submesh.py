@@ -6,7 +6,7 @@ Cells, faces and points rise in the numbers of the whole mesh, so that sums over
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,8 @@ from foamprb.flow.mesh.mesh import Mesh, assemble
 
 CUT = PatchSurface("(cut)", "processor", None)
 """Patch of the faces where the cells of a node end."""
+BEYOND = -2
+"""Patch of the triangles through which a path leaves the cells of a node; to kernels a failed walk."""
 _COUPLED = frozenset({"cyclic", "wedge"})
 RINGS = 2
 """Outermost layers of cells, in which the shapes of cells differ in round-off, or their neighbours lack."""
@@ -46,6 +48,8 @@ class SubMesh:
     """(n_cells,) the node that owns the cell."""
     n_internal: int
     """Number of faces between cells in the whole mesh."""
+    depth: int
+    """Number of layers in which bodies may move."""
 
     @property
     def own(self) -> NDArray[np.bool_]:
@@ -114,7 +118,10 @@ def assemble_part(
             f"{source}: the mesh has baffles, walls without thickness between cells, which cannot yet be "
             "distributed over computers. Run reconstructPar, or use one computer."
         )
-    return SubMesh(mesh, f.cells, f.points, f.faces[order], grown.layer, grown.node, n_internal)
+    patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
+    mesh = replace(mesh, triangle_patch=patch)
+    numbers = f.cells, f.points, f.faces[order]
+    return SubMesh(mesh, *numbers, grown.layer, grown.node, n_internal, grown.layers - RINGS)
 
 
 def _places(numbers: Labels, wanted: Labels) -> Index:

@@ -7,13 +7,17 @@ import pytest
 from mesh_shapes import block, box_patches, cyclic_row, pipe, pipe_patches, wedge, wedge_patches
 from threads_team import together
 
+from foamprb.compile.link import link
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
 from foamprb.flow.mesh.fragment import Fragment, grow
 from foamprb.flow.mesh.geometry import faces_of
 from foamprb.flow.mesh.mesh import assemble, build_mesh
 from foamprb.flow.mesh.submesh import RINGS, Halo, assemble_part, partners_of, total_of
+from foamprb.flow.meshflow import LONG, MeshFlow
+from foamprb.flow.partflow import PartFlow
 from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.walls import gap
 
 
 def whole_of(poly):
@@ -45,6 +49,16 @@ def part_of(poly, cells, team, layers):
     return assemble_part(grown, poly.patches, poly.patch_start, n, team, "mesh")
 
 
+def gaps_at(arrays, points, hosts, R):
+    """Gaps of balls, and the patches of the nearest walls."""
+    identity = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    kernel, inside = link(gap, separate=LONG), np.flatnonzero(hosts >= 0)
+    found = [kernel(arrays, hosts[k], tuple(points[k]), identity, R)[:2] for k in inside]
+    gaps = np.full((len(points), 2), np.nan)
+    gaps[inside] = found
+    return gaps
+
+
 SHAPES = {
     "pipe": lambda: build_mesh(shape := pipe(6, axial=12), pipe_patches(shape)),
     "polyhedra": lambda: build_mesh(shape := block(8, kind="polyhedra"), box_patches(shape)),
@@ -64,6 +78,12 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random):
     u, l = Reconstruction(mesh)(cells, boundary)
     conserve = Conservation(mesh)
     correction = conserve(u, l)
+    flow = MeshFlow(mesh, u, l, correction=correction)
+    points = np.concatenate([mesh.points[::7], random.uniform(*flow.bounds, (300, 3))])
+    hosts = flow.locate(points)
+    near = [k for k, patch in enumerate(mesh.patches) if patch.type == "wall"]
+    reach = 0.1 * float(np.ptp(mesh.points, axis=0).max())
+    gaps = gaps_at(flow.arrays(reach, near), points, hosts, 0.1 * reach)
     # Slices, with a cell of another node in one of them.
     parts = np.clip((3 * (x - x.min()) / np.ptp(x)).astype(int), 0, 2)
     parts[random.integers(mesh.n_cells)] = 0
@@ -78,9 +98,23 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random):
         on_faces[: len(faces)] = boundary[faces]
         u, l = Reconstruction(sub.mesh, halo=halo)(own_cells, on_faces)
         conserve = Conservation(sub.mesh, halo=halo)
-        return sub, u, l, conserve(u, l), conserve.unbalanced
+        correction = conserve(u, l)
+        part = PartFlow(halo, sub.mesh, u, l, correction=correction)
+        assert part.width == flow.width
+        arrays = part.arrays(reach, near)
+        found, numbers = part.locate_own(points)
+        own, local = part.own_hosts(numbers)
+        np.testing.assert_array_equal(own, np.arange(len(found)))
+        np.testing.assert_array_equal(gaps_at(arrays, points[found], local, 0.1 * reach), gaps[found])
+        sampled = part.sample(points[found], local, 0.0)[0]
+        np.testing.assert_array_equal(sampled, flow.sample(points[found], hosts[found], 0.0)[0])
+        return sub, u, l, correction, conserve.unbalanced, found, numbers
 
-    for sub, u_part, l_part, c_part, left in together(3, work):
+    results = together(3, work)
+    located = np.concatenate([found for *_, found, _ in results])
+    np.testing.assert_array_equal(np.sort(located), np.flatnonzero(hosts >= 0))
+    np.testing.assert_array_equal(np.concatenate([numbers for *_, numbers in results]), hosts[located])
+    for sub, u_part, l_part, c_part, left, _, _ in results:
         n, inner = sub.mesh.n_points, sub.layer <= 2
         nodes = np.concatenate([sub.points, mesh.n_points + sub.cells])
         of_inner = sub.mesh.cell_points[np.repeat(inner, np.diff(sub.mesh.cell_point_start))]

@@ -1,0 +1,204 @@
+"""Steady flow on the cells that a node of a parallel run holds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.errors import InputError
+from foamprb.flow.base import Floats, Ints, PatchFaces
+from foamprb.flow.mesh.folds import FOLDED
+from foamprb.flow.mesh.fragment import Labels
+from foamprb.flow.mesh.geometry import inward_normals
+from foamprb.flow.mesh.lists import Index, starts
+from foamprb.flow.mesh.locator import cell_boxes
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.submesh import BEYOND, Halo
+from foamprb.flow.mesh.tree import build_tree, pairs_near
+from foamprb.flow.meshflow import MeshFlow, end_triangles, shortest_extent
+from foamprb.flow.walls import Walls, images_of_walls, walls_at
+
+
+class PartFlow(MeshFlow):
+    """Flow on a part of a mesh: the own cells of a node, and the layers around them.
+
+    A path that leaves the layers sets ``strayed`` of the arrays. All nodes call the constructor and
+    :meth:`arrays` together. Hosts of own cells have numbers in the whole mesh, see :meth:`numbers_of`.
+
+    Parameters
+    ----------
+    halo
+        The part, and the other nodes.
+    mesh
+        The mesh of the part.
+    given, options
+        See :class:`MeshFlow`.
+    """
+
+    def __init__(self, halo: Halo, mesh: Mesh, *given: Any, **options: Any) -> None:
+        self.halo = halo
+        self._boundary_walls: dict[tuple[int, ...], Walls] = {}
+        super().__init__(mesh, *given, **options)
+        self._close(*_ends(halo))
+        own = halo.part.own
+        counts = halo.gather(halo.part.cells[own], np.diff(mesh.cell_start)[own])
+        whole = starts(counts[0]).astype(np.int64) if counts else None
+        self._first = halo.scatter(halo.part.cells, None if whole is None else whole[:-1])
+        """(n_cells,) first tetrahedron of each cell in the whole mesh."""
+        totals = halo.of_all((int(own.sum()), int(halo.part.points.max(initial=-1)) + 1))
+        n_cells, n_points = sum(n for n, _ in totals), max(n for _, n in totals)
+        n_tets = halo.team.spread(None if whole is None else int(whole[-1]))
+        self.counts = n_cells, n_points, n_tets
+        """Cells, points and tetrahedra of the whole mesh."""
+
+    def _everywhere(self, rows: Floats) -> Floats:
+        return np.concatenate(self.halo.of_all(rows))
+
+    def _extents(self, mesh: Mesh) -> tuple[tuple[Floats, Floats], float]:
+        ends = self.halo.of_all((mesh.points.min(axis=0), mesh.points.max(axis=0)))
+        bounds = np.min([low for low, _ in ends], axis=0), np.max([high for _, high in ends], axis=0)
+        rows = self._own_triangles(mesh)
+        rows = rows[np.isin(rows, end_triangles(mesh))]
+        # Triangles in the order of the whole mesh: sums of their areas depend on it.
+        corners = _in_order(self.halo, self._faces_of(mesh, rows), mesh.points[mesh.triangles[rows]])[0]
+        return bounds, shortest_extent(corners)
+
+    def _own_triangles(self, mesh: Mesh) -> Index:
+        """Return the boundary triangles of own cells."""
+        cells = mesh.tets[mesh.triangle_tet, 0] - mesh.n_points
+        return np.flatnonzero(self.halo.part.own[cells] & (mesh.triangle_patch != BEYOND))
+
+    def _faces_of(self, mesh: Mesh, triangles: Index) -> Labels:
+        """Return the faces of boundary triangles in the whole mesh."""
+        return self.halo.part.faces[mesh.n_internal + mesh.triangle_face[triangles]]
+
+    def _close(self, rows: Index, lost: Index) -> None:
+        """End paths behind some tetrahedra, and at the triangles of coupled patches that lead nowhere."""
+        mesh, arrays, part = self.mesh, self._arrays, self.halo.part
+        n, triangles = len(arrays.triangles), mesh.tets[rows, 1:]
+        arrays.neighbours[rows, 0] = -1 - np.arange(n, n + len(rows), dtype=np.int32)
+        patches = np.concatenate([arrays.triangle_patch, np.full(len(rows), BEYOND, dtype=np.int32)])
+        patches[lost] = BEYOND
+        normals = inward_normals(mesh.points, triangles, np.ones((len(rows), 3)))
+        boxes, usable = cell_boxes(mesh), np.flatnonzero(part.layer <= part.depth).astype(np.int32)
+        tree = build_tree(boxes[usable])
+        ends = self.halo.of_all((boxes[part.own, :3].min(axis=0), boxes[part.own, 3:].max(axis=0)))
+        tree.boxes[1, :3] = np.min([low for low, _ in ends], axis=0)
+        tree.boxes[1, 3:] = np.max([high for _, high in ends], axis=0)
+        self._arrays = arrays._replace(
+            triangles=np.concatenate([arrays.triangles, triangles]),
+            triangle_patch=patches,
+            triangle_normals=np.concatenate([arrays.triangle_normals, normals]),
+            triangle_tet=np.concatenate([arrays.triangle_tet, rows.astype(np.int32)]),
+            across=np.concatenate([arrays.across, np.zeros((len(rows), 2), dtype=np.int32)]),
+            tree_boxes=tree.boxes,
+            tree_cells=np.where(tree.leaves < 0, np.int32(-1), usable[tree.leaves]),
+        )
+        self._refuse_far_folds(boxes)
+
+    def _refuse_far_folds(self, boxes: Floats) -> None:
+        """Raise InputError if boundary triangles that are not here lie in the box of a folded cell."""
+        mesh, part = self.mesh, self.halo.part
+        folded = np.flatnonzero((self._arrays.folds == FOLDED) & (part.layer <= part.depth))
+        if not self.halo.any(len(folded) > 0):
+            return
+        rows = self._own_triangles(mesh)
+        corners = mesh.points[mesh.triangles[rows]]
+        targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
+        everywhere = self.halo.of_all((self._faces_of(mesh, rows), targets))
+        faces, far = (np.concatenate(arrays) for arrays in zip(*everywhere, strict=True))
+        far = far[~np.isin(faces, part.faces)]
+        near = len(folded) > 0 and len(pairs_near(boxes[folded], build_tree(boxes[folded]), far)[1]) > 0
+        if self.halo.any(near):
+            raise InputError(
+                "the mesh is folded at a boundary that lies on several computers: it cannot be distributed. "
+                "Run reconstructPar, or use one computer."
+            )
+
+    def _walls(self, patches: Sequence[int], reach: float) -> tuple[Ints, Walls, Walls | None]:
+        """See :meth:`MeshFlow._walls`; the walls of all nodes, in the order of the whole mesh."""
+        mesh, halo, key = self.mesh, self.halo, tuple(sorted(set(patches)))
+        if key not in self._boundary_walls:
+            rows = self._own_triangles(mesh)
+            rows = rows[np.isin(mesh.triangle_patch[rows], key)]
+            found = _in_order(halo, self._faces_of(mesh, rows), *walls_at(mesh, rows))
+            self._boundary_walls[key] = Walls(*found)
+        walls = self._boundary_walls[key]
+        if any(patch.neighbour for patch in self.patches):
+            images = images_of_walls(mesh, walls, reach, self._coupled_boxes())
+            walls = Walls(*(np.concatenate(pair) for pair in zip(walls, images, strict=True)))
+        nothing = walls.take(slice(0))
+        return np.empty(0, dtype=np.int32), nothing, walls
+
+    def _coupled_boxes(self) -> dict[int, tuple[Floats, Floats]]:
+        """Return the boxes of coupled patches by index."""
+        mesh, found = self.mesh, {}
+        rows = self._own_triangles(mesh)
+        for coupling in mesh.couplings:
+            some = rows[mesh.triangle_patch[rows] == coupling.other]
+            own = mesh.points[mesh.triangles[some]].reshape(-1, 3)
+            ends = self.halo.of_all((own.min(axis=0, initial=np.inf), own.max(axis=0, initial=-np.inf)))
+            low, high = (f([end[k] for end in ends], axis=0) for k, f in enumerate((np.min, np.max)))
+            if np.all(low <= high):
+                found[coupling.other] = low, high
+        return found
+
+    def numbers_of(self, hosts: NDArray[Any]) -> Labels:
+        """Return the numbers of tetrahedra in the whole mesh, (n,); −1 stays −1."""
+        cells = self.cell_of(np.maximum(hosts, 0).astype(np.int32))
+        numbers = self._first[cells] + hosts - self.mesh.cell_start[cells]
+        return np.where(hosts < 0, -1, numbers)
+
+    def own_hosts(self, numbers: Labels) -> tuple[Index, Ints]:
+        """Return which of some tetrahedra of the whole mesh belong to own cells, and their indices here."""
+        cells = np.searchsorted(self._first, numbers, side="right") - 1
+        held = np.maximum(cells, 0)
+        offset = numbers - self._first[held]
+        start = self.mesh.cell_start
+        here = (numbers >= 0) & (cells >= 0) & (offset < np.diff(start)[held]) & self.halo.part.own[held]
+        rows = np.flatnonzero(here)
+        return rows, (start[held[rows]] + offset[rows]).astype(np.int32)
+
+    def locate_own(self, points: Floats) -> tuple[Index, Labels]:
+        """Return which points (n, 3) lie in own cells, and the numbers of their hosts."""
+        hosts = self.locate(points)
+        inside = np.flatnonzero(hosts >= 0)
+        rows = inside[self.halo.part.own[self.cell_of(hosts[inside])]]
+        return rows, self.numbers_of(hosts[rows])
+
+    def own_patch_faces(self, name: str, t: float) -> tuple[Labels, PatchFaces]:
+        """Return the triangles of a patch at own cells with the numbers of their faces and of their hosts."""
+        mesh, found = self.mesh, self.patch_faces(name, t)
+        at = np.flatnonzero(mesh.triangle_patch == [patch.name for patch in self.patches].index(name))
+        mine = self.halo.part.own[self.cell_of(mesh.triangle_tet[at])]
+        faces = self._faces_of(mesh, at[mine])
+        taken = PatchFaces(*(array[mine] for array in found))
+        return faces, taken._replace(hosts=self.numbers_of(taken.hosts))
+
+
+def _ends(halo: Halo) -> tuple[Index, Index]:
+    """Return the tetrahedra behind which the usable layers end, and triangles of coupled patches that do."""
+    part, mesh = halo.part, halo.part.mesh
+    inside = part.layer <= part.depth
+    cells, beyond = mesh.tets[:, 0] - mesh.n_points, mesh.neighbours[:, 0]
+    over = np.flatnonzero((beyond >= 0) & inside[cells])
+    rows = over[~inside[cells[beyond[over]]]]
+    coupled = [patch.neighbour != "" for patch in mesh.patches]
+    partner = np.full(len(mesh.boundary_centres), -1)
+    for coupling in mesh.couplings:
+        partner[coupling.faces] = coupling.partners
+    owner = mesh.owner[mesh.n_internal :]
+    reached = (partner >= 0) & inside[owner[partner]]
+    of_patch = mesh.triangle_patch
+    lost = np.flatnonzero((of_patch >= 0) & np.array(coupled)[of_patch] & ~reached[mesh.triangle_face])
+    return rows, lost
+
+
+def _in_order(halo: Halo, numbers: Labels, *values: NDArray[Any]) -> list[NDArray[Any]]:
+    """Return values of all nodes in the order of their numbers."""
+    parts = halo.of_all((numbers, values))
+    order = np.argsort(np.concatenate([part for part, _ in parts]), kind="stable")
+    return [np.concatenate([own[k] for _, own in parts])[order] for k in range(len(values))]
