@@ -126,7 +126,7 @@ class Particles(NamedTuple):
     status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped, …")]
     reason: Annotated[Array, Variable((), "i1", "", "why it failed, or reached its fate")]
     patch: Annotated[Array, Variable((), "i4", "", "patch where it stuck or left, else -1")]
-    host: Annotated[Array, Variable((), "i4", "", "tetrahedron of the flow that holds it")]
+    host: Annotated[Array, Variable((), "i8", "", "tetrahedron of the flow that holds it")]
     number: Annotated[Array, Variable((), "i8", "", "number in the whole cloud", fixed=True)]
     close: Annotated[
         Array, Variable((), "i8", "", "steps begun within two radii of a wall, if counted", optional=True)

@@ -145,7 +145,7 @@ class Conservation:
         if mass is not None:
             measures = _measured(mesh, self._nodes, u, fluxes)
             if self._halo is None:
-                self.unbalanced = _Balance(mesh, *measures, self._open)(fluxes, mass)
+                self.unbalanced = _Balance(mesh, measures, self._open)(fluxes, mass)
             else:
                 fluxes, self.unbalanced = self._balanced_together(self._halo, measures, fluxes)
         correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
@@ -183,7 +183,7 @@ class Conservation:
             listed = np.zeros(n_cells + 1, dtype=np.int32), np.empty(len(owner) + n, dtype=np.int32)
             link(group_faces)(owner, neighbour[:n], *listed)
             graph = _Graph(n, n_cells, *listed, owner, neighbour[:n], *of_cells)
-            left = _Balance(graph, *whole, free[n:])(balanced, CONSTANT)
+            left = _Balance(graph, np.stack(whole), free[n:])(balanced, CONSTANT)
         return halo.scatter(part.faces, balanced), halo.team.spread(left)
 
     def caveats(self) -> list[Caveat]:
@@ -231,15 +231,14 @@ class _Balance:
     ----------
     mesh
         Cells and faces.
-    weight, error, square
-        Results of :func:`weigh_faces` (n_faces,); the first two are overwritten.
+    measures
+        (3, n_faces) results of :func:`weigh_faces`; they are overwritten.
     free
         Boundary faces through which the flux may change.
     """
 
-    def __init__(
-        self, mesh: Mesh | _Graph, weight: Floats, error: Floats, square: Floats, free: Mask
-    ) -> None:
+    def __init__(self, mesh: Mesh | _Graph, measures: Floats, free: Mask) -> None:
+        weight, error, square = measures
         self._mesh, self._closed = mesh, not free.any()
         n, cells = mesh.n_internal, mesh.n_cells
         error += _LEAST_ERROR * np.mean(error) + 1e-12 * np.mean(square) + 1e-300

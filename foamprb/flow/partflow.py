@@ -108,8 +108,8 @@ class PartFlow(MeshFlow):
         rows = self._own_triangles(mesh)
         corners = mesh.points[mesh.triangles[rows]]
         targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
-        everywhere = self.halo.of_all((self._faces_of(mesh, rows), targets))
-        faces, far = (np.concatenate(arrays) for arrays in zip(*everywhere, strict=True))
+        numbers = self._faces_of(mesh, rows)
+        faces, far = _in_order(self.halo, numbers, numbers, targets)
         far = far[~np.isin(faces, part.faces)]
         near = len(folded) > 0 and len(pairs_near(boxes[folded], build_tree(boxes[folded]), far)[1]) > 0
         if self.halo.any(near):
@@ -129,7 +129,11 @@ class PartFlow(MeshFlow):
         walls = self._boundary_walls[key]
         if any(patch.neighbour for patch in self.patches):
             images = images_of_walls(mesh, walls, reach, self._coupled_boxes())
-            walls = Walls(*(np.concatenate(pair) for pair in zip(walls, images, strict=True)))
+            walls = Walls(
+                np.concatenate([walls.corners, images.corners]),
+                np.concatenate([walls.normals, images.normals]),
+                np.concatenate([walls.patches, images.patches]),
+            )
         nothing = walls.take(slice(0))
         return np.empty(0, dtype=np.int32), nothing, walls
 
@@ -174,9 +178,10 @@ class PartFlow(MeshFlow):
         mesh, found = self.mesh, self.patch_faces(name, t)
         at = np.flatnonzero(mesh.triangle_patch == [patch.name for patch in self.patches].index(name))
         mine = self.halo.part.own[self.cell_of(mesh.triangle_tet[at])]
-        faces = self._faces_of(mesh, at[mine])
-        taken = PatchFaces(*(array[mine] for array in found))
-        return faces, taken._replace(hosts=self.numbers_of(taken.hosts))
+        v = found
+        own = PatchFaces(v.vertices[mine], v.areas[mine], v.normals[mine], v.velocity[mine], v.hosts[mine])
+        numbers: Any = self.numbers_of(own.hosts)
+        return self._faces_of(mesh, at[mine]), own._replace(hosts=numbers)
 
 
 def _ends(halo: Halo) -> tuple[Index, Index]:

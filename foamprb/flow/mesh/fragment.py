@@ -59,7 +59,8 @@ class Fragment(NamedTuple):
         """Return some of the cells, by a mask, with their faces and points."""
         numbers = self.cells[cells]
         chosen = np.flatnonzero(np.isin(self.owner, numbers) | np.isin(self.neighbour, numbers))
-        start, lists = take_lists(self.start, self.lists, chosen)
+        start, found = take_lists(self.start, self.lists, chosen)
+        lists = found.astype(np.int64)
         held = np.isin(self.points, lists)
         sides = self.owner[chosen], self.neighbour[chosen]
         return Fragment(

@@ -54,7 +54,8 @@ class SubMesh:
     @property
     def own(self) -> NDArray[np.bool_]:
         """Return True for own cells, (n_cells,)."""
-        return self.layer == 0
+        own: NDArray[np.bool_] = self.layer == 0
+        return own
 
 
 def partners_of(patches: Sequence[PatchSurface], patch_start: Index) -> Labels:
@@ -268,7 +269,12 @@ class Halo:
         return found
 
 
-def total_of(values: Floats, of_all: Callable[[Any], list[Any]] = lambda value: [value]) -> float:
+def alone(value: Any) -> list[Any]:
+    """Return the values of all nodes, if there is one."""
+    return [value]
+
+
+def total_of(values: Floats, of_all: Callable[[Any], list[Any]] = alone) -> float:
     """Return the sum of values that are not negative, the same in any order and any division among nodes.
 
     The values are rounded to multiples of a power of two, which add without round-off; it is 2⁶⁰ times less
@@ -277,7 +283,7 @@ def total_of(values: Floats, of_all: Callable[[Any], list[Any]] = lambda value: 
     ends = of_all((float(values.max(initial=0.0)), len(values)))
     peak, n = max(peak for peak, _ in ends), sum(n for _, n in ends)
     if not 0.0 < peak < np.inf:
-        return peak
+        return float(peak)
     unit = int(np.frexp(peak)[1]) + max(n, 1).bit_length() - 61
     own = int(np.rint(np.ldexp(values, -unit)).astype(np.int64).sum())
     return float(np.ldexp(float(sum(of_all(own))), unit))

@@ -14,6 +14,7 @@ from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.mesh.submesh import Halo, alone
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
@@ -89,7 +90,12 @@ def _frozen(case: Path, region: str) -> Iterator[Caveat]:
 
 
 def caveat_of_flux(
-    whole: CaseMesh, cells: Floats, boundary: Floats, read: Callable[[str, Kind], FoamField], velocity: str
+    whole: CaseMesh,
+    cells: Floats,
+    boundary: Floats,
+    read: Callable[[str, Kind], FoamField],
+    velocity: str,
+    halo: Halo | None = None,
 ) -> list[Caveat]:
     """Return a warning if inflow and outflow differ.
 
@@ -105,6 +111,8 @@ def caveat_of_flux(
         Reads a field at the time.
     velocity
         Name of the velocity; ``phi`` is the flux of ``U`` only.
+    halo
+        The nodes that hold a part of the mesh each, if this is a part.
     """
     mesh = whole.mesh
     phi = _flux(read, whole.patches) if velocity == "U" else None
@@ -113,9 +121,14 @@ def caveat_of_flux(
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
     flux = phi[0] if phi else np.einsum("ni,ni->n", boundary, mesh.boundary_areas)
-    outflow, inflow = float(flux[flux > 0.0].sum()), float(-flux[flux < 0.0].sum())
-    area = float(np.linalg.norm(mesh.boundary_areas, axis=1).sum())
-    round_off = ROUND_OFF * area * float(np.linalg.norm(cells, axis=1).max(initial=0.0))
+    areas, speeds = np.linalg.norm(mesh.boundary_areas, axis=1), np.linalg.norm(cells, axis=1)
+    of_all: Callable[[float], list[float]] = alone
+    if halo is not None:
+        own, of_all = halo.part.own[mesh.owner[mesh.n_internal :]], halo.of_all
+        own[mesh.patch_start[-2] :] = False
+        flux, areas = flux[own], areas[own]
+    outflow, inflow = sum(of_all(float(flux[flux > 0.0].sum()))), sum(of_all(float(-flux[flux < 0.0].sum())))
+    round_off = ROUND_OFF * sum(of_all(float(areas.sum()))) * max(of_all(float(speeds.max(initial=0.0))))
     if abs(outflow - inflow) <= max(LEAST_LOSS * max(outflow, inflow), round_off):
         return []
     return [

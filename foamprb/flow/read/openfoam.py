@@ -17,7 +17,9 @@ from foamprb.flow.fields import FieldColumns
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.mesh import Mesh, assemble
+from foamprb.flow.mesh.submesh import Halo
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.partflow import PartFlow
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
 from foamprb.flow.read.boundary_values import boundary_values
 from foamprb.flow.read.case import (
@@ -73,6 +75,8 @@ class Case:
     """
 
     notes: tuple[str, ...] = ()
+    halo: Halo | None = None
+    """The nodes that hold a part of the mesh each, if this is a part."""
 
     def __init__(self, root: Path, region: str = "", reader: str = "") -> None:
         self.root, self.region, self.reader = root, region, reader
@@ -213,18 +217,18 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     field = case.field(name, source.velocity, VELOCITY_FIELD)
     whole = case.mesh(name)
     cells, boundary = velocities(field, whole)
-    flux = caveat_of_flux(whole, cells, boundary, partial(case.field, name), source.velocity)
+    flux = caveat_of_flux(whole, cells, boundary, partial(case.field, name), source.velocity, case.halo)
     rotating: list[RotatingZone] = []
     if rotations:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
     read, kinds = partial(case.field, name), kinds_of(source.sampled, case.fields, (name,))
-    reconstruct = Reconstruction(whole.mesh)
+    reconstruct = Reconstruction(whole.mesh, halo=case.halo)
     u, l, *more = _at_nodes(case, name, source, whole, reconstruct, cells, boundary)
     sampled = read_sampled(read, source.sampled, kinds, whole, reconstruct) if source.sampled else None
     # Its arrays take half as much memory as the flow.
     del reconstruct
-    conserve = Conservation(whole.mesh)
+    conserve = Conservation(whole.mesh, halo=case.halo)
     correction = conserve(u, l, mass_of(case.root, case.region, whole, (name,), [read], 0))
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms([case.folder(name) / source.velocity])
@@ -241,6 +245,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
     viscosity = more[-1] if source.viscosity else None
     given = whole.mesh, u, l, notes, zones, name, turbulence, correction, viscosity
+    if case.halo is not None:
+        return PartFlow(case.halo, *given)
     flow = RotatingFlow(rotating, *given) if rotating else MeshFlow(*given)
     if sampled is not None:
         flow.field_table, flow.field_columns = sampled

@@ -20,7 +20,8 @@ from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PolyMesh
-from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
+from foamprb.flow.mesh.fragment import Fragment
+from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts, take_lists
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
 from foamprb.flow.read.field import FoamField, PatchField
@@ -69,23 +70,31 @@ class Processors:
             path for _, (_, path) in sorted(several.items())
         ]
         self.n = len(single) or expected
+        self.chosen = range(self.n)
+        """The processors whose files are read."""
+        ends = [(k, k) for k in sorted(single)] or [(k, last) for k, (last, _) in sorted(several.items())]
+        self._held = [range(first, last + 1) for first, last in ends]
 
     def files(self, relative: Path) -> list[FoamFile] | None:
-        """Return the file of each processor; None if all are missing, InputError if some are."""
-        paths = [existing(folder / relative) for folder in self.folders]
+        """Return the file of each chosen processor; None if all are missing, InputError if some are."""
+        held = [k for k, numbers in enumerate(self._held) if any(n in self.chosen for n in numbers)]
+        paths = [existing(self.folders[k] / relative) for k in held]
         if not any(paths):
             return None
-        for folder, path in zip(self.folders, paths, strict=True):
+        for k, path in zip(held, paths, strict=True):
             if path is None:
-                raise InputError(f"{folder / relative}: no such file.")
+                raise InputError(f"{self.folders[k] / relative}: no such file.")
         found = [path for path in paths if path is not None]
         if not self.collated:
             return [FoamFile(path) for path in found]
-        files = [file for path in found for file in read_blocks(path)]
-        if len(files) != self.n:
-            raise InputError(
-                f"{found[0]}: parts of {len(files)} processors, not {self.n}; the file is cut short."
-            )
+        files: list[FoamFile] = []
+        for k, path in zip(held, found, strict=True):
+            blocks, numbers = read_blocks(path), self._held[k]
+            if len(blocks) != len(numbers):
+                raise InputError(
+                    f"{path}: parts of {len(blocks)} processors, not {len(numbers)}; the file is cut short."
+                )
+            files += [block for n, block in zip(numbers, blocks, strict=True) if n in self.chosen]
         return files
 
     def times(self) -> tuple[tuple[str, ...], str]:
@@ -324,6 +333,24 @@ def whole_patches(case: Path, parts: Sequence[Address]) -> tuple[list[PatchInfo]
         raise InputError(f"{case}: the processor folders do not name all patches of the mesh.")
     patches = [known[at]._replace(faces=counts[at]) for at in range(len(known))]
     return patches, starts(np.array([patch.faces for patch in patches], dtype=np.int64))
+
+
+def fragment_of(piece: Piece, part: Address) -> Fragment:
+    """Return the mesh of a processor in the numbers of the whole mesh."""
+    cells, points, faces = np.sort(part.cells), np.argsort(part.points), np.argsort(part.faces)
+    size, turned = np.diff(piece.start).astype(np.intp), part.turned
+    within = ragged(np.zeros(len(size), dtype=np.intp), size)
+    back = np.repeat(turned, size)
+    within[back] = (-within % np.repeat(size, size))[back]
+    lists = part.points[piece.lists[np.repeat(piece.start[:-1].astype(np.intp), size) + within]]
+    owner, neighbour = np.full((2, len(size)), -1, dtype=np.int64)
+    owner[~turned] = part.cells[piece.owner[~turned]]
+    neighbour[turned] = part.cells[piece.owner[turned]]
+    neighbour[: len(piece.neighbour)] = part.cells[piece.neighbour]
+    start, lists = take_lists(starts(size), lists, faces)
+    numbers = part.points[points].astype(np.int64), piece.points[points], part.faces[faces].astype(np.int64)
+    sides = owner[faces], neighbour[faces]
+    return Fragment(cells.astype(np.int64), *numbers, start, lists.astype(np.int64), *sides)
 
 
 def join_meshes(

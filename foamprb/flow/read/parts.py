@@ -1,0 +1,171 @@
+"""Case in processor folders, of which a node of a parallel run reads its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import reduce
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.errors import InputError
+from foamprb.flow.base import Floats
+from foamprb.flow.mesh.boundary import Transform
+from foamprb.flow.mesh.fragment import Team, grow, merged
+from foamprb.flow.mesh.submesh import CUT, RINGS, Halo, assemble_part, partners_of
+from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
+from foamprb.flow.read.case import MissingFieldError, mesh_files
+from foamprb.flow.read.checks import notes_of_types, require_patch_shapes, require_volumes
+from foamprb.flow.read.decomposed import DecomposedCase
+from foamprb.flow.read.field import FoamField, Kind, PatchField, read_field
+from foamprb.flow.read.processors import (
+    Address,
+    checked,
+    fragment_of,
+    join_zones,
+    read_addresses,
+    read_pieces,
+    whole_patches,
+)
+
+REMEDY = "Run reconstructPar, or use one computer."
+_REFUSED = frozenset(
+    {"cyclicAMI", "cyclicACMI", "cyclicPeriodicAMI", "cyclicRepeatAMI", "nonConformalCyclic", "overset"}
+)
+_OF_WHOLE_PATCH = "flowRateInletVelocity"
+"""Condition whose value, if the file has none, depends on the area of the whole patch."""
+
+
+class PartCase(DecomposedCase):
+    """Part of a case: the cells of some processor folders, and layers of cells around them.
+
+    All nodes call the same methods together. Values of other nodes' cells come from these nodes.
+
+    Parameters
+    ----------
+    root, region
+        See :class:`~foamprb.flow.read.openfoam.Case`.
+    team
+        The nodes.
+    depth
+        Number of layers in which bodies may move.
+    """
+
+    def __init__(self, root: Path, region: str, team: Team, depth: int) -> None:
+        super().__init__(root, region)
+        self._team, self._depth = team, depth
+        ends = np.linspace(0, self._processors.n, team.size + 1).astype(int)
+        self._processors.chosen = range(ends[team.rank], ends[team.rank + 1])
+
+    def mesh(self, time: str) -> CaseMesh:
+        """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`."""
+        team, folder = self._team, self.mesh_folder(time)
+        files = mesh_files(self._first, time, self.region)
+        pieces = read_pieces(self._processors, files, self.root)
+        parts = read_addresses(self._processors, files[1].parent, pieces)
+        if parts is None:
+            raise InputError(
+                f"{folder}: without files *ProcAddressing a mesh cannot be distributed over computers. "
+                f"{REMEDY}"
+            )
+        self._parts = parts
+        nothing: Any = np.empty(0, dtype=np.int64)
+        named = [(part.patches, part.of_patches) for part in parts]
+        everywhere = [
+            Address(patches, nothing, nothing, nothing, nothing, of_patches)
+            for listed in team.exchange([named] * team.size)
+            for patches, of_patches in listed
+        ]
+        self._patches, self._ranges = whole_patches(self.root, everywhere)
+        for patch in self._patches:
+            if patch.type in _REFUSED:
+                raise InputError(
+                    f"{folder}: patch {patch.name} is of type {patch.type}, with which a mesh cannot yet be "
+                    f"distributed over computers. {REMEDY}"
+                )
+        most = max(int(part.faces.max(initial=-1)) for part in parts)
+        n_internal = 1 + max(team.exchange([most] * team.size)) - int(self._ranges[-1])
+        own = reduce(merged, [fragment_of(piece, part) for piece, part in zip(pieces, parts, strict=True)])
+        del pieces
+        surfaces, ranges = patches_of_mesh(self._patches), self._ranges.astype(np.intp)
+        grown = grow(own, team, self._depth + RINGS, partners_of(surfaces, ranges), n_internal)
+        part = assemble_part(grown, surfaces, ranges, n_internal, team, str(folder))
+        self.halo, mesh = Halo(part, team), part.mesh
+        counts, first = np.diff(mesh.patch_start).tolist(), (mesh.n_internal + mesh.patch_start).tolist()
+        infos = [*self._patches, PatchInfo(CUT.name, CUT.type, 0, 0, "", Transform(), {})]
+        patches = tuple(p._replace(faces=n, start=k) for p, n, k in zip(infos, counts, first, strict=False))
+        self._local = patches
+        require_volumes(mesh, folder)
+        require_patch_shapes(mesh, folder)
+        return CaseMesh(mesh, patches, tuple(notes_of_types(patches)))
+
+    def field(self, time: str, name: str, kind: Kind) -> FoamField:
+        """Read a field at a time; see :meth:`~foamprb.flow.read.openfoam.Case.field`."""
+        files = self._processors.files(Path(time) / self.region / name)
+        if files is None:
+            raise MissingFieldError(f"{self.folder(time) / name}: no such file.")
+        if self.halo is None:
+            self.mesh(time)
+        assert self.halo is not None
+        fields = [
+            checked(read_field(file, kind, self.root), part)
+            for file, part in zip(files, self._parts, strict=True)
+        ]
+        numbers = self.halo.part.cells
+        cells = np.zeros((len(numbers), fields[0].cells.shape[1]))
+        for part, field in zip(self._parts, fields, strict=True):
+            cells[np.searchsorted(numbers, part.cells)] = field.cells
+        self.halo.fill("cells", cells)
+        entries = {}
+        for index, patch in enumerate(self._patches):
+            entry = self._joined(fields, index)
+            if entry is not None:
+                entries[patch.name] = entry
+        return fields[0]._replace(cells=cells, patches=entries)
+
+    def _joined(self, fields: list[FoamField], index: int) -> PatchField | None:
+        """Return the entry of a patch with values at its faces here; None if no processor has an entry."""
+        halo, team = self.halo, self._team
+        assert halo is not None
+        pieces: list[tuple[NDArray[Any], PatchField]] = []
+        for part, field in zip(self._parts, fields, strict=True):
+            for patch in (part.patches[k] for k in np.flatnonzero(part.of_patches == index).tolist()):
+                entry = field.of(patch)
+                if entry is not None:
+                    pieces.append((part.faces[patch.start : patch.start + patch.faces], entry))
+        own = [
+            (len(faces) > 0, entry._replace(fields={key: v[:0] for key, v in entry.fields.items()}))
+            for faces, entry in pieces
+        ]
+        everywhere = [piece for listed in team.exchange([own] * team.size) for piece in listed]
+        filled = [entry for some, entry in everywhere if some] or [entry for _, entry in everywhere]
+        if not filled:
+            return None
+        keys = sorted(set.intersection(*(set(entry.fields) for entry in filled)))
+        if filled[0].type == _OF_WHOLE_PATCH and "value" not in keys:
+            raise InputError(
+                f"{fields[0].path}: patch {self._patches[index].name} is of type {_OF_WHOLE_PATCH} without a "
+                f"value, which cannot be distributed over computers. {REMEDY}"
+            )
+        mesh, values = halo.part.mesh, {}
+        numbers = halo.part.faces[mesh.n_internal :][: mesh.patch_start[-2]]
+        for key in keys:
+            whole: Floats = np.zeros((len(numbers), filled[0].fields[key].shape[1]))
+            for faces, entry in pieces:
+                if len(faces):
+                    whole[np.searchsorted(numbers, faces)] = entry.fields[key]
+            halo.fill("boundary", whole)
+            values[key] = whole[mesh.patch_start[index] : mesh.patch_start[index + 1]]
+        joined: PatchField = filled[0]._replace(pattern=False, fields=values)
+        return joined
+
+    def zones(self, time: str) -> Mapping[str, NDArray[np.int64]]:
+        """Read the own cells of each zone by name; see :meth:`~foamprb.flow.read.openfoam.Case.zones`."""
+        assert self.halo is not None
+        zones = join_zones(self._processors, self.mesh_folder(time), self._parts)
+        names = {name for listed in self._team.exchange([list(zones)] * self._team.size) for name in listed}
+        cells = self.halo.part.cells
+        nothing = np.empty(0, dtype=np.int64)
+        return {name: np.searchsorted(cells, zones.get(name, nothing)) for name in sorted(names)}

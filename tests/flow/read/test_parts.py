@@ -1,0 +1,64 @@
+"""Cases in processor folders that nodes read in parts, against the whole flow."""
+
+from __future__ import annotations
+
+import shutil
+
+import numpy as np
+import pytest
+from foam_writer import decompose, write_case
+from threads_team import together
+
+from foamprb.errors import InputError
+from foamprb.flow.read.decomposed import DecomposedCase
+from foamprb.flow.read.openfoam import steady_flow
+from foamprb.flow.read.parts import PartCase
+from foamprb.flow.read.source import FlowSource
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """A case of four processors: slabs, between two of which a few cells are dealt at random."""
+    case = tmp_path_factory.mktemp("parts") / "case"
+    mesh = write_case(case, "mixed")
+    x = mesh.centres[:, 0]
+    part_of = np.clip((4 * x).astype(int), 0, 3)
+    some = (x > 0.4) & (x < 0.6)
+    part_of[some] = np.random.default_rng(3).integers(1, 3, np.count_nonzero(some))
+    decompose(case, mesh, part_of, ("0", "1"))
+    return case
+
+
+def read(case, n, depth=1):
+    return together(n, lambda team: steady_flow(PartCase(case, "", team, depth), "1", FlowSource()))
+
+
+def test_nodes_read_the_flow_of_the_whole(written, random):
+    flow = steady_flow(DecomposedCase(written), "1", FlowSource())
+    points = random.uniform(0.0, 1.0, (500, 3))
+    hosts = flow.locate(points)
+    u, l = flow.sample(points, hosts, 0.0)
+    located = 0
+    for part in read(written, 2):
+        assert part.counts == (flow.mesh.n_cells, flow.mesh.n_points, len(flow.mesh.tets))
+        assert (part.width, [p.name for p in part.patches[:-1]]) == (
+            flow.width,
+            [p.name for p in flow.patches],
+        )
+        rows, numbers = part.locate_own(points)
+        np.testing.assert_array_equal(numbers, hosts[rows])
+        for own, whole in zip(
+            part.sample(points[rows], part.own_hosts(numbers)[1], 0.0), (u, l), strict=True
+        ):
+            np.testing.assert_array_equal(own, whole[rows])
+        located += len(rows)
+    assert located == len(points)
+
+
+def test_parts_without_addressing_are_refused(written, tmp_path):
+    case = tmp_path / "case"
+    shutil.copytree(written, case)
+    for path in case.glob("processor*/constant/polyMesh/faceProcAddressing"):
+        path.unlink()
+    with pytest.raises(InputError, match=r"without files \*ProcAddressing a mesh cannot be distributed"):
+        read(case, 2)
