@@ -64,6 +64,7 @@ def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         tables=arguments.tables,
         outside_libs=arguments.outsideLibs,
         output=arguments.output,
+        ranks=ranks,
     )
     log_description(job)
     if arguments.dry_run:

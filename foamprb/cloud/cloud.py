@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from foamprb.body.material import MATERIALS
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
-from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
@@ -24,7 +23,7 @@ from foamprb.cloud.stability import instability
 from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
-from foamprb.compile.link import link, read_by
+from foamprb.compile.link import link
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
 from foamprb.flow.base import Flow
 
@@ -263,12 +262,12 @@ class Cloud:
         -------
         Normals, (n, 3); NaN where no wall is found.
         """
-        normals = np.empty((len(rows), 3))
         self._grow_reach()
-        bindings = read_by(contact_normals, self.flow.kernels | self.tracker.bindings)
-        kernel = link(contact_normals, bindings, self.tracker.separate)
-        kernel(self.flow_arrays(), self.particles, rows, normals)
-        return normals
+        remote = getattr(self.flow, "normals_of", None)
+        if remote is not None:
+            found: NDArray[np.float64] = remote(rows)
+            return found
+        return self.tracker.contact_normals(self.flow_arrays(), self.particles, rows)
 
     def flow_arrays(self) -> Any:
         """Return the arguments of the flow's kernels, with walls within :attr:`reach` or a model's range."""

@@ -25,7 +25,7 @@ from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adhesion import Adhesion
 from foamprb.cloud.block import Medium, Scratch, new_scratch
-from foamprb.cloud.contact import CROWDED, in_order
+from foamprb.cloud.contact import CROWDED, contact_normals, in_order
 from foamprb.cloud.drops import DROP_BINDINGS
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.integrators.adaptive import stretch_of
@@ -319,6 +319,13 @@ class Tracker:
         if outcome.crowded:
             self._room *= _MORE_ROOM
         return outcome
+
+    def contact_normals(self, flow: Any, p: Particles, rows: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""
+        normals = np.empty((len(rows), 3))
+        bindings = read_by(contact_normals, {**self.kernels, **self.bindings})
+        link(contact_normals, bindings, self.separate)(flow, p, rows, normals)
+        return normals
 
     def take_rebounds(self) -> NDArray[np.float64]:
         """Return the records since the last call, as :func:`foamprb.cloud.contact.in_order` does."""

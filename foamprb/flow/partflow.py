@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces
 from foamprb.flow.mesh.folds import FOLDED
 from foamprb.flow.mesh.fragment import Labels
-from foamprb.flow.mesh.geometry import inward_normals
+from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
 from foamprb.flow.mesh.lists import Index, starts
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import Mesh
@@ -150,6 +151,11 @@ class PartFlow(MeshFlow):
                 found[coupling.other] = low, high
         return found
 
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """See :meth:`MeshFlow.move`."""
+        super().move(place)
+        self.halo.part = replace(self.halo.part, mesh=self.mesh)
+
     def numbers_of(self, hosts: NDArray[Any]) -> Labels:
         """Return the numbers of tetrahedra in the whole mesh, (n,); −1 stays −1."""
         cells = self.cell_of(np.maximum(hosts, 0).astype(np.int32))
@@ -172,6 +178,70 @@ class PartFlow(MeshFlow):
         inside = np.flatnonzero(hosts >= 0)
         rows = inside[self.halo.part.own[self.cell_of(hosts[inside])]]
         return rows, self.numbers_of(hosts[rows])
+
+    def sample_own(self, points: Floats, numbers: Labels, t: float) -> tuple[Index, Floats, Floats]:
+        """Return which hosts, by their numbers, are own ones, and :meth:`sample` there."""
+        rows, hosts = self.own_hosts(numbers)
+        return rows, *self.sample(points[rows], hosts, t)
+
+    def cell_sizes_of_own(self, numbers: Labels) -> tuple[Index, Floats]:
+        """Return which hosts, by their numbers, are own ones, and :meth:`cell_size` there."""
+        rows, hosts = self.own_hosts(numbers)
+        return rows, self.cell_size(hosts)
+
+    def own_zone(self, name: str | None) -> tuple[Floats, Labels]:
+        """Return the volumes and the numbers of the tetrahedra of a zone of cells that are own ones."""
+        zone = self.cell_zone(name)
+        own = self.halo.part.own[self.cell_of(zone.hosts)]
+        return zone.volumes[own], self.numbers_of(zone.hosts[own])
+
+    def vertices_of_own(self, numbers: Labels) -> tuple[Index, Floats]:
+        """Return which hosts, by their numbers, are own ones, and their vertices (n, 4, 3), m."""
+        rows, hosts = self.own_hosts(numbers)
+        return rows, self._vertices(hosts)
+
+    def nodes_of_own(self, stride: int) -> tuple[Labels, Floats, Floats]:
+        """Return numbers, velocities and gradients of some nodes of own cells.
+
+        Every ``stride``-th node in the order of the whole mesh is chosen, and here the ones with the largest
+        and smallest speeds and shear rates.
+        """
+        part, mesh = self.halo.part, self.mesh
+        n_points = self.counts[1]
+        at_points = np.zeros(mesh.n_points, dtype=bool)
+        at_points[mesh.cell_points[np.repeat(part.own, np.diff(mesh.cell_point_start))]] = True
+        rows = np.concatenate([np.flatnonzero(at_points), mesh.n_points + np.flatnonzero(part.own)])
+        numbers = np.concatenate([part.points, n_points + part.cells])[rows]
+        _, u, l = self.at_nodes()
+        speeds = np.linalg.norm(u[rows], axis=1)
+        rates = np.linalg.norm((l + l.reshape(-1, 3, 3).transpose(0, 2, 1).reshape(-1, 9))[rows], axis=1)
+        ends = [f(values) for values in (speeds, rates) for f in (np.argmin, np.argmax)]
+        chosen = np.union1d(np.flatnonzero(numbers % stride == 0), ends)
+        return numbers[chosen], u[rows[chosen]], l[rows[chosen]]
+
+    def fastest(self) -> float:
+        """Return the largest velocity over the width of a cell, its volume over its largest face, 1/s."""
+        mesh, part = self.mesh, self.halo.part
+        _, areas = measured(
+            mesh.points,
+            Faces(
+                mesh.face_start,
+                mesh.face_points,
+                mesh.owner,
+                mesh.neighbour,
+                mesh.cell_face_start,
+                mesh.cell_faces,
+            ),
+        )
+        largest = np.maximum.reduceat(
+            np.linalg.norm(areas, axis=1)[mesh.cell_faces], mesh.cell_face_start[:-1]
+        )
+        speeds = np.linalg.norm(self.at_nodes()[1][mesh.n_points :], axis=1)
+        return float((speeds * largest / mesh.volumes)[part.own].max(initial=0.0))
+
+    def places_in_whole(self) -> tuple[Ints, Labels, Ints]:
+        """Return nodes and first tetrahedra of the cells in the whole mesh, and the first ones here."""
+        return self.halo.part.node, self._first, self.mesh.cell_start
 
     def own_patch_faces(self, name: str, t: float) -> tuple[Labels, PatchFaces]:
         """Return the triangles of a patch at own cells with the numbers of their faces and of their hosts."""

@@ -25,6 +25,8 @@ from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.flow.fields import Fields, columns_of
+from foamprb.flow.read.source import FlowSource
+from foamprb.parallel.distributed import LEAST_LAYERS, DistributedFlow, why_whole
 from foamprb.parallel.exchange import plan_exchange
 from foamprb.parallel.shared_memory import Publisher
 from foamprb.parallel.worker import Answer, Worker, piece_file
@@ -81,6 +83,42 @@ class Ranks:
                 raise answer.error
         return [answer.value for answer in answers]
 
+    def open_flow(
+        self, case: Path, time: float | str, source: FlowSource, transient: bool, step: float
+    ) -> DistributedFlow | None:
+        """Return the flow of a decomposed case with a part on each of several nodes.
+
+        Parameters
+        ----------
+        case, time, source
+            The case; the time of a steady flow; the names of its fields.
+        transient
+            Whether times of a transient flow are read.
+        step
+            Time between two points where particles can change nodes, s.
+
+        Returns
+        -------
+        The flow; None if each node must hold the whole, or there is one node.
+        """
+        nodes = self.worker.windows.nodes
+        if nodes == 1:
+            return None
+        reason = why_whole(case, time, source, transient, nodes)
+        if reason is not None:
+            log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
+            return None
+        depth, layers = 0, LEAST_LAYERS
+        while depth < layers:
+            depth = layers
+            summaries = self.order("open_part", case, source.region, time, source, depth)
+            flow = DistributedFlow(self.order, summaries, depth)
+            layers = max(depth, flow.layers_for(step))
+        for number, summary in enumerate(flow.summaries):
+            log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,
+                     summary.held - summary.own)  # fmt: skip
+        return flow
+
     def dismiss(self, status: int) -> None:
         """End all processes with an exit status."""
         if self._amid_order:
@@ -119,14 +157,23 @@ class RankStepper(Stepper):
         self._gathered = True
         cloud.flow.move(self.published.move)
         ranks.order("prepare", loaded_libs(), pickle.dumps(cloud.tracker), cloud.threads)
-        ranks.order("distribute", own=(cloud.particles,))
+        self._distribute()
         self._counts = [share.counts for share in ranks.order("share")]
-        self._publish(cloud.flow_arrays())
         nodes = ranks.worker.windows.nodes
         log.info("\nSharing out %d particles among %d processes of %d thread%s on %d computer%s",
                  cloud.particles.size, ranks.size, cloud.threads, "s"[: cloud.threads > 1], nodes,
                  "s"[: nodes > 1])  # fmt: skip
-        log.info("    %-24s %.1f", "shared memory [MB]", self.published.size / 1e6)
+        log.info("    %-24s %.1f", "shared memory [MB]", self._shared_bytes / 1e6)
+
+    @property
+    def _shared_bytes(self) -> int:
+        """Bytes shared on each computer."""
+        return self.published.size
+
+    def _distribute(self) -> None:
+        """Send the particles and the flow to the processes."""
+        self.ranks.order("distribute", own=(self.cloud.particles,))
+        self._publish(self.cloud.flow_arrays())
 
     def gather(self) -> None:
         """Collect changed particles and rebounds from all processes."""
@@ -188,7 +235,11 @@ class RankStepper(Stepper):
         plan = plan_exchange([int(counts[Status.ACTIVE]) for counts in self._counts])
         if plan is not None:
             self.ranks.order("exchange", plan)
-        shares = self.ranks.order("advance", self.cloud.step, steps, self.cloud.bounds, own=(stop,))
+        return self._advance(self.cloud.step, steps, stop)
+
+    def _advance(self, step: int, steps: int, stop: Callable[[], bool]) -> Outcome:
+        """Let all processes advance their particles."""
+        shares = self.ranks.order("advance", step, steps, self.cloud.bounds, own=(stop,))
         self._counts = [share.counts for share in shares]
         self._gathered = False
         return sum((share.outcome for share in shares), Outcome())
@@ -199,3 +250,72 @@ class RankStepper(Stepper):
         if placed != self._placed:
             self.ranks.order("use_flow", placed)
             self._placed = placed
+
+
+class PartStepper(RankStepper):
+    """Stepper whose processes hold particles in their node's part of the mesh.
+
+    Calls of few steps are followed by the hand-over of particles that have come to cells of other nodes.
+    """
+
+    def _distribute(self) -> None:
+        cloud, ranks, flow = self.cloud, self.ranks, self._flow
+        cloud.flow_arrays()
+        numbers = ranks.order("node_number")
+        self._ranks_of = [[r for r, n in enumerate(numbers) if n == k] for k in range(max(numbers) + 1)]
+        hosts = cloud.particles.host
+        rank_of = np.zeros(len(hosts), dtype=np.int32)
+        for number, rows in enumerate(flow.owners(hosts)):
+            own = np.array(self._ranks_of[number], dtype=np.int32)
+            rank_of[rows] = own[rows % len(own)]
+        ranks.order("distribute_parts", self._ranks_of, own=(cloud.particles, rank_of))
+        whole = cloud.tracker.whole
+        # A body may go through one layer less than there are, so that it ends before the last.
+        most = max(1, int((flow.depth - 1) / max(flow.rate * cloud.dt * whole, 1e-300)))
+        self._few = whole * min(most, MOST_AT_ONCE)
+        log.info("    %-24s %d", "steps between exchanges", self._few)
+
+    @property
+    def _flow(self) -> DistributedFlow:
+        flow: Any = self.cloud.flow
+        assert isinstance(flow, DistributedFlow)
+        return flow
+
+    @property
+    def _shared_bytes(self) -> int:
+        return self._flow.shared_bytes
+
+    def _publish(self, flow: Any, fields: Fields | None = None) -> None:
+        """No-op: the flow has let the nodes share their arrays."""
+
+    def _carry(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:  # noqa: ARG002
+        """Advance all shares by few steps at a time, and hand particles over after each call."""
+        step, last, outcome = self.cloud.step, self.cloud.step + steps, Outcome()
+        while step < last and outcome.finished:
+            self._balance()
+            # Calls end at multiples, as strides of several tracking steps do.
+            end = min(last, (step // self._few + 1) * self._few)
+            outcome += self._advance(step, end - step, stop)
+            self._counts = [share.counts for share in self.ranks.order("hand_over")]
+            step = end
+        return outcome
+
+    def _balance(self) -> None:
+        """Balance the shares of the processes of each node."""
+        whole = np.zeros(2 * (self.ranks.size,), dtype=np.int64)
+        for own in self._ranks_of:
+            plan = plan_exchange([int(self._counts[rank][Status.ACTIVE]) for rank in own])
+            if plan is not None:
+                whole[np.ix_(own, own)] = plan
+        if whole.any():
+            self.ranks.order("exchange", whole)
+
+
+def stepper_of(cloud: Cloud, ranks: Ranks) -> RankStepper:
+    """Return the stepper for a cloud whose flow the nodes share as parts or as a whole."""
+    flow: Any = cloud.flow
+    return (PartStepper if isinstance(flow, DistributedFlow) else RankStepper)(cloud, ranks)
+
+
+MOST_AT_ONCE = 1000
+"""Most strides between two exchanges of particles."""

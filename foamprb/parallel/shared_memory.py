@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -13,6 +14,8 @@ from foamprb.errors import RunStopped
 
 Array = NDArray[Any]
 
+NODE_RANKS = "FOAMPRB_NODE_RANKS"
+"""Environment variable with the number of processes that make a node, instead of those of a computer."""
 _SMALLEST = 1 << 16
 """Bytes from which an array is worth a window."""
 _MOST_AT_ONCE = 1 << 30
@@ -40,7 +43,8 @@ class Windows:
 
     def __init__(self, MPI: Any, comm: Any) -> None:
         self._MPI = MPI
-        self.node = comm.Split_type(MPI.COMM_TYPE_SHARED)
+        few = int(os.environ.get(NODE_RANKS, "0"))
+        self.node = comm.Split(comm.rank // few, comm.rank) if few else comm.Split_type(MPI.COMM_TYPE_SHARED)
         # The first process of each computer, that of all first among them.
         first = self.node.rank == 0
         self.leaders = comm.Split(0 if first else MPI.UNDEFINED)

@@ -21,15 +21,20 @@ from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.parallel.exchange import RECORD, pack, unpack
+from foamprb.parallel.parts import Part, Summary
 from foamprb.parallel.shared_memory import Windows
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
 
 _LONGEST_PAUSE = 1e-3
 """Longest pause between two tests of a barrier, s."""
-_COLLECTIVE = ("make", "spread", "free", "distribute", "exchange", "gather")
+_COLLECTIVE = (
+    *("make", "spread", "free", "distribute", "distribute_parts", "exchange", "gather"),
+    *("open_part", "hand_over"),
+)
 """Orders during which processes wait for each other; an error in one of them aborts all processes."""
 
 
@@ -98,6 +103,8 @@ class Worker:
         self._fresh = np.empty(0, dtype=bool)
         self._flow: Any = None
         self._sampled: Fields | None = None
+        self._part: Part | None = None
+        self._ranks_of: list[list[int]] = []
         self.signals: Sequence[int] = ()
         """Signals that this process has received; the sequence grows."""
 
@@ -150,6 +157,91 @@ class Worker:
         counts = np.bincount(self.particles.status, minlength=len(Status))
         return ShareState(counts)
 
+    def open_part(
+        self, root: Path, region: str, time: float | str, source: FlowSource, depth: int
+    ) -> Summary | None:
+        """Read the flow on the cells of this node; return a summary on its first process."""
+        if self._part is not None:
+            self._part.close()
+        self._part = Part(self._MPI, self.windows)
+        return self._part.open(root, region, time, source, depth)
+
+    def share_part(self, *walls: Any) -> int:
+        """Place the arrays of the node's flow, with some walls, in its memory; return bytes shared once."""
+        size = self._held.share(*walls)
+        self._flow = self._held.arrays
+        return size if self.windows.node.rank == 0 else 0
+
+    def node_number(self) -> int:
+        """Return the number of the node of this process."""
+        return self._held.node_number
+
+    def ask_part(self, name: str, *arguments: Any) -> Any:
+        """Return the result of a method of the node's flow on its first process, else None."""
+        return self._held.ask(name, *arguments)
+
+    @property
+    def _held(self) -> Part:
+        assert self._part is not None
+        return self._part
+
+    def distribute_parts(
+        self, ranks_of: list[list[int]], whole: Particles | None = None, rank_of: Ints | None = None
+    ) -> None:
+        """Receive the particles of this process from the first one, which has the whole.
+
+        Parameters
+        ----------
+        ranks_of
+            The processes of each node.
+        whole, rank_of
+            All particles, and the process of each; on the first process only.
+        """
+        self._ranks_of = ranks_of
+        if self.rank == 0:
+            assert whole is not None
+            assert rank_of is not None
+            self._whole = whole
+            for rank in range(1, self.comm.size):
+                ids = np.flatnonzero(rank_of == rank)
+                self.comm.Send([pack(whole, ids, ids), len(ids), self._record], rank)
+            self.ids = np.flatnonzero(rank_of == 0)
+            self.particles = whole.take(self.ids)
+        else:
+            self.particles, self.ids = unpack(self._receive(0))
+        self.particles.host[:] = self._held.hosts_of(self.particles.host)
+        self._fresh = self._unfinished(self.particles)
+
+    def hand_over(self) -> ShareState:
+        """Send the particles that may still move and have come to cells of other nodes to these."""
+        p, part = self.particles, self._held
+        rows = np.flatnonzero(self._unfinished(p) & (p.host >= 0))
+        node = part.places.node[part.cells_of(p.host[rows])]
+        away = node != part.node_number
+        rows, node = rows[away], node[away]
+        sizes = np.array([len(ranks) for ranks in self._ranks_of])
+        table = np.zeros((len(sizes), sizes.max()), dtype=np.int64)
+        for number, ranks in enumerate(self._ranks_of):
+            table[number, : len(ranks)] = ranks
+        rank = table[node, self.ids[rows] % sizes[node]]
+        order = np.argsort(rank, kind="stable")
+        rows = rows[order]
+        sent = np.bincount(rank, minlength=self.comm.size).astype(np.int64)
+        received = np.empty_like(sent)
+        self.comm.Alltoall(sent, received)
+        outgoing = pack(p, rows, self.ids[rows])
+        outgoing["host"] = part.numbers_of(outgoing["host"])
+        incoming = self._swap(outgoing, sent, received, rows)
+        self.particles.host[len(self.ids) - incoming :] = part.hosts_of(
+            self.particles.host[len(self.ids) - incoming :]
+        )
+        return self.share()
+
+    def normals(self, numbers: NDArray[np.int64]) -> tuple[NDArray[np.int64], Floats]:
+        """Return which of some particles this process has, and the normals of the walls where they ended."""
+        rows = np.flatnonzero(np.isin(self.ids, numbers))
+        return self.ids[rows], self._tracker.contact_normals(self._flow, self.particles, rows)
+
     def use_flow(self, flow: bytes) -> None:
         """Replace the arguments of the flow's kernels and the fields, whose arrays lie in shared memory."""
         self._flow, self._sampled = self.windows.find(pickle.loads(flow))
@@ -160,9 +252,14 @@ class Worker:
         active = np.flatnonzero(self.particles.status == Status.ACTIVE)
         # Evenly spread over the rows, so that costly particles are spread too.
         rows = active[np.arange(sent.sum()) * len(active) // max(sent.sum(), 1)]
+        self._swap(pack(self.particles, rows, self.ids[rows]), sent, received, rows)
+
+    def _swap(
+        self, outgoing: NDArray[Any], sent: NDArray[np.int64], received: NDArray[np.int64], rows: Any
+    ) -> int:
+        """Send the particles of some rows, and append those of other processes; return their number."""
         gone = np.zeros(self.particles.size, dtype=bool)
         gone[rows] = True
-        outgoing = pack(self.particles, rows, self.ids[rows])
         incoming = np.empty(received.sum(), dtype=RECORD)
         self.comm.Alltoallv([outgoing, (sent, _starts(sent)), self._record],
                             [incoming, (received, _starts(received)), self._record])  # fmt: skip
@@ -170,6 +267,7 @@ class Worker:
         self.particles = concatenate([self.particles.take(~gone), particles])
         self.ids = np.concatenate([self.ids[~gone], ids])
         self._fresh = np.concatenate([self._fresh[~gone], np.ones(len(ids), dtype=bool)])
+        return len(ids)
 
     def advance(
         self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
@@ -177,6 +275,8 @@ class Worker:
         """Advance the particles by some steps; ``stop`` or a signal ends them early."""
         stop = stop or (lambda: bool(self.signals))
         outcome = self._tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
+        if self._part is not None:
+            self._part.refuse_strays()
         return self.share()._replace(outcome=outcome)
 
     def take_rebounds(self) -> NDArray[np.float64]:
@@ -187,6 +287,8 @@ class Worker:
         """Send the particles that may have changed to the first process."""
         rows = np.flatnonzero(self._fresh)
         changed = pack(self.particles, rows, self.ids[rows])
+        if self._part is not None:
+            changed["host"] = self._part.numbers_of(changed["host"])
         if self._whole is None:
             self.comm.Send([changed, len(rows), self._record], 0)
         else:
@@ -247,6 +349,8 @@ class Worker:
 
     def finalise(self) -> None:
         """Free the shared memory, and finalise MPI."""
+        if self._part is not None:
+            self._part.close()
         for key in sorted(self.windows.arrays):
             self.windows.free(key)
         self._record.Free()

@@ -23,6 +23,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
+from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.patches import CYCLIC
@@ -40,6 +41,7 @@ from foamprb.flow.read.flows import check_region, read_flow, read_transient_flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
+from foamprb.parallel.ranks import Ranks
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.tables import require_kind
 from foamprb.run.compilation import Compilation
@@ -122,6 +124,7 @@ def prepare(
     output: Path | str | None = None,
     overrides: Mapping[str, object] | None = None,
     flows: dict[FlowSource, Flow] | None = None,
+    ranks: Ranks | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -151,6 +154,8 @@ def prepare(
         lists, mappings are dictionaries.
     flows
         Steady flows of this case and time that have been read, by their sources; a new one is added.
+    ranks
+        Processes of ``mpirun``, which read parts of a decomposed case if they run on several computers.
 
     Raises
     ------
@@ -174,6 +179,12 @@ def prepare(
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = None if flows is None or settings.solution.transient else flows.get(source)
+        if flow is None and ranks is not None:
+            solution = settings.solution
+            step = solution.deltaT * stretch_of(solution.stride)
+            at = "latestTime" if time is None else time
+            parts: Any = ranks.open_flow(case, at, source, solution.transient, step)
+            flow = parts
         if flow is None:
             flow = _read_flow(settings, time, source)
             if isinstance(flow, MeshFlow):

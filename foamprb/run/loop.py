@@ -12,7 +12,7 @@ from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.memory import announce, require
 from foamprb.parallel.launch import caught_signals
-from foamprb.parallel.ranks import Ranks, RankStepper
+from foamprb.parallel.ranks import Ranks, stepper_of
 from foamprb.results.folder import FAILURES
 from foamprb.run.compilation import compile_run
 from foamprb.run.job import Job
@@ -72,7 +72,7 @@ def execute(
         if results.finished:
             return cloud.particles.counts()
         log = RunLog(job)
-        stepper = Stepper(cloud) if ranks is None else RankStepper(cloud, ranks)
+        stepper = Stepper(cloud) if ranks is None else stepper_of(cloud, ranks)
         schedule = _Schedule(stepper)
         results.write_start()
         log.begin()

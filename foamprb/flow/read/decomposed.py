@@ -68,11 +68,11 @@ class DecomposedCase(Case):
 
     def __init__(self, root: Path, region: str = "") -> None:
         super().__init__(root, region)
-        self._processors = Processors(root)
-        self._first = self._processors.folders[0]
+        self.processors = Processors(root)
+        self._first = self.processors.folders[0]
         names = self.regions()
         require_region(root, region, names)
-        self._times, note = self._processors.times()
+        self._times, note = self.processors.times()
         if not region and existing(mesh_folder(self._first, self._times[-1], "") / "faces") is None:
             require_choice(root, names)
         self._files: tuple[Path, ...] = ()
@@ -81,7 +81,7 @@ class DecomposedCase(Case):
         self._mesh_notes: list[str] = []
         self._patches: list[PatchInfo] = []
         self._ranges: Labels = np.zeros(1, dtype=np.int64)
-        self.notes = (f"The flow was put together from {self._processors.n} processor folders.", note)[
+        self.notes = (f"The flow was put together from {self.processors.n} processor folders.", note)[
             : 1 + bool(note)
         ]
 
@@ -111,7 +111,7 @@ class DecomposedCase(Case):
 
     def field(self, time: str, name: str, kind: Kind) -> FoamField:
         """Read a field at a time of all processors, and join it; InputError if one is missing or broken."""
-        files = self._processors.files(Path(time) / self.region / name)
+        files = self.processors.files(Path(time) / self.region / name)
         if files is None:
             raise MissingFieldError(f"{self.folder(time) / name}: no such file.")
         self._open(time)
@@ -124,7 +124,7 @@ class DecomposedCase(Case):
     def zones(self, time: str) -> Mapping[str, NDArray[np.int64]]:
         """Read the cells of each zone by name; InputError if a file is broken."""
         self._open(time)
-        return join_zones(self._processors, self.mesh_folder(time), self._parts)
+        return join_zones(self.processors, self.mesh_folder(time), self._parts)
 
     def poly(self, time: str | None) -> tuple[PolyMesh, tuple[PatchInfo, ...], list[str]]:
         """Join points, faces and patches at a time; see :meth:`Case.poly`."""
@@ -140,8 +140,8 @@ class DecomposedCase(Case):
         files = mesh_files(self._first, time, self.region)
         if files == self._files:
             return
-        pieces = read_pieces(self._processors, files, self.root)
-        parts = read_addresses(self._processors, files[1].parent, pieces)
+        pieces = read_pieces(self.processors, files, self.root)
+        parts = read_addresses(self.processors, files[1].parent, pieces)
         self._mesh_notes = [] if parts else [_JOINED]
         parts = parts or found_addresses(pieces)
         self._patches, self._ranges = whole_patches(self.root, parts)

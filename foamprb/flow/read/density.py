@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from foamprb.dictionary.dimensions import MASS_FLUX, VOLUME_FLUX
+from foamprb.dictionary.files import existing
 from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
@@ -78,6 +79,11 @@ def densities(read: Read) -> Floats:
 def varies(values: Floats) -> bool:
     """Return True if values differ by more than round-off."""
     return bool(np.ptp(values) > _ROUND_OFF * np.abs(values).max(initial=0.0)) if len(values) else False
+
+
+def keeps_volume(case: Path, region: str, folder: Path) -> bool:
+    """Return True if a flow keeps volume, as it has neither a mixture nor a density in its time directory."""
+    return _mixture(case, region) is None and existing(folder / "rho") is None
 
 
 def _mixture(case: Path, region: str) -> Dictionary | None:

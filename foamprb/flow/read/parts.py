@@ -56,15 +56,15 @@ class PartCase(DecomposedCase):
     def __init__(self, root: Path, region: str, team: Team, depth: int) -> None:
         super().__init__(root, region)
         self._team, self._depth = team, depth
-        ends = np.linspace(0, self._processors.n, team.size + 1).astype(int)
-        self._processors.chosen = range(ends[team.rank], ends[team.rank + 1])
+        ends = np.linspace(0, self.processors.n, team.size + 1).astype(int)
+        self.processors.chosen = range(ends[team.rank], ends[team.rank + 1])
 
     def mesh(self, time: str) -> CaseMesh:
         """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`."""
         team, folder = self._team, self.mesh_folder(time)
         files = mesh_files(self._first, time, self.region)
-        pieces = read_pieces(self._processors, files, self.root)
-        parts = read_addresses(self._processors, files[1].parent, pieces)
+        pieces = read_pieces(self.processors, files, self.root)
+        parts = read_addresses(self.processors, files[1].parent, pieces)
         if parts is None:
             raise InputError(
                 f"{folder}: without files *ProcAddressing a mesh cannot be distributed over computers. "
@@ -103,7 +103,7 @@ class PartCase(DecomposedCase):
 
     def field(self, time: str, name: str, kind: Kind) -> FoamField:
         """Read a field at a time; see :meth:`~foamprb.flow.read.openfoam.Case.field`."""
-        files = self._processors.files(Path(time) / self.region / name)
+        files = self.processors.files(Path(time) / self.region / name)
         if files is None:
             raise MissingFieldError(f"{self.folder(time) / name}: no such file.")
         if self.halo is None:
@@ -164,7 +164,7 @@ class PartCase(DecomposedCase):
     def zones(self, time: str) -> Mapping[str, NDArray[np.int64]]:
         """Read the own cells of each zone by name; see :meth:`~foamprb.flow.read.openfoam.Case.zones`."""
         assert self.halo is not None
-        zones = join_zones(self._processors, self.mesh_folder(time), self._parts)
+        zones = join_zones(self.processors, self.mesh_folder(time), self._parts)
         names = {name for listed in self._team.exchange([list(zones)] * self._team.size) for name in listed}
         cells = self.halo.part.cells
         nothing = np.empty(0, dtype=np.int64)

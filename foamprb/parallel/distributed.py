@@ -1,0 +1,207 @@
+"""A flow of which every node holds a part, as the first process uses it."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.mesh.fragment import Labels
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.case import find_file
+from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
+from foamprb.flow.read.density import keeps_volume
+from foamprb.flow.read.source import FlowSource
+from foamprb.parallel.parts import Summary
+
+log = logging.getLogger("foamprb")
+
+LEAST_LAYERS = 3
+"""Smallest number of layers around the cells of a node."""
+_MOST_NODES = 1_000_000
+"""Number of nodes up to which :meth:`DistributedFlow.at_nodes` returns all."""
+
+
+class WholeCounts(NamedTuple):
+    """Size of the whole mesh, as :class:`foamprb.flow.mesh.mesh.Mesh` names it."""
+
+    n_cells: int
+    n_points: int
+    tets: range
+
+
+def why_whole(case: Path, time: float | str, source: FlowSource, transient: bool, nodes: int) -> str | None:
+    """Return why each node must hold the whole mesh of a case; None if each can hold a part."""
+    if source.file is not None:
+        return "a mesh file is read"
+    if not (source.decomposed or is_only_decomposed(case, source.region)):
+        return "it is not decomposed"
+    opened = DecomposedCase(case, source.region)
+    if opened.processors.n < nodes:
+        return f"the case has {opened.processors.n} processor folders for {nodes} nodes"
+    if transient:
+        return "the flow is transient"
+    if not keeps_volume(case, source.region, opened.folder(opened.select_time(time))):
+        return "its density may vary"
+    if source.turbulent:
+        return "a dispersionModel reads the turbulence"
+    if source.relative and find_file(case, source.region, "MRFProperties") is not None:
+        return "it has rotating zones (MRFProperties)"
+    if source.viscosity is not None:
+        return "the viscosity is a field"
+    if source.sampled:
+        return "fieldSampling reads fields"
+    return None
+
+
+class DistributedFlow:
+    """Steady flow of which every node holds a part; see :class:`foamprb.flow.base.Flow`.
+
+    Hosts have their 64-bit numbers in the whole mesh.
+
+    Parameters
+    ----------
+    order
+        Lets all processes call a method of their worker; see :meth:`foamprb.parallel.ranks.Ranks.order`.
+    summaries
+        Those of all processes; None for the processes that are not the first of a node.
+    depth
+        Number of layers around the cells of a node in which bodies may move.
+    """
+
+    kernels = MeshFlow.kernels
+    lists_walls = True
+    span = (-math.inf, math.inf)
+    field_columns = ()
+
+    def __init__(
+        self, order: Callable[..., list[Any]], summaries: Sequence[Summary | None], depth: int
+    ) -> None:
+        self._order, self.depth = order, depth
+        self.summaries = [summary for summary in summaries if summary is not None]
+        first = self.summaries[0]
+        self.patches, self.bounds, self.width, self.notes = (
+            first.patches,
+            first.bounds,
+            first.width,
+            first.notes,
+        )
+        self.rate = first.rate
+        self.mesh = WholeCounts(first.counts[0], first.counts[1], range(first.counts[2]))
+        self._shared: tuple[Any, ...] | None = None
+        self.shared_bytes = 0
+
+    def layers_for(self, step: float) -> int:
+        """Return the number of layers that no body crosses in a time, s."""
+        return 2 + math.ceil(self.rate * step)
+
+    def owners(self, hosts: NDArray[Any]) -> list[NDArray[np.intp]]:
+        """Return the rows of the hosts that each node owns."""
+        return [rows for rows, _ in self._ask("own_hosts", hosts)]
+
+    def load(self, start: float, end: float) -> float:  # noqa: ARG002
+        """Return infinity: the flow is steady."""
+        return math.inf
+
+    def arrays(
+        self, reach: float = 0.0, touchable: Sequence[int] = (), sight: float = 0.0, seen: Sequence[int] = ()
+    ) -> Any:
+        """Let all nodes list walls; return arrays without a mesh, for which the kernels can be compiled."""
+        walls = reach, tuple(touchable), sight, tuple(seen)
+        if walls != self._shared:
+            self._shared = None
+            self.shared_bytes = sum(self._order("share_part", *walls))
+            self._shared = walls
+        return MeshFlow.nothing()
+
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """No-op: the nodes have moved their arrays."""
+
+    def _ask(self, name: str, *arguments: Any) -> list[Any]:
+        """Return the results of a method of the flows of all nodes."""
+        return [found for found in self._order("ask_part", name, *arguments) if found is not None]
+
+    def _ask_own(self, name: str, empty: Sequence[NDArray[Any]], *arguments: Any) -> list[NDArray[Any]]:
+        """Return results, whose rows the nodes have, as arrays of all rows."""
+        whole = list(empty)
+        for rows, *parts in self._ask(name, *arguments):
+            for array, part in zip(whole, parts, strict=True):
+                array[rows] = part
+        return whole
+
+    def locate(self, points: Floats) -> Labels:
+        """Return the host of each point (n, 3), −1 outside."""
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        return self._ask_own("locate_own", [np.full(len(points), -1, dtype=np.int64)], points)[0]
+
+    def sample(self, points: Floats, hosts: NDArray[Any], t: float) -> tuple[Floats, Floats]:
+        """Return velocities (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,)."""
+        empty = np.full((len(points), 3), np.nan), np.full((len(points), 3, 3), np.nan)
+        u, l = self._ask_own("sample_own", empty, points, hosts, t)
+        return u, l
+
+    def cell_size(self, hosts: NDArray[Any]) -> Floats:
+        """Return the cube root of the volume of the hosts' cells, (n,), m."""
+        return self._ask_own("cell_sizes_of_own", [np.full(len(hosts), np.nan)], hosts)[0]
+
+    def times_within(self, start: float, end: float) -> Sequence[float]:  # noqa: ARG002
+        """Return no times: the flow is steady."""
+        return ()
+
+    def patch_faces(self, name: str, t: float) -> PatchFaces:
+        """Return the triangles of a patch; InputError if there is no such patch."""
+        names = [patch.name for patch in self.patches]
+        if name not in names:
+            raise InputError(f"patch {name} is not in the mesh. {suggestion(name, names)}")
+        parts = self._ask("own_patch_faces", name, t)
+        order = np.argsort(np.concatenate([faces for faces, _ in parts]), kind="stable")
+        return PatchFaces(
+            *(np.concatenate(arrays)[order] for arrays in zip(*(p for _, p in parts), strict=True))
+        )
+
+    def cell_zone(self, name: str | None) -> Tetrahedra:
+        """Return the tetrahedra of a zone of cells, or of all cells; InputError if there is no such zone."""
+        parts = self._ask("own_zone", name)
+        hosts = np.concatenate([numbers for _, numbers in parts])
+        order = np.argsort(hosts)
+        volumes: Floats = np.concatenate([own for own, _ in parts])[order]
+        sorted_hosts: Any = hosts[order]
+        return Tetrahedra(volumes, sorted_hosts, self._vertices)
+
+    def _vertices(self, hosts: Ints) -> Floats:
+        """Return the vertices of tetrahedra, (n, 4, 3), m."""
+        return self._ask_own("vertices_of_own", [np.empty((len(hosts), 4, 3))], hosts)[0]
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at the nodes.
+
+        In a large mesh these are some nodes, among them the extreme ones of each part.
+        """
+        stride = 1 + (self.mesh.n_cells + self.mesh.n_points) // _MOST_NODES
+        parts = self._ask("nodes_of_own", stride)
+        _, first = np.unique(np.concatenate([numbers for numbers, *_ in parts]), return_index=True)
+        u, l = (np.concatenate([part[k] for part in parts])[first] for k in (1, 2))
+        return self.summaries[0].time, u, l
+
+    def turbulence_at_nodes(self) -> Floats:
+        """Return no rows: the turbulence stays with the nodes."""
+        return np.empty((0, 8))
+
+    def normals_of(self, particles: NDArray[np.int64]) -> Floats:
+        """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""
+        normals, order = np.full((len(particles), 3), np.nan), np.argsort(particles)
+        for numbers, found in self._order("normals", particles):
+            normals[order[np.searchsorted(particles[order], numbers)]] = found
+        return normals
+
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """Return sizes of the mesh and of the velocities by name, the same for any number of nodes."""
+        first = self.summaries[0]
+        return {"distributed": np.array([*first.counts, first.size, first.width, *np.ravel(first.bounds)])}
