@@ -104,7 +104,7 @@ def _folds(
 
 _LISTS = ("near", "wall_", "seen")
 """Prefixes of the names of arrays for lists of walls."""
-_AT_ONCE = 1 << 20
+AT_ONCE = 1 << 20
 """Number of tetrahedra per chunk when volumes are computed."""
 
 
@@ -167,9 +167,10 @@ class MeshFlow:
         self._zones = zones
         self.patches = mesh.patches
         self.notes = tuple(notes)
-        if mesh.inverted:
+        inverted, n_tets = self._inverted(mesh)
+        if inverted:
             self.notes += (
-                f"{mesh.inverted} of {len(mesh.tets)} tetrahedra are inverted: the mesh has cells "
+                f"{inverted} of {n_tets} tetrahedra are inverted: the mesh has cells "
                 "far from convex there, and paths through them take longer.",
             )
         self.bounds, self.width = self._extents(mesh)
@@ -209,6 +210,10 @@ class MeshFlow:
             correction=np.empty((0, 4), dtype=np.float32) if correction is None else correction,
             strayed=np.zeros(1, dtype=np.int32),
         )
+
+    def _inverted(self, mesh: Mesh) -> tuple[int, int]:
+        """Return the number of inverted tetrahedra, and of all."""
+        return mesh.inverted, len(mesh.tets)
 
     def _everywhere(self, rows: Floats) -> Floats:
         """Return rows of all parts of the mesh; here there is one."""
@@ -408,9 +413,9 @@ class MeshFlow:
         """
         hosts = np.arange(len(self.mesh.tets), dtype=np.int32) if name is None else self._hosts_in(name)
         volumes = np.empty(len(hosts))
-        for start in range(0, len(hosts), _AT_ONCE):
-            vertices = self._vertices(hosts[start : start + _AT_ONCE])
-            volumes[start : start + _AT_ONCE] = np.linalg.det(vertices[:, 1:] - vertices[:, :1]) / 6.0
+        for start in range(0, len(hosts), AT_ONCE):
+            vertices = self._vertices(hosts[start : start + AT_ONCE])
+            volumes[start : start + AT_ONCE] = np.linalg.det(vertices[:, 1:] - vertices[:, :1]) / 6.0
         return Tetrahedra(volumes, hosts, self._vertices)
 
     def _vertices(self, hosts: Ints) -> Floats:

@@ -19,7 +19,7 @@ from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import BEYOND, Halo
 from foamprb.flow.mesh.tree import build_tree, pairs_near
-from foamprb.flow.meshflow import MeshFlow, end_triangles, shortest_extent
+from foamprb.flow.meshflow import AT_ONCE, MeshFlow, end_triangles, shortest_extent
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
 
 
@@ -54,6 +54,17 @@ class PartFlow(MeshFlow):
         n_tets = halo.team.spread(None if whole is None else int(whole[-1]))
         self.counts = n_cells, n_points, n_tets
         """Cells, points and tetrahedra of the whole mesh."""
+
+    def _inverted(self, mesh: Mesh) -> tuple[int, int]:
+        own = np.flatnonzero(self.halo.part.own[mesh.tets[:, 0] - mesh.n_points])
+        inverted = 0
+        if self.halo.any(mesh.inverted > 0):
+            nodes = mesh.nodes
+            for start in range(0, len(own), AT_ONCE):
+                vertices = nodes[mesh.tets[own[start : start + AT_ONCE]]]
+                inverted += int(np.count_nonzero(np.linalg.det(vertices[:, 1:] - vertices[:, :1]) <= 0.0))
+        counts = self.halo.of_all((inverted, len(own)))
+        return sum(n for n, _ in counts), sum(n for _, n in counts)
 
     def _everywhere(self, rows: Floats) -> Floats:
         return np.concatenate(self.halo.of_all(rows))

@@ -114,12 +114,8 @@ class Part:
         self._publisher = Publisher(self.shared, self._order)
         self.flow: PartFlow | None = None
         """On the first process of a node."""
-        self._number: int = windows.node.bcast(self._team.rank if self._team else None)
-
-    @property
-    def node_number(self) -> int:
+        self.number: int = windows.node.bcast(self._team.rank if self._team else None)
         """Number of this node."""
-        return self._number
 
     def close(self) -> None:
         """Free the shared memory."""

@@ -149,6 +149,8 @@ class RankStepper(Stepper):
         The processes.
     """
 
+    _order = "advance"
+
     def __init__(self, cloud: Cloud, ranks: Ranks) -> None:
         super().__init__(cloud)
         self.ranks = ranks
@@ -239,7 +241,7 @@ class RankStepper(Stepper):
 
     def _advance(self, step: int, steps: int, stop: Callable[[], bool]) -> Outcome:
         """Let all processes advance their particles."""
-        shares = self.ranks.order("advance", step, steps, self.cloud.bounds, own=(stop,))
+        shares = self.ranks.order(self._order, step, steps, self.cloud.bounds, own=(stop,))
         self._counts = [share.counts for share in shares]
         self._gathered = False
         return sum((share.outcome for share in shares), Outcome())
@@ -257,6 +259,8 @@ class PartStepper(RankStepper):
 
     Calls of few steps are followed by the hand-over of particles that have come to cells of other nodes.
     """
+
+    _order = "advance_part"
 
     def _distribute(self) -> None:
         cloud, ranks, flow = self.cloud, self.ranks, self._flow
@@ -296,7 +300,6 @@ class PartStepper(RankStepper):
             # Calls end at multiples, as strides of several tracking steps do.
             end = min(last, (step // self._few + 1) * self._few)
             outcome += self._advance(step, end - step, stop)
-            self._counts = [share.counts for share in self.ranks.order("hand_over")]
             step = end
         return outcome
 

@@ -33,7 +33,7 @@ _LONGEST_PAUSE = 1e-3
 """Longest pause between two tests of a barrier, s."""
 _COLLECTIVE = (
     *("make", "spread", "free", "distribute", "distribute_parts", "exchange", "gather"),
-    *("open_part", "hand_over"),
+    *("open_part",),
 )
 """Orders during which processes wait for each other; an error in one of them aborts all processes."""
 
@@ -105,6 +105,7 @@ class Worker:
         self._sampled: Fields | None = None
         self._part: Part | None = None
         self._ranks_of: list[list[int]] = []
+        self._amid_exchange = False
         self.signals: Sequence[int] = ()
         """Signals that this process has received; the sequence grows."""
 
@@ -115,7 +116,7 @@ class Worker:
             return Answer(getattr(self, name)(*arguments), None, list(signals))
         except Exception as error:
             where = f"rank {self.rank}: "
-            if name in _COLLECTIVE:
+            if name in _COLLECTIVE or self._amid_exchange:
                 print(
                     f"--> foamprb Error : {where}{type(error).__name__}: {error}", file=sys.stderr, flush=True
                 )
@@ -174,7 +175,7 @@ class Worker:
 
     def node_number(self) -> int:
         """Return the number of the node of this process."""
-        return self._held.node_number
+        return self._held.number
 
     def ask_part(self, name: str, *arguments: Any) -> Any:
         """Return the result of a method of the node's flow on its first process, else None."""
@@ -212,31 +213,6 @@ class Worker:
         self.particles.host[:] = self._held.hosts_of(self.particles.host)
         self._fresh = self._unfinished(self.particles)
 
-    def hand_over(self) -> ShareState:
-        """Send the particles that may still move and have come to cells of other nodes to these."""
-        p, part = self.particles, self._held
-        rows = np.flatnonzero(self._unfinished(p) & (p.host >= 0))
-        node = part.places.node[part.cells_of(p.host[rows])]
-        away = node != part.node_number
-        rows, node = rows[away], node[away]
-        sizes = np.array([len(ranks) for ranks in self._ranks_of])
-        table = np.zeros((len(sizes), sizes.max()), dtype=np.int64)
-        for number, ranks in enumerate(self._ranks_of):
-            table[number, : len(ranks)] = ranks
-        rank = table[node, self.ids[rows] % sizes[node]]
-        order = np.argsort(rank, kind="stable")
-        rows = rows[order]
-        sent = np.bincount(rank, minlength=self.comm.size).astype(np.int64)
-        received = np.empty_like(sent)
-        self.comm.Alltoall(sent, received)
-        outgoing = pack(p, rows, self.ids[rows])
-        outgoing["host"] = part.numbers_of(outgoing["host"])
-        incoming = self._swap(outgoing, sent, received, rows)
-        self.particles.host[len(self.ids) - incoming :] = part.hosts_of(
-            self.particles.host[len(self.ids) - incoming :]
-        )
-        return self.share()
-
     def normals(self, numbers: NDArray[np.int64]) -> tuple[NDArray[np.int64], Floats]:
         """Return which of some particles this process has, and the normals of the walls where they ended."""
         rows = np.flatnonzero(np.isin(self.ids, numbers))
@@ -256,8 +232,8 @@ class Worker:
 
     def _swap(
         self, outgoing: NDArray[Any], sent: NDArray[np.int64], received: NDArray[np.int64], rows: Any
-    ) -> int:
-        """Send the particles of some rows, and append those of other processes; return their number."""
+    ) -> None:
+        """Send the particles of some rows, and append those of other processes."""
         gone = np.zeros(self.particles.size, dtype=bool)
         gone[rows] = True
         incoming = np.empty(received.sum(), dtype=RECORD)
@@ -267,7 +243,6 @@ class Worker:
         self.particles = concatenate([self.particles.take(~gone), particles])
         self.ids = np.concatenate([self.ids[~gone], ids])
         self._fresh = np.concatenate([self._fresh[~gone], np.ones(len(ids), dtype=bool)])
-        return len(ids)
 
     def advance(
         self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
@@ -275,9 +250,51 @@ class Worker:
         """Advance the particles by some steps; ``stop`` or a signal ends them early."""
         stop = stop or (lambda: bool(self.signals))
         outcome = self._tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
-        if self._part is not None:
-            self._part.refuse_strays()
         return self.share()._replace(outcome=outcome)
+
+    def advance_part(
+        self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
+    ) -> ShareState:
+        """Advance the particles by some steps, and hand over those that have come to other nodes.
+
+        See :meth:`advance`. If any process fails, none hands particles over.
+        """
+        error: Exception | None = None
+        outcome = Outcome()
+        try:
+            outcome = self.advance(step, steps, bounds, stop).outcome
+            self._held.refuse_strays()
+        except Exception as raised:
+            error = raised
+        self.wait_for_all()
+        if not self.comm.allreduce(error is not None, self._MPI.LOR):
+            self._amid_exchange = True
+            self._hand_over()
+            self._amid_exchange = False
+        if error is not None:
+            raise error
+        return self.share()._replace(outcome=outcome)
+
+    def _hand_over(self) -> None:
+        """Send the particles that may still move and have come to cells of other nodes to these."""
+        p, part = self.particles, self._held
+        rows = np.flatnonzero(self._unfinished(p) & (p.host >= 0))
+        node = part.places.node[part.cells_of(p.host[rows])]
+        away = node != part.number
+        rows, node = rows[away], node[away]
+        # Of the processes of a node the numbers of particles decide.
+        sizes = np.array([len(ranks) for ranks in self._ranks_of])
+        table = np.array([np.resize(ranks, sizes.max()) for ranks in self._ranks_of])
+        rank = table[node, self.ids[rows] % sizes[node]]
+        order = np.argsort(rank, kind="stable")
+        rows, sent = rows[order], np.bincount(rank, minlength=self.comm.size).astype(np.int64)
+        received = np.empty_like(sent)
+        self.comm.Alltoall(sent, received)
+        outgoing = pack(p, rows, self.ids[rows])
+        outgoing["host"] = part.numbers_of(outgoing["host"])
+        arrived = slice(p.size - len(rows), None)
+        self._swap(outgoing, sent, received, rows)
+        self.particles.host[arrived] = part.hosts_of(self.particles.host[arrived])
 
     def take_rebounds(self) -> NDArray[np.float64]:
         """Return the rebounds that happened in this process."""

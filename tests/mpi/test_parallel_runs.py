@@ -16,11 +16,14 @@ from typing import Any
 import numpy as np
 import pytest
 import pyvista
+from foam_writer import header
 from paths import ROOT
-from pipe_case import edit, fates, short_case, with_eddies
+from pipe_case import edit, fates, short_case, time_folder, with_eddies
 from transient_case import write_transient_case
 
 from foamprb.cli import main
+from foamprb.flow.read.openfoam import read_fields
+from foamprb.parallel.shared_memory import NODE_RANKS
 from foamprb.results.checkpoint import read_checkpoint
 from foamprb.results.pieces import XMLPPolyDataReader
 from foamprb.results.pvd import read_pvd
@@ -427,3 +430,56 @@ def test_eddies_are_the_same_on_several_processes(tmp_path):
     expected = fates(case)
     finish(3, case, "-overwrite")
     assert fates(case) == expected
+
+
+def decomposed(case: Path, parts: int) -> None:
+    """Leave only processor folders of layers of cells along the pipe, dealt to the parts in turn."""
+    mesh = read_fields(case)[0]
+    layer = np.unique(np.round(mesh.centres[:, 0], 6), return_inverse=True)[1] % parts
+    body = f"{len(layer)}\n(\n" + "\n".join(map(str, layer)) + "\n)\n"
+    (case / "constant/layers").write_text(header("labelList", "layers") + body)
+    (case / "system/decomposeParDict").write_text(
+        header("dictionary", "decomposeParDict")
+        + f"numberOfSubdomains {parts};\nmethod manual;\nmanualCoeffs {{ dataFile layers; }}\n"
+    )
+    words = ["decomposePar", "-latestTime", "-case", str(case)]
+    subprocess.run(words, check=True, capture_output=True, timeout=100)
+    shutil.rmtree(time_folder(case))
+
+
+@pytest.mark.openfoam
+@pytest.mark.skipif(shutil.which("decomposePar") is None, reason="decomposePar is not on PATH")
+def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_path, monkeypatch):
+    """Bodies go through parts of all nodes; the run ends as on one process, on fewer nodes than it began."""
+    monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
+    for name, value in (("endTime", 0.03), ("writeInterval", 0.005)):
+        edit(case, rf"{name}\s+\S+;", f"{name} {value};")
+    edit(case, r".*fieldSampling.*", "")
+    edit(case, r"sampleInterval 7;", "sampleInterval 70;")
+    edit(case, r"trackInterval 10;", "trackInterval 100;")
+    alone = tmp_path / "alone"
+    shutil.copytree(case, alone)
+    assert main(["run", "-case", str(alone)]) == 0
+    decomposed(case, 5)
+    kill = after_hook(
+        tmp_path,
+        """
+hand_over = Worker._hand_over
+def hooked(self):
+    if rank == 1 and max(self.particles.t, default=0.0) > 0.012:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return hand_over(self)
+Worker._hand_over = hooked
+""",
+    )
+    assert run(3, case, script=kill).returncode != 0
+    assert not (folder_of(case) / "fates.csv").exists()
+    log = finish(2, case, "-resume")
+    assert "Continuing from the checkpoint at t = 0.01 s" in log
+    assert re.search(r"node 1 +4608 cells, and 4608 around them", log)
+    for file in [*folder_of(alone).rglob("*.csv"), folder_of(alone) / "paths/tracks.vtp"]:
+        name = file.relative_to(folder_of(alone))
+        assert (folder_of(case) / name).read_bytes() == file.read_bytes(), name
+    ends = [read_checkpoint(folder_of(c) / "checkpoint/0.03.checkpoint").arrays for c in (case, alone)]
+    for name, array in ends[1].items():
+        assert ends[0][name].tobytes() == array.tobytes(), name
