@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -123,6 +123,9 @@ class CloudFunction:
     def interval(self) -> int:
         """Tracking steps between two samples: ``sampleInterval``, or 0 for samples at write times only."""
         return int(getattr(self, "sampleInterval", 0))
+
+    needs_mesh: ClassVar[bool] = False
+    """Whether it maps particles to the cells of the mesh, which must then be whole."""
 
     @property
     def needed_fields(self) -> tuple[str, ...]:

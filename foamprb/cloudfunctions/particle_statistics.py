@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,8 @@ class ParticleStatistics(SampledFunction):
 
     sampleInterval: SampleInterval = 1
     sigmaParticles: Annotated[bool, Meaning("whether to write the particles' stress and volume, too")] = False
+
+    needs_mesh: ClassVar[bool] = True
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return cells, −1 outside, and Taylor's D."""

@@ -37,7 +37,7 @@ class WholeCounts(NamedTuple):
     tets: range
 
 
-def why_whole(case: Path, time: float | str, source: FlowSource, transient: bool, nodes: int) -> str | None:
+def why_whole(case: Path, time: float | str, source: FlowSource, nodes: int) -> str | None:
     """Return why each node must hold the whole mesh of a case; None if each can hold a part."""
     if source.file is not None:
         return "a mesh file is read"
@@ -46,8 +46,6 @@ def why_whole(case: Path, time: float | str, source: FlowSource, transient: bool
     opened = DecomposedCase(case, source.region)
     if opened.processors.n < nodes:
         return f"the case has {opened.processors.n} processor folders for {nodes} nodes"
-    if transient:
-        return "the flow is transient"
     if not keeps_volume(case, source.region, opened.folder(opened.select_time(time))):
         return "its density may vary"
     if source.turbulent:

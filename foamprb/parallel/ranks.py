@@ -84,7 +84,7 @@ class Ranks:
         return [answer.value for answer in answers]
 
     def open_flow(
-        self, case: Path, time: float | str, source: FlowSource, transient: bool, step: float
+        self, case: Path, time: float | str, source: FlowSource, step: float, whole: str | None
     ) -> DistributedFlow | None:
         """Return the flow of a decomposed case with a part on each of several nodes.
 
@@ -92,10 +92,10 @@ class Ranks:
         ----------
         case, time, source
             The case; the time of a steady flow; the names of its fields.
-        transient
-            Whether times of a transient flow are read.
         step
             Time between two points where particles can change nodes, s.
+        whole
+            Why the run needs the whole mesh on each computer, if it does.
 
         Returns
         -------
@@ -104,7 +104,7 @@ class Ranks:
         nodes = self.worker.windows.nodes
         if nodes == 1:
             return None
-        reason = why_whole(case, time, source, transient, nodes)
+        reason = why_whole(case, time, source, nodes) or whole
         if reason is not None:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             return None

@@ -183,7 +183,7 @@ def prepare(
             solution = settings.solution
             step = solution.deltaT * stretch_of(solution.stride)
             at = "latestTime" if time is None else time
-            parts: Any = ranks.open_flow(case, at, source, solution.transient, step)
+            parts: Any = ranks.open_flow(case, at, source, step, _why_whole(settings))
             flow = parts
         if flow is None:
             flow = _read_flow(settings, time, source)
@@ -202,6 +202,19 @@ def prepare(
         if compilation is not None:
             compilation.stop()
         raise
+
+
+def _why_whole(settings: Settings) -> str | None:
+    """Return why the settings need the whole mesh on each computer; None if they do not."""
+    if settings.solution.transient:
+        return "the flow is transient"
+    for name, function in settings.functions.items():
+        if function.needs_mesh:
+            return f"the cloudFunction {name} maps particles to cells"
+    for name, model in settings.surroundings.items():
+        if model.wall_range > 0.0:
+            return f"{name} examines the walls around the particles at the start"
+    return None
 
 
 def _compile(settings: Settings, rotating: bool) -> Compilation:
