@@ -243,9 +243,10 @@ def test_names_are_no_formulas():
     assert "a$b_$^" in plots.shares({"a$b_$^": {"stuck": 3}}).svg
 
 
-def test_the_flow_is_not_reconstructed(case, tmp_path, monkeypatch):
-    """The report shows walls, which need the mesh alone."""
+def test_the_flow_of_a_large_mesh_is_not_reconstructed(case, tmp_path, monkeypatch):
+    """The report shows walls, which need the mesh alone; only its picture has streamlines."""
     monkeypatch.setattr("foamprb.flow.read.openfoam.Reconstruction", None)
+    monkeypatch.setattr("foamprb.view.show.MOST_CELLS", 0)
     write_report(case, tmp_path / "report.html")
     assert (tmp_path / "reportPlots/depositsOnGeometry.svg").exists()
 
