@@ -130,6 +130,7 @@ class Page:
         return {
             "title": scene.title,
             "subtitle": scene.subtitle,
+            "groups": scene.groups,
             "made": f"Made by foamprb {self._version}: {scene.subtitle} of the case {scene.title}.",
             "frame": {
                 "middle": self._middle.tolist(),

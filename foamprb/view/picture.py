@@ -131,7 +131,7 @@ class Drawing:
         """Write the texts that do not change: title, legends and names of patches."""
         scene = self.scene
         self._write("title", scene.title, 17, "left", 30, bold=True)
-        self._write("subtitle", scene.subtitle, 14, "left", 53)
+        self._write("subtitle", "  ·  ".join(filter(None, (scene.subtitle, scene.groups))), 14, "left", 53)
         left = 22.0
         if scene.flowfield is not None and scene.flowfield.slice is not None:
             scale = scene.flowfield.scales[PLANE]

@@ -119,6 +119,8 @@ class Scene:
         Unit vector of the mean velocity; zero if the flow has no main direction.
     gravity
         Unit vector; zero without gravity.
+    groups
+        Dimensionless groups and the fluid, as text.
     """
 
     title: str
@@ -136,6 +138,7 @@ class Scene:
     percentiles: tuple[float, float] = PERCENTILES
     flow: Floats = field(default_factory=lambda: np.zeros(3))
     gravity: Floats = field(default_factory=lambda: np.zeros(3))
+    groups: str = ""
 
     @cached_property
     def limits(self) -> tuple[float, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import os
+import re
 import shutil
 import subprocess
 import webbrowser
@@ -12,6 +13,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -182,6 +184,7 @@ class _Background:
     paths: Tracks | None
     flow: Floats
     gravity: Floats
+    groups: str
 
     def scene(self, bodies: Bodies) -> Scene:
         """Return the scene of some bodies."""
@@ -210,6 +213,7 @@ class _Background:
             percentiles=request.percentiles,
             flow=self.flow,
             gravity=g / (float(np.linalg.norm(g)) or 1.0),
+            groups=self.groups,
         )
 
 
@@ -296,12 +300,35 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
     with suppress(InputError):
         g = np.array(read_gravity(request.case, run.results.region))
     try:
-        flow = run.record.get("flow")
+        record = run.record
     except InputError as error:
         log.warning("The direction of the flow is not shown: %s", error)
-        flow = None
+        record = {}
+    flow = record.get("flow")
     direction = main_direction(flow.get("direction") if isinstance(flow, dict) else None)
-    return _Background(request, run, colour, fates, geometry, field, run.paths(), direction, g)
+    return _Background(
+        request, run, colour, fates, geometry, field, run.paths(), direction, g, groups_of(record)
+    )
+
+
+def groups_of(record: dict[str, Any]) -> str:
+    """Return Ca, the particle Reynolds number and the fluid of a run, as far as its record has them."""
+    parts = []
+    with suppress(AttributeError, TypeError, ValueError):
+        for label, key in (("Ca", "capillary"), ("Re", "reynolds")):
+            values = [float(v) for own in record.get("injections", ()) for v in own.get(key, ())]
+            ends = (
+                sorted({_short(value) for value in (min(values), max(values))}, key=float) if values else ()
+            )
+            parts += [f"{label} {' to '.join(ends)}"] if ends else []
+        fluid = record.get("fluid", {})
+        parts += [f"μ {_short(1e3 * fluid['mu'])} mPa s"] if fluid.get("mu") else []
+        parts += [f"ρ {_short(fluid['rho'])} kg/m³"] if fluid.get("rho") else []
+    return ", ".join(parts)
+
+
+def _short(value: float) -> str:
+    return re.sub(r"e([-+])0", r"e\1", f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}")
 
 
 def title_of(case: Path) -> str:

@@ -465,7 +465,9 @@ class TestTime:
 
     def test_playing_and_stopping(self, tab):
         assert not tab.run("foamprb.state.playing")
-        tab.page.select_option("#speed", "30")
+        # 0.7 s in 8 s is 11.4 times slower than reality; a round number.
+        assert tab.page.locator("#speed option:checked").inner_text() == "1/20×"
+        tab.page.select_option("#speed", label="1/2×")
         tab.page.focus("#canvas")
         tab.page.keyboard.press(" ")
         assert tab.text("play-word") == "Stop"
@@ -585,6 +587,18 @@ class TestControls:
         tab.page.keyboard.press("0")
         assert tab.run(place) == pytest.approx(before)
         tab.page.keyboard.press("w")
+
+    def test_the_address_restores_camera_time_and_body(self, tab, browser, address):
+        place = "[...foamprb.eye.camera.position, foamprb.state.t, foamprb.state.chosen, foamprb.state.name]"
+        tab.run(
+            "(foamprb.choose(4), foamprb.show(6), foamprb.setColour('d', ''), foamprb.eye.turn(0.5, 0.2))"
+        )
+        tab.wait("location.hash.includes('body=4')")
+        tab.wait("location.hash.includes('t=0.6')")
+        other = Tab(browser, address, tab.run("location.hash").removeprefix("#"))
+        assert other.run(place)[:3] == pytest.approx(tab.run(place)[:3], abs=1e-3)
+        assert other.run(place)[3:] == [6, 4, "d"]
+        other.page.close()
 
     def test_zooming_keeps_what_is_under_the_pointer(self, tab):
         at = tab.run("foamprb.placeOf(4)")

@@ -30,7 +30,7 @@ from foamprb.view.scene import (
     limits_of,
     principal_axes,
 )
-from foamprb.view.show import Request, make_scene, spread
+from foamprb.view.show import Request, groups_of, make_scene, spread
 
 EMPTY = Bodies(
     times=np.zeros(1),
@@ -353,3 +353,15 @@ def test_times_are_spread_evenly_and_end_with_the_last(count, most):
     assert frames == sorted(set(frames))
     gaps = np.diff(frames)
     assert gaps.size == 0 or gaps.max() - gaps.min() <= 1
+
+
+def test_the_caption_has_the_groups_and_the_fluid():
+    record = {
+        "injections": [
+            {"capillary": [0.02, 0.5], "reynolds": [1e-5, 1e-5]},
+            {"capillary": [1.5, 2.0], "reynolds": [1e-5, 1e-5]},
+        ],
+        "fluid": {"mu": 1.8e-5, "rho": 1.208},
+    }
+    assert groups_of(record) == "Ca 0.02 to 2, Re 1e-5, μ 0.018 mPa s, ρ 1.21 kg/m³"
+    assert groups_of({}) == groups_of({"injections": 3}) == ""

@@ -58,6 +58,12 @@ export class Eye {
     this.place();
   }
 
+  look(yaw, pitch, distances, x, y, z) {
+    Object.assign(this, { yaw, pitch, distance: distances * this.fit });
+    this.target.set(x, y, z);
+    this.place();
+  }
+
   // Show a whole box, given by its half sides about the origin, in the current direction.
   showAll(halves) {
     this.target.set(0, 0, 0);

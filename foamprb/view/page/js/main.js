@@ -4,22 +4,24 @@ import { Color, ColorManagement, DataTexture, LinearFilter, LinearSRGBColorSpace
 import { Bodies } from "./bodies.js";
 import { Eye } from "./camera.js";
 import { drawChart } from "./chart.js";
-import { compassHeight, compassWidth, paintCompass } from "./compass.js";
+import { compassHeight, compassWidth, paintCompass, roundLength } from "./compass.js";
 import { bytesOf, colourOfName, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
 import { load } from "./data.js";
 import { FlowPlane, streamlines } from "./flow.js";
 import { GALLERY, Gallery } from "./gallery.js";
 import { paintLegends, showLegend } from "./legend.js";
+import { Link } from "./link.js";
 import { CURVES, TimePlot, curveKey, quantiles, through } from "./plot.js";
 import { Deposits, Walls } from "./surroundings.js";
-import { Trails } from "./trails.js";
+import { Trails, frameBefore } from "./trails.js";
 
 const $ = (id) => document.getElementById(id);
 const words = new URLSearchParams(location.hash.slice(1));
 // Digits of the values of a page.
 const DIGITS = 4;
 const MOST_SEGMENTS = 400_000;
-const SPEEDS = [2, 5, 10, 15, 25, 30, 60];
+// Seconds in which a run is played by default, and speeds as multiples of that.
+const DURATION = 8, SPEEDS = [0.1, 0.2, 0.5, 1, 2, 5, 10];
 
 const keys = [
   ["Space", "play, stop", () => play(!state.playing)],
@@ -40,7 +42,7 @@ const keys = [
   ["H", "this list", () => $("about").showModal()],
 ];
 
-let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, plot, gallery;
+let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, plot, gallery, link;
 const scene = new Scene();
 const state = {
   t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
@@ -75,7 +77,7 @@ async function start() {
   fill(spec);
   listen();
   state.enlargement = spec.enlargement;
-  state.t = Math.min(data.m - 1, Number(words.get("time") ?? spec.first));
+  state.t = Math.min(data.m - 1, spec.first);
   setTheme(words.get("theme") ?? "auto");
   setEnlargement(spec.enlargement);
   setColour(...spec.colour, spec.range);
@@ -86,17 +88,39 @@ async function start() {
   resize();
   eye.goHome();
   new ResizeObserver(resize).observe($("stage"));
+  link = new Link(words, view, restore);
+  restore(words);
   show(state.t);
   requestAnimationFrame(loop);
+}
+
+// What a link restores: time, s, body, array, and the eye by angles, distance and the middle of the picture.
+function view() {
+  const { yaw, pitch, distance, fit, target } = eye, found = { t: [data.times[state.t]], colour: `${state.name}:${state.part}`, eye: [yaw, pitch, distance / fit, target.x, target.y, target.z] };
+  return state.chosen < 0 ? found : { ...found, body: [data.ids[state.chosen]] };
+}
+
+function restore(from) {
+  const numbers = (key) => (from.get(key) ?? "").split(",").filter(Boolean).map(Number);
+  const [name, part] = (from.get("colour") ?? "").split(":"), [time] = numbers("t"), [body] = numbers("body"), seen = numbers("eye");
+  if (part !== undefined && [...$("colour").options].some(({ value }) => value === `${name}:${part}`)) setColour(name, part);
+  if (Number.isFinite(time)) show(nearestFrame(time));
+  if (data.ids.includes(body)) choose(data.ids.indexOf(body));
+  if (seen.length === 6 && seen.every(Number.isFinite)) eye.look(...seen);
 }
 
 // ---------------------------------------------------------------------------------------------------------
 // Drawing
 
 function loop(now) {
-  if (state.playing && now - (loop.last ?? 0) >= 1000 / state.speed - 4) {
+  if (state.playing) {
+    const { times, m } = data, step = (times[m - 1] - times[0]) / (m - 1);
+    loop.clock += ((now - (loop.last ?? now)) / 1000) * state.speed;
     loop.last = now;
-    show((state.t + 1) % data.m);
+    // The last time stays as long as another.
+    if (loop.clock > times[m - 1] + step) loop.clock = times[0];
+    const t = Math.max(0, frameBefore(times, loop.clock));
+    if (t !== state.t) show(t);
   }
   if (dirty) draw();
   requestAnimationFrame(loop);
@@ -114,6 +138,7 @@ function draw() {
   placeLabels();
   placeHandle();
   drawCompass();
+  link?.changed();
 }
 
 function drawGallery() {
@@ -350,6 +375,7 @@ function describe(spec) {
   document.title = `${spec.title} – ${spec.subtitle}`;
   $("title").textContent = spec.title;
   $("subtitle").textContent = spec.subtitle;
+  $("groups").textContent = spec.groups;
   $("made").textContent = spec.made;
   $("compass").style.width = `${compassWidth(spec)}px`;
   $("compass").style.height = `${compassHeight}px`;
@@ -381,9 +407,10 @@ function fill(spec) {
     if (select === $("colour")) for (const codes of Object.values(data.codes)) option(select, `${codes.name}:`, codes.label);
   }
   for (const name of Object.keys(spec.maps)) option($("map"), name, name);
-  const wanted = data.m / 8;
-  state.speed = SPEEDS.reduce((a, b) => (Math.abs(b - wanted) < Math.abs(a - wanted) ? b : a));
-  for (const speed of SPEEDS) option($("speed"), speed, `${speed}/s`);
+  // Physical time per time of the viewer, in round numbers.
+  const speeds = SPEEDS.map((factor) => roundLength((factor * (data.times[data.m - 1] - data.times[0] || 1)) / DURATION));
+  for (const speed of new Set(speeds)) option($("speed"), speed, speed < 1 ? `1/${number(1 / speed, 2)}×` : `${number(speed, 2)}×`);
+  state.speed = speeds[SPEEDS.indexOf(1)];
   $("speed").value = state.speed;
   $("time").max = data.m - 1;
   const { fate, injector } = data.codes;
@@ -637,6 +664,8 @@ function paint() {
 
 function play(on) {
   state.playing = on && data.m > 1;
+  loop.last = undefined;
+  loop.clock = data.times[state.t];
   document.documentElement.classList.toggle("playing", state.playing);
   $("play-word").textContent = state.playing ? "Stop" : "Play";
   $("play").title = state.playing ? "Stop (space)" : "Play (space)";
@@ -814,7 +843,7 @@ async function paintPicture() {
     context.fillText(text, x, y);
   };
   write(data.scene.title, 22 * s, 32 * s, `600 ${17 * s}px ${style.font}`, style.ink, "left");
-  write(data.scene.subtitle, 22 * s, 53 * s, `${14 * s}px ${style.font}`, style.soft, "left");
+  write([data.scene.subtitle, data.scene.groups].filter(Boolean).join("  ·  "), 22 * s, 53 * s, `${14 * s}px ${style.font}`, style.soft, "left");
   write($("clock").textContent, (width - 22) * s, 32 * s, `600 ${17 * s}px ${style.font}`, style.ink, "right");
   write(caption(), (width - 22) * s, 53 * s, `${14 * s}px ${style.font}`, style.soft, "right");
   context.textAlign = "center";
