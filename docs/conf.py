@@ -63,6 +63,7 @@ CASES = sorted((HERE / "cases").glob("*.md"))
 PAGES = {
     "README.md": "index.md",
     "CHANGELOG.md": "changelog.md",
+    "CODE_OF_CONDUCT.md": "conduct.md",
     "CONTRIBUTING.md": "contributing.md",
     "tools/README.md": "tools.md",
     **{f"cases/{page.stem}/README.md": f"cases/{page.name}" for page in CASES},
@@ -94,6 +95,8 @@ def change_page(_: Any, name: str, source: list[str]) -> None:
         source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
     if name == "reference/commands":
         source[0] += commands()
+    if name == "reference/clouds":
+        source[0] = source[0].replace("<!-- arrays -->\n", arrays())
     source[0] = within_the_site(source[0], page.parent, page)
 
 
@@ -110,6 +113,26 @@ def commands() -> str:
             f"\n## {name}\n\n`foamprb {name}`: {help_.help}\n\n| | |\n|---|---|\n" + "\n".join(lines) + "\n"
         )
     return text
+
+
+def arrays() -> str:
+    """Return a table of the arrays of particles, from their declarations."""
+    from foamprb.cloud.state import VARIABLES
+
+    rows = [
+        f"| `{name}` | {v.unit} | {', '.join(map(str, v.shape))} | {v.meaning} |"
+        for name, v in VARIABLES.items()
+    ]
+    return "| array | unit | components | meaning |\n|---|---|---|---|\n" + "\n".join(rows) + "\n"
+
+
+def skip(_: Any, __: str, ___: str, member: Any, skipped: bool, ____: Any) -> bool | None:
+    """Leave out fields of tuples without a description of their own."""
+    return (
+        True
+        if (getattr(member, "__doc__", "") or "").startswith("Alias for field number")
+        else skipped or None
+    )
 
 
 def option(action: Any) -> str:
@@ -144,6 +167,7 @@ def write_scene(app: Any, failure: Exception | None) -> None:
 
 def setup(app: Any) -> None:
     """Change pages as they are read, and add the scene when all are written."""
+    app.connect("autodoc-skip-member", skip)
     app.connect("source-read", change_page)
     app.connect("include-read", change_included)
     app.connect("build-finished", write_scene)
