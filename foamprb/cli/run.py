@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from foamprb.errors import InputError
 
 if TYPE_CHECKING:
     from foamprb.parallel.ranks import Ranks
+    from foamprb.run.follow import Follow
     from foamprb.settings.solution import StartFrom
 
 PURPOSE = "track the particles of constant/softCloudProperties"
@@ -43,6 +45,15 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--output", type=Path, metavar="DIR", help="folder of the results [postProcessing in the case]"
     )
+    parser.add_argument(
+        "--follow", action="store_true", help="beside the running solver: take each time as it is written"
+    )
+    parser.add_argument(
+        "--patience",
+        type=float,
+        metavar="SECONDS",
+        help="with -follow: stop after so long without a new time",
+    )
     parser.add_argument("--dry-run", action="store_true", help="check the input, print the plan and exit")
 
 
@@ -54,6 +65,9 @@ def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
+    start_from: StartFrom | None = None
+    if arguments.resume or arguments.overwrite:
+        start_from = "latestTime" if arguments.resume else "startTime"
     job = prepare(
         arguments.case,
         "latestTime" if arguments.latestTime else arguments.time,
@@ -65,13 +79,27 @@ def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         outside_libs=arguments.outsideLibs,
         output=arguments.output,
         ranks=ranks,
+        follow=_follow_options(arguments, start_from),
     )
     log_description(job)
     if arguments.dry_run:
         log_dry_run(job)
         return 0
-    start_from: StartFrom | None = None
-    if arguments.resume or arguments.overwrite:
-        start_from = "latestTime" if arguments.resume else "startTime"
     execute_until_signal(job, start_from, ranks)
     return 0
+
+
+def _follow_options(arguments: argparse.Namespace, start_from: StartFrom | None) -> Follow | None:
+    """Return the options of a run beside a running solver, or None."""
+    from foamprb.run.follow import Follow
+
+    if not arguments.follow:
+        if arguments.patience is not None:
+            raise InputError("-patience goes with -follow.")
+        return None
+    if arguments.dry_run:
+        raise InputError("-dry-run does not go with -follow, which waits for the solver.")
+    patience = math.inf if arguments.patience is None else arguments.patience
+    if not patience > 0.0:
+        raise InputError(f"-patience {patience:g}: a number of seconds > 0 is needed.")
+    return Follow(start_from, patience)

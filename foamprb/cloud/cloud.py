@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
@@ -233,6 +234,10 @@ class Cloud:
         ready = (until - self.time) / self.dt + _ROUND_OFF
         self._grow_reach()
         return self.flow_arrays(), steps if ready > steps else max(1, int(ready))
+
+    def steps_until(self, t: float) -> int:
+        """Return the number of steps from the start to a time, s; the last may exceed it by round-off."""
+        return math.floor((t - self.start) / self.dt + _ROUND_OFF)
 
     def take_rebounds(self) -> NDArray[np.float64]:
         """Return the rebounds and passages since the last call, if the models have ``rebounds``.

@@ -46,8 +46,13 @@ from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walk import walk_on as walk_on_mesh
 from foamprb.flow.walls import gap as gap_mesh
 
-_SLACK = 1e-6
-"""Share of the shortest interval by which two times may differ and still be the same."""
+_SLACK = 1e-11
+"""Share of a time by which another may differ and still be the same. It does not depend on other times of the
+flow: results are then the same, bit for bit, while a solver writes more of them."""
+_ENDS = 1e-9
+"""Share of the first or last time by which a step may go beyond it: names of times are rounded."""
+_OF_PERIOD = 1e-6
+"""Share of the period within which a time ends it."""
 _OF_VELOCITY, _OF_TURBULENCE, _OF_VISCOSITY = 12, 8, 4
 """Columns of u and ∇u, of the turbulence after them, and of the viscosity at the end."""
 _LONGEST_END = 2.0
@@ -227,6 +232,8 @@ class SeriesFlow(MeshFlow):
         Whether ``read`` returns the turbulence, the correction, and the viscosity.
     sampled
         Further fields that ``read`` returns.
+    names
+        Names of the times, which ``read`` shares; :meth:`extend` adds to them.
 
     Raises
     ------
@@ -263,6 +270,7 @@ class SeriesFlow(MeshFlow):
         conservative: bool = False,
         viscous: bool = False,
         sampled: Sequence[FieldColumns] = (),
+        names: list[str] | None = None,
     ) -> None:
         self.times = tuple(times) if period is None else _one_period(times, period)
         if np.any(np.diff(self.times) <= 0.0):
@@ -272,7 +280,7 @@ class SeriesFlow(MeshFlow):
         self.period = period
         self._read, self._keep = read, keep
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
-        self._slack = _SLACK * float(np.diff(self._ends).min())
+        self._names = names if names is not None else []
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
         self._turbulent = turbulent
         self.field_columns = tuple(sampled)
@@ -305,7 +313,8 @@ class SeriesFlow(MeshFlow):
         InputError
             The flow does not cover ``start`` to ``end``, or one of its times cannot be read.
         """
-        if not (self.span[0] - self._slack <= start and end <= self.span[1] + self._slack):
+        beyond = _ENDS * max(map(abs, self.times))
+        if not (self.span[0] - beyond <= start and end <= self.span[1] + beyond):
             raise InputError(
                 f"the flow is known from {self.span[0]:.12g} s to {self.span[1]:.12g} s, "
                 f"not from {start:.12g} s to {end:.12g} s"
@@ -324,6 +333,20 @@ class SeriesFlow(MeshFlow):
             self._prefetch(following)
         return self._time_of(last)
 
+    def extend(self, names: Sequence[str], usable: int) -> None:
+        """Add the times that a solver has written meanwhile.
+
+        Parameters
+        ----------
+        names
+            Names of all times, the present ones first.
+        usable
+            Number of times that the flow goes through. Those after it serve the rates of change at the last.
+        """
+        self._names[:] = names
+        self.times = self._ends = tuple(float(name) for name in names[:usable])
+        self.span = self.times[0], self.times[-1]
+
     def arrays(  # type: ignore[override]
         self,
         reach: float = 0.0,
@@ -339,7 +362,7 @@ class SeriesFlow(MeshFlow):
             np.array([self._time_of(level) for level in self._levels]),
             np.array(places, dtype=np.int64) * nodes,
             self._fields.reshape(-1, self._fields.shape[2]),
-            self._slack,
+            self._slack(self._time_of(self._levels[-1])),
             np.array(places, dtype=np.int64) * self._corrections.shape[1],
             self._corrections.reshape(-1, 4),
         )
@@ -385,11 +408,15 @@ class SeriesFlow(MeshFlow):
         )
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Return mesh, times, and fields at the first time, by name."""
+        """Return mesh, first time with its fields, and all times of a period, by name.
+
+        Later times may be added to a flow without period (:meth:`extend`).
+        """
         first = self._first()
+        times = self.times[: 1 if self.period is None else None]
         sampled = {"sampled": self.field_table[self._in_memory[0]]} if self.field_columns else {}
         return {
-            **super().traits(), "times": self.times, "period": self.period or 0.0, "fields": first,
+            **super().traits(), "times": times, "period": self.period or 0.0, "fields": first,
             "correction": self._corrections[self._in_memory[0]], **sampled,
         }  # fmt: skip
 
@@ -402,11 +429,38 @@ class SeriesFlow(MeshFlow):
         """Return the times of the flow between ``start`` and ``end``, s, those of each period."""
         levels = range(self._level_before(start), self._level_after(end) + 1)
         times = [self._time_of(level) for level in levels]
-        return [t for t in times if start + self._slack < t < end - self._slack]
+        return [t for t in times if start + self._slack(start) < t < end - self._slack(end)]
+
+    def times_until(self, t: float) -> tuple[float, ...]:
+        """Return the times of a flow without period up to the first one from t on, s."""
+        return self.times[: self._level_after(t) + 1]
+
+    def change_until(self, t: float, then: Sequence[float]) -> str:
+        """Return how the times up to t differ from earlier ones; empty if a run may continue at t.
+
+        Times before the interval of t may be missing: they are not read again.
+
+        Parameters
+        ----------
+        t
+            Time, s.
+        then
+            :meth:`times_until` at this time of the flow at the start of the run.
+        """
+        now, past = self.times_until(t), bisect_right(then, t + self._slack(t)) - 1
+        missing = [time for time in then[max(past, 0) :] if time not in now]
+        added = [time for time in now if time not in then]
+        if missing:
+            return f"the time {missing[0]:.12g} of the flow is missing"
+        return f"the time {added[0]:.12g} was added to the flow" if added else ""
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Return the triangles of a patch at time t, s; see :meth:`MeshFlow.patch_faces` and :meth:`load`."""
         return with_velocity(super().patch_faces(name, t), self, t)
+
+    def _slack(self, t: float) -> float:
+        """Return the difference below which another time is the same as t, s."""
+        return _SLACK * max(abs(t), abs(self.times[0]))
 
     # A level counts the times on from period to period; the index is that of its time in the first period.
 
@@ -425,12 +479,13 @@ class SeriesFlow(MeshFlow):
     def _level_before(self, t: float) -> int:
         """Return the last level up to t."""
         cycle, rest = self._cycle(t)
-        return max(0, cycle * len(self.times) + bisect_right(self._ends, rest + self._slack) - 1)
+        return max(0, cycle * len(self.times) + bisect_right(self._ends, rest + self._slack(t)) - 1)
 
     def _level_after(self, t: float) -> int:
         """Return the first level from t on."""
         cycle, rest = self._cycle(t)
-        return cycle * len(self.times) + min(bisect_left(self._ends, rest - self._slack), len(self._ends) - 1)
+        level = min(bisect_left(self._ends, rest - self._slack(t)), len(self._ends) - 1)
+        return cycle * len(self.times) + level
 
     def _cycle(self, t: float) -> tuple[int, float]:
         """Return the count of periods before t, and the corresponding time of the first period."""
@@ -493,7 +548,7 @@ def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
         return first
     others = [times[k] for k in range(1, len(times)) if _period_from(times, k, period)]
     # Best is one that ends at a time.
-    others.sort(key=lambda start: min(abs(t - start - period) for t in times) <= _SLACK * period)
+    others.sort(key=lambda start: min(abs(t - start - period) for t in times) <= _OF_PERIOD * period)
     remedy = (
         f"-time {others[-1]:g}:{others[-1] + period:g} selects such times" if others else "correct the period"
     )
@@ -506,7 +561,7 @@ def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
 def _period_from(times: Sequence[float], k: int, period: float) -> tuple[float, ...]:
     """Return the times of a period from the k-th on; none if they do not fill it."""
     end = times[k] + period
-    found = tuple(t for t in times[k:] if t < end - _SLACK * period)
+    found = tuple(t for t in times[k:] if t < end - _OF_PERIOD * period)
     steps = np.diff([*found, end])
     return found if len(found) > 1 and steps[-1] <= _LONGEST_END * steps[:-1].max() else ()
 
@@ -518,7 +573,7 @@ _MOST_IN_MEMORY = 1 << 28
 def series_of(
     source: Path,
     mesh: Mesh,
-    names: Sequence[str],
+    names: list[str],
     read: Callable[[str], tuple[Any, ...]],
     period: float | None,
     notes: Sequence[str],
@@ -537,7 +592,7 @@ def series_of(
     mesh
         Mesh of all times.
     names
-        Names of the times, rising.
+        Names of the times, rising; see :class:`SeriesFlow`.
     read
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
     period, notes, zones, turbulent, conservative, viscous, sampled
@@ -567,6 +622,7 @@ def series_of(
             conservative,
             viscous,
             sampled,
+            names,
         )
     except InputError as error:
         raise InputError(f"{source}: {error}") from None

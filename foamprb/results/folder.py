@@ -32,7 +32,7 @@ FATES, FAILURES = "fates", "failed"
 """Tables of a run: a row per particle, and a row per failed particle."""
 KINDS = ("csv", "parquet")
 """The kinds of tables, which are the endings of their files."""
-MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
+MANIFEST, RECORD, CHECKPOINTS, LINKS = "manifest.json", "run.json", "checkpoint", "flow"
 RECORD_FORMAT = 2
 """Version of the entries of the record."""
 _ROOT = "postProcessing"
@@ -140,6 +140,11 @@ class ResultsFolder:
         return self.path / CHECKPOINTS
 
     @property
+    def links(self) -> Path:
+        """Folder of links to the times of a flow whose solver is running."""
+        return self.path / LINKS
+
+    @property
     def page(self) -> Path:
         """Page of ``foamprb view``."""
         return self.path / f"{self.cloud}.html"
@@ -178,7 +183,7 @@ def fault_of_function(name: str, cloud: str) -> str:
     """Return why a cloud function cannot have a name, which names its folder too; empty if it can."""
     series = re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
     tables = {f"{table}.{kind}" for table in (FATES, FAILURES) for kind in KINDS}
-    if name in {CHECKPOINTS, MANIFEST, RECORD, "manifest", *tables} or series.fullmatch(name):
+    if name in {CHECKPOINTS, LINKS, MANIFEST, RECORD, "manifest", *tables} or series.fullmatch(name):
         return "the results have a file of that name"
     return fault_of_word(name)
 

@@ -21,7 +21,14 @@ from foamprb.body.material import MATERIALS, lame_parameter, modulus_of_capsule
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.injection.distribution import Distribution, draw
-from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
+from foamprb.cloud.injection.models import (
+    START_OF_FLOW,
+    PatchFlowRateInjection,
+    PatchInjection,
+    given_shear_modulus,
+    release,
+    start_of_injection,
+)
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import automatic
@@ -46,6 +53,7 @@ from foamprb.results.folder import ResultsFolder
 from foamprb.results.tables import require_kind
 from foamprb.run.compilation import Compilation
 from foamprb.run.description import describe
+from foamprb.run.follow import Follow, Following, begin_to_follow
 from foamprb.settings.injections import InjectionSettings, Solid
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import Settings, read_settings
@@ -72,6 +80,8 @@ class Job:
     """Kind of the tables, one of :data:`foamprb.results.folder.KINDS`."""
     output: Path | None = None
     """Folder of the results instead of ``postProcessing`` in the case."""
+    following: Following | None = None
+    """Flow whose solver is running."""
 
     @property
     def observed(self) -> ObservedCloud:
@@ -92,8 +102,11 @@ class Job:
 
     @property
     def steps(self) -> int:
-        """Number of steps from the start to the end of the run."""
-        return _steps(self.settings.solution, self.cloud.start)
+        """Number of steps from the start to the end of the run, which may be that of the solver."""
+        steps = _steps(self.settings.solution, self.cloud.start)
+        if self.following is not None and self.following.ended:
+            return min(steps, self.cloud.steps_until(self.following.flow.span[1]))
+        return steps
 
     def next_write(self, step: int) -> int:
         """Return the next step after ``step`` at which results are written, at most the last."""
@@ -125,6 +138,7 @@ def prepare(
     overrides: Mapping[str, object] | None = None,
     flows: dict[FlowSource, Flow] | None = None,
     ranks: Ranks | None = None,
+    follow: Follow | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -156,11 +170,15 @@ def prepare(
         Steady flows of this case and time that have been read, by their sources; a new one is added.
     ranks
         Processes of ``mpirun``, which read parts of a decomposed case if they run on several computers.
+    follow
+        Options of a run beside the solver of a transient flow: its times are read as they are written.
 
     Raises
     ------
     InputError
         If the case, the flow or the settings cannot be used: what, where, and what is allowed.
+    RunStopped
+        With ``follow``, if the solver has written no time for too long.
     """
     require_kind(tables)
     case = Path(case)
@@ -168,7 +186,9 @@ def prepare(
     check_region(case, source)
     # A transient flow, of a range of times, has the density of the latest.
     single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
-    settings = read_settings(case, dictionary, source.region, single, outside_libs, overrides)
+    # The latest time may be unfinished, and is another one when the run continues.
+    fluid_time = None if follow is not None else single
+    settings = read_settings(case, dictionary, source.region, fluid_time, outside_libs, overrides)
     turbulent = any(type(model).needs_turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative, viscosity=settings.fluid.field)
@@ -176,9 +196,14 @@ def prepare(
     source = replace(source, sampled=tuple(needed))
     rotating = bool(rotations_of(case, source))
     compilation = _compile(settings, rotating) if precompile else None
+    output = None if output is None else Path(output)
+    following = None
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = None if flows is None or settings.solution.transient else flows.get(source)
+        if follow is not None:
+            following = _follow(settings, time, source, output, follow)
+            flow = following.flow
         if flow is None and ranks is not None:
             solution = settings.solution
             step = solution.deltaT * stretch_of(solution.stride)
@@ -196,9 +221,13 @@ def prepare(
                 log.warning("%s", note)
             else:
                 log.info("    %s", note)
-        job = assemble(settings, flow, threads, tables)
-        return replace(job, compilation=compilation, output=None if output is None else Path(output))
+        if following is not None:
+            _wait_for_injections(settings, following)
+        job = assemble(settings, flow, threads, tables, growing=following is not None)
+        return replace(job, compilation=compilation, output=output, following=following)
     except BaseException:
+        if following is not None:
+            following.close()
         if compilation is not None:
             compilation.stop()
         raise
@@ -297,8 +326,41 @@ def _read_flow(settings: Settings, time: float | str | None, source: FlowSource)
     return read_flow(settings.case, "latestTime" if time is None else time, source)
 
 
-def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables: str = "csv") -> Job:
-    """Place the particles of the settings in a flow.
+def _follow(
+    settings: Settings, time: float | str | None, source: FlowSource, output: Path | None, options: Follow
+) -> Following:
+    """Return the flow of a solver that is running."""
+    solution = settings.solution
+    if not solution.transient or solution.period is not None:
+        raise InputError(
+            f"{settings.file}: -follow goes through a flow that changes in time. Allowed: solution/transient "
+            "yes, without period."
+        )
+    if rotations_of(settings.case, source):
+        raise InputError(f"{settings.case}: rotating zones (MRFProperties) are seen in steady flows only.")
+    folder = ResultsFolder.of_case(settings.case, settings.name, settings.region, output)
+    options = replace(options, start_from=options.start_from or solution.startFrom)
+    found = begin_to_follow(settings.case, folder, options, None if time is None else str(time), source)
+    found.flow.notes += tuple(found.flow.overlap())
+    return found
+
+
+def _wait_for_injections(settings: Settings, following: Following) -> None:
+    """Wait until the flow covers the times that the injections read before the run."""
+    for injection in settings.injections:
+        model = injection.model
+        until = start_of_injection(model, following.flow)
+        if isinstance(model, PatchFlowRateInjection):
+            until += model.duration
+        elif not isinstance(model, PatchInjection) and injection.solid.referenceShearRate is not None:
+            continue
+        following.wait_until(until, f"which the injection model {injection.name} reads before the run")
+
+
+def assemble(
+    settings: Settings, flow: Flow, threads: int | None = None, tables: str = "csv", growing: bool = False
+) -> Job:
+    """Place the particles of the settings in a flow; a ``growing`` one may end before the run.
 
     Raises
     ------
@@ -307,7 +369,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables:
     """
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = _medium(settings)
-    start = _start(settings, flow)
+    start = _start(settings, flow, growing)
     # Not a list, which would keep the parts in memory.
     particles = concatenate(
         _inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)
@@ -344,7 +406,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables:
     return Job(settings, cloud, functions, tables=tables)
 
 
-def _start(settings: Settings, flow: Flow) -> float:
+def _start(settings: Settings, flow: Flow, growing: bool) -> float:
     """Return the first time of the flow, s, or 0; raise InputError if the flow ends before the run."""
     solution, (first, last) = settings.solution, flow.span
     start = first if math.isfinite(first) else 0.0
@@ -354,7 +416,7 @@ def _start(settings: Settings, flow: Flow) -> float:
             "time of the flow."
         )
     end = start + _steps(solution, start) * solution.deltaT
-    if end > last + TIME_TOLERANCE * abs(last):
+    if not growing and end > last + TIME_TOLERANCE * abs(last):
         raise InputError(
             f"{settings.file}: solution/endTime is {solution.endTime:g}; the last step ends at {end:g}, "
             f"the flow at {last:g}. Allowed: up to that, or a flow that repeats itself (period)."

@@ -71,18 +71,30 @@ def execute(
         results.begin(start_from or job.settings.solution.startFrom)
         if results.finished:
             return cloud.particles.counts()
+        following = job.following
         log = RunLog(job)
         stepper = Stepper(cloud) if ranks is None else stepper_of(cloud, ranks)
         schedule = _Schedule(stepper)
+        if following is not None and not following.wait(cloud, stop):
+            raise RunStopped(f"stopped before the first step{following.reason}.")
         results.write_start()
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
             while cloud.step < job.steps and (cloud.step == 0 or _moving(stepper)) and not _failing(job):
+                before = cloud.step
                 if not _advance_to_write(job, results, schedule, stop, show):
                     results.save(stepper)
-                    raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {HOW_TO_GO_ON}")
+                    reason = following.reason if following is not None else ""
+                    raise RunStopped(f"stopped at t = {cloud.time:.12g} s{reason}. {HOW_TO_GO_ON}")
+                if cloud.step == before:
+                    # The solver has ended meanwhile.
+                    break
                 results.write(stepper)
                 log.write_time()
+                if following is not None:
+                    following.release(results.earliest_restart)
+        if following is not None:
+            following.report_end(job.settings.solution.endTime)
         results.end(stepper)
         failing = _failing(job)
         log.end(finished=not failing)
@@ -142,17 +154,20 @@ def _advance_to_write(
     show: Callable[[float], None],
 ) -> bool:
     """Advance to the next write time; return whether it was reached before ``stop`` returned True."""
-    cloud, target = job.cloud, job.next_write(job.cloud.step)
-    while cloud.step < target and _moving(schedule.stepper):
+    cloud, first, following = job.cloud, job.cloud.step, job.following
+    # The target is an earlier one if the solver of the flow has ended meanwhile.
+    while cloud.step < job.next_write(first) and _moving(schedule.stepper):
         results.check()
-        if stop():
+        if stop() or (following is not None and not following.wait(cloud, stop)):
             return False
-        until = results.next_observation(target)
-        schedule.advance(until, stop)
+        until = results.next_observation(job.next_write(first))
+        known = until if following is None else min(until, cloud.steps_until(following.flow.span[1]))
+        if known > cloud.step:
+            schedule.advance(known, stop)
         if cloud.step == until:
             results.observe(schedule.stepper)
         show(cloud.time)
-    cloud.step = target
+    cloud.step = job.next_write(first)
     return True
 
 

@@ -24,10 +24,14 @@ from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
-from foamprb.results.checkpoint import Checkpoint
+from foamprb.flow.base import Flow
+from foamprb.flow.series import SeriesFlow
+from foamprb.results.checkpoint import Checkpoint, Checkpoints
+from foamprb.results.folder import FATES, ResultsFolder
 from foamprb.results.manifest import Checksum, checksum
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd, with_ending
 from foamprb.settings.settings import Settings
+from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
 
@@ -96,6 +100,7 @@ def checkpoint_of(
         "series": _stems(entries),
         "sums": sums,
         "fingerprint": marks,
+        "times": _times_until(cloud.flow, cloud.time),
     }
     arrays = {f"{_CLOUD}{name}": array for name, array in cloud.particles._asdict().items()}
     arrays |= {f"{_FUNCTIONS}{name}": array for name, array in functions.items()}
@@ -117,6 +122,17 @@ def checksums(
     return found
 
 
+def require_choice(folder: ResultsFolder, start_from: StartFrom | None) -> None:
+    """Raise InputError if the user must decide whether an unfinished run continues."""
+    unfinished = Checkpoints(folder.checkpoints).files()
+    if start_from is None and unfinished and not folder.find_table(FATES):
+        raise InputError(
+            f"{folder.path}: an unfinished run has come to t = {max(unfinished):g} s. To continue it: "
+            "-resume, or startFrom latestTime; to start over in its place: -overwrite, or startFrom "
+            "startTime."
+        )
+
+
 def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> None:
     """Raise InputError if a run began with other physics.
 
@@ -136,6 +152,32 @@ def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> No
             f"{where}, as the run began with something else: {'; '.join(changed[:_MOST_NAMED])}{more}. Undo "
             "the change, or start over: -overwrite, or startFrom startTime."
         )
+
+
+def refuse_other_times(checkpoint: Checkpoint, flow: Flow, where: str) -> None:
+    """Raise InputError if the flow until a checkpoint is not known at the times of the run.
+
+    A solver may have written later times, and removed those that the run has gone through.
+
+    Parameters
+    ----------
+    checkpoint, where
+        See :func:`refuse_changes`.
+    flow
+        Flow of the cloud that continues from it.
+    """
+    then = checkpoint.header.get("times")
+    change = flow.change_until(checkpoint.time, then) if then and isinstance(flow, SeriesFlow) else ""
+    if change:
+        raise InputError(
+            f"{where}: {change}. Restore the times of the run, or start over: -overwrite, or startFrom "
+            "startTime. A run with -follow keeps the times that it still needs."
+        )
+
+
+def _times_until(flow: Flow, t: float) -> tuple[float, ...]:
+    """Return the times that a run has gone through at time t, s; none if the flow repeats itself."""
+    return flow.times_until(t) if isinstance(flow, SeriesFlow) and flow.period is None else ()
 
 
 def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, where: str) -> None:

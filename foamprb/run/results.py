@@ -20,6 +20,7 @@ from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Sampled
+from foamprb.flow.read.follow import remove_links
 from foamprb.memory import OutOfMemory, ran_out
 from foamprb.parallel.ranks import RankStepper
 from foamprb.results.atomic import only_writer, remove_unfinished
@@ -37,6 +38,8 @@ from foamprb.run.restart import (
     checksums,
     fingerprint,
     refuse_changes,
+    refuse_other_times,
+    require_choice,
     restore,
     snapshots_until,
 )  # fmt: skip
@@ -51,6 +54,8 @@ _ELSEWHERE = "The option -output DIR writes the results into another folder."
 @contextmanager
 def open_results(job: Job) -> Iterator[Results]:
     """Lock the folder of a run against other runs; on leaving, wait for unfinished writes.
+
+    A flow whose solver is running is no longer watched then.
 
     Raises
     ------
@@ -73,6 +78,9 @@ def open_results(job: Job) -> Iterator[Results]:
         if isinstance(reason, OSError) and reason.errno in (errno.EACCES, errno.EROFS):
             how += f" {_ELSEWHERE}"
         raise RunStopped(f"{str(reason).rstrip('.')}.{how}") from error
+    finally:
+        if job.following is not None:
+            job.following.close()
 
 
 class Results:
@@ -123,13 +131,7 @@ class Results:
         job = self._job
         self._fingerprint = fingerprint(job.settings, job.cloud)
         self._checkpoints = Checkpoints(job.folder.checkpoints)
-        unfinished = self._checkpoints.files()
-        if start_from is None and unfinished and not job.folder.find_table(FATES):
-            raise InputError(
-                f"{job.folder.path}: an unfinished run has come to t = {max(unfinished):g} s. To "
-                "continue it: -resume, or startFrom latestTime; to start over in its place: -overwrite, or "
-                "startFrom startTime."
-            )
+        require_choice(job.folder, start_from)
         checkpoint = self._checkpoints.latest() if start_from == "latestTime" else None
         if checkpoint is not None:
             self.finished = self._is_finished(checkpoint)
@@ -171,6 +173,11 @@ class Results:
     def next_observation(self, last: int) -> int:
         """Return the step, at most ``last``, at which a cloud function samples next."""
         return self._job.functions.next_sample(last)
+
+    @property
+    def earliest_restart(self) -> float:
+        """Time of the oldest checkpoint, s; the start of the run without one."""
+        return min(self._checkpoints.files(), default=self._job.cloud.start)
 
     def observe(self, stepper: Stepper) -> None:
         """Let the cloud functions observe the cloud that sample at this step."""
@@ -234,6 +241,7 @@ class Results:
             self._manifest.seal({file: file for file in others if file.is_file()} | {self._fates: fates})
 
         _write_fates(self._fates, self._job, finish)
+        self._remove_links()
 
     def _gathered(self, stepper: Stepper) -> Cloud:
         """Return the cloud with the state of the last step, after earlier writes have ended."""
@@ -318,6 +326,8 @@ class Results:
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
         lists = [file for file in (self._job.folder.pvd, *self._last_tables()) if file in manifest.files]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
+        if self._job.following is None:
+            remove_links(self._job.folder.links)
         self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
 
@@ -330,14 +340,22 @@ class Results:
         )
         return ended and self._fates.exists()
 
+    def _remove_links(self) -> None:
+        """Remove the links to the times of a flow whose solver is running."""
+        if self._job.following is not None:
+            self._job.following.close()
+        remove_links(self._job.folder.links)
+
     def _resume(self, checkpoint: Checkpoint) -> None:
         """Restore a checkpoint, and remove the files of later times."""
         job = self._job
         where = f"{job.folder.path}: cannot continue from t = {checkpoint.time:.12g} s"
         refuse_changes(checkpoint, self._fingerprint, where)
+        refuse_other_times(checkpoint, job.cloud.flow, where)
         entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
         restore(job.cloud, job.functions, checkpoint, where)
         if self.finished:
+            self._remove_links()
             log.info("The run has ended at t = %.12g s: there is nothing to continue.", job.cloud.time)
             return
         self._sums = checkpoint.header["sums"]

@@ -110,7 +110,7 @@ def read_fluid(
     region: str,
     constant: Dictionary,
     properties: ConstantProperties | None,
-    time: float | str = "latestTime",
+    time: float | str | None = "latestTime",
     transient: bool = False,
 ) -> Fluid:
     """Read ρ_f and ν: from ``constantProperties``, the case's dictionary of the fluid, or fields.
@@ -122,7 +122,7 @@ def read_fluid(
     constant, properties
         The cloud's ``constantProperties``, and its entries, None if they are broken.
     time
-        Time of the fields.
+        Time of the fields; None to read none.
     transient
         Whether the flow is read at all times.
 
@@ -186,7 +186,7 @@ def _note_constant(constant: Dictionary, file: Path | None, case: Path, region: 
 
 
 def _density_of_case(
-    case: Path, region: str, constant: Dictionary, file: Path | None, time: float | str
+    case: Path, region: str, constant: Dictionary, file: Path | None, time: float | str | None
 ) -> float:
     """Read ρ_f, kg/m3, from the dictionary of the fluid or from the field."""
     found = _find_density(case, region, file, time)
@@ -197,11 +197,13 @@ def _density_of_case(
     return found[0]
 
 
-def _find_density(case: Path, region: str, file: Path | None, time: float | str) -> tuple[float, str] | None:
+def _find_density(
+    case: Path, region: str, file: Path | None, time: float | str | None
+) -> tuple[float, str] | None:
     """Return the density of the case, kg/m3, and its source; None if the case has no density."""
     if file is not None and (found := read_density(file, case)) is not None:
         return found, str(CaseFile(file, case))
-    field = mean_density(case, region, time)
+    field = None if time is None else mean_density(case, region, time)
     return None if field is None else (field[0], f"the field rho at time {field[1]}, its mean")
 
 

@@ -156,7 +156,7 @@ def read_settings(
     case: Path,
     dictionary: Path | None = None,
     region: str = "",
-    time: float | str = "latestTime",
+    time: float | str | None = "latestTime",
     outside_libs: bool = False,
     overrides: Mapping[str, object] | None = None,
 ) -> Settings:
@@ -173,7 +173,7 @@ def read_settings(
     region
         Region of the mesh: its files in ``constant/REGION`` go before the files in ``constant``.
     time
-        Time of the flow, at which fields of the fluid are read.
+        Time of the flow, at which fields of the fluid are read; None to read none.
     outside_libs
         Whether Python files of ``libs`` may lie outside the case.
     overrides

@@ -437,7 +437,7 @@ def test_a_period_ends_where_the_first_time_comes_again(scale):
 
 def test_a_flow_is_known_between_its_times(mesh):
     _, flow = tables(mesh, (1.0, 1.5, 2.0))
-    slack = 1e-6 * 0.5
+    slack = 1e-9 * 2.0
     assert flow.load(1.0 - 0.9 * slack, 2.0 + 0.9 * slack) == 2.0
     for start, end in ((1.0 - 2.0 * slack, 1.5), (1.0, 2.0 + 2.0 * slack), (3.0, 3.0), (0.0, 1.0)):
         with pytest.raises(InputError, match=r"the flow is known from 1 s to 2 s, not from"):
@@ -448,6 +448,27 @@ def test_a_flow_is_known_between_its_times(mesh):
         tables(mesh, (1.0, 1.0))
 
 
+def test_a_flow_is_extended_by_later_times(mesh):
+    names = ["1", "1.5"]
+    values, whole = tables(mesh, (1.0, 1.5, 2.0, 2.0001))
+    flow = SeriesFlow(mesh, (1.0, 1.5), whole._read, names=names, turbulent=True)
+    before = flow.arrays() if flow.load(1.0, 1.2) else None
+    flow.extend(["1", "1.5", "2", "2.0001"], 3)
+    assert (flow.times, flow.span, names[2:]) == ((1.0, 1.5, 2.0), (1.0, 2.0), ["2", "2.0001"])
+    assert flow.load(1.6, 2.0) == 2.0
+    assert flow.at_nodes()[1] == pytest.approx(values[0][:, :3])
+    # Round-off does not depend on times that come later.
+    whole.load(1.0, 1.2)
+    assert before is not None
+    assert before.slack == whole.arrays().slack
+    assert flow.times_until(1.5) == (1.0, 1.5)
+    assert flow.times_until(1.6) == (1.0, 1.5, 2.0)
+    assert flow.change_until(1.6, (0.5, 1.0, 1.5, 2.0)) == ""
+    assert flow.change_until(1.6, (1.0, 1.4, 1.5, 2.0)) == ""
+    assert flow.change_until(1.6, (1.0, 2.0)) == "the time 1.5 was added to the flow"
+    assert flow.change_until(1.9, (1.0, 1.5, 1.8, 2.0)) == "the time 1.8 of the flow is missing"
+
+
 def test_what_tells_a_series_from_another(mesh):
     values, flow = tables(mesh, (1.0, 1.5, 2.0), period=2.0)
     traits = flow.traits()
@@ -455,7 +476,8 @@ def test_what_tells_a_series_from_another(mesh):
     assert traits["period"] == 2.0
     assert np.array_equal(traits["fields"], values[0])
     assert np.array_equal(traits["tets"], mesh.tets)
-    assert tables(mesh, (1.0, 1.5))[1].traits()["period"] == 0.0
+    endless = tables(mesh, (1.0, 1.5))[1].traits()
+    assert (endless["times"], endless["period"]) == ((1.0,), 0.0)
     faces, steady = flow.patch_faces("floor", 1.25), MeshFlow.patch_faces(flow, "floor", 1.25)
     mean = 0.5 * (values[0] + values[1])
     at = np.flatnonzero(mesh.triangle_patch == 0)

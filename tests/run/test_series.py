@@ -148,6 +148,29 @@ def test_a_run_goes_on_from_its_checkpoint(case, tmp_path):
     assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.0, 0.4, 0.8, 1.2])
 
 
+def test_a_run_goes_on_after_its_solver_wrote_and_removed_times(case, tmp_path, capsys):
+    """A run at 0.8 s needs the times around it, not those before, and may continue through later ones."""
+    later = case / "2"
+    shutil.copytree(case / "0.5", later)
+    whole = tmp_path / "whole"
+    shutil.copytree(case, whole)
+    edit(whole, "endTime 1.2", "endTime 2")
+    run(whole)
+    expected = (whole / "postProcessing/softCloud/fates.csv").read_bytes()
+    later.rename(tmp_path / "2")
+    edit(case, "endTime 1.2", "endTime 0.8")
+    run(case)
+    edit(case, "endTime 0.8", "endTime 2")
+    (tmp_path / "2").rename(later)
+    shutil.copytree(case / "0.5", case / "0.6")
+    assert "the time 0.6 was added to the flow" in message(case, capsys, "-resume")
+    shutil.rmtree(case / "0.6")
+    (case / "1.5").rename(tmp_path / "1.5")
+    assert "the time 1.5 of the flow is missing" in message(case, capsys, "-resume")
+    (tmp_path / "1.5").rename(case / "1.5")
+    assert (run(case, "-resume") / "fates.csv").read_bytes() == expected
+
+
 def test_a_run_does_not_go_on_in_another_flow(case, capsys):
     edit(case, "endTime 1.2", "endTime 0.8")
     run(case)

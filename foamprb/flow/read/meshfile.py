@@ -129,7 +129,7 @@ def read_mesh_series(
         field.conserve.warn(name)
         return values
 
-    return series_of(path, mesh, names, read, period, [note, *field.notes], conservative=True)
+    return series_of(path, mesh, list(names), read, period, [note, *field.notes], conservative=True)
 
 
 class _NodalVelocity:

@@ -255,22 +255,25 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
 
 def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
     """Prepare the flow of a case at several times; see :func:`read_series`."""
-    names = case.select_times(times)
+    names = list(case.select_times(times))
     if len(names) == 1:
         return steady_flow(case, names[0], source)
     kinds = kinds_of(source.sampled, case.fields, names)
-    _refuse_moving(case, names)
+    for name in names[1:]:
+        _refuse_moving(case, name)
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     whole = case.mesh(names[0])
     first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
     flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)
     reconstruct, conserve = Reconstruction(whole.mesh), Conservation(whole.mesh)
-    reads = [partial(case.field, name) for name in names]
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, reconstruct)
 
     def read(name: str) -> tuple[Any, ...]:
+        if name != names[0]:
+            _refuse_moving(case, name)
+        reads = [partial(case.field, name) for name in names]
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
         mass = mass_of(case.root, case.region, whole, names, reads, names.index(name))
@@ -314,12 +317,11 @@ def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:
     return caveats_of_case(case.root, case.region, case.folder(time), partial(case.field, time), **options)
 
 
-def _refuse_moving(case: Case, names: tuple[str, ...]) -> None:
-    for name in names[1:]:
-        for part in ("points", "faces"):
-            path = existing(case.folder(name) / "polyMesh" / part)
-            if path is not None:
-                raise InputError(f"{path}: the mesh changes in time; only meshes at rest can be read.")
+def _refuse_moving(case: Case, time: str) -> None:
+    for part in ("points", "faces"):
+        path = existing(case.folder(time) / "polyMesh" / part)
+        if path is not None:
+            raise InputError(f"{path}: the mesh changes in time; only meshes at rest can be read.")
 
 
 def read_fields(

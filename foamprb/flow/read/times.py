@@ -37,17 +37,32 @@ def choose_times(source: Path, names: Sequence[str], selection: str | None = Non
         return tuple(names)
     chosen: set[str] = set()
     for word in re.split(r"[,\s]+", selection.strip()):
-        if match := _RANGE.fullmatch(word):
-            low, high = _bound(source, word, match[1], -math.inf), _bound(source, word, match[2], math.inf)
-            found = {name for name in names if low <= float(name) <= high}
+        if _RANGE.fullmatch(word):
+            found = names_in(source, names, word)
             if not found:
                 raise InputError(f"{source}: no time in {word}; the times go from {names[0]} to {names[-1]}.")
-            chosen |= found
+            chosen |= {*found}
         else:
             chosen.add(names[pick_time(source, names, word)])
     result = tuple(name for name in names if name in chosen)
     _require_different(source, result)
     return result
+
+
+def names_in(source: Path, names: Sequence[str], selection: str | None) -> tuple[str, ...]:
+    """Return the times in a range ``a:b``, ``a:`` or ``:b``, perhaps none; all for None.
+
+    Raises
+    ------
+    InputError
+        ``selection`` is not a range.
+    """
+    word = ":" if selection is None else selection.strip()
+    match = _RANGE.fullmatch(word)
+    low, high = (
+        _bound(source, word, match[k] if match else "?", end) for k, end in ((1, -math.inf), (2, math.inf))
+    )
+    return tuple(name for name in names if low <= float(name) <= high)
 
 
 def _require_different(source: Path, names: Sequence[str]) -> None:

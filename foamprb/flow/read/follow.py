@@ -1,0 +1,363 @@
+"""Times of a case whose solver is running: links to those that are written completely.
+
+OpenFOAM makes the folder of a time first and then writes one field after another. A time is therefore
+complete when the folder of the next one exists. The last time of the solver is complete when its files no
+longer change.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import shutil
+import threading
+import time as clock
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from foamprb.dictionary.grammar import read_dictionary
+from foamprb.dictionary.schema import read_entry
+from foamprb.dictionary.tree import Dictionary
+from foamprb.errors import InputError
+from foamprb.flow.read.case import available_times, processor_folders, word_of
+from foamprb.flow.read.decomposed import is_only_decomposed
+from foamprb.flow.read.processors import Processors
+from foamprb.flow.read.times import names_in
+
+__all__ = ["FollowedCase", "remove_links"]
+
+_CONTROL = Path("system/controlDict")
+_QUIET, _CERTAIN = 2.0, 60.0
+"""Seconds without a change after which the last time is complete: if it has the fields of the time before,
+and the files end as OpenFOAM ends them; and in any case."""
+_ENDINGS = b"//", b")"
+"""Ends of OpenFOAM's files: the line of a comment, or the last block of a collated file."""
+_TAIL = 64
+_ROUNDED = 1e-9
+"""Relative error of a time in ``controlDict`` or in the name of a folder."""
+_BETWEEN_LOOKS = 0.1
+_GAP = 1.5
+"""Largest interval between two times in write intervals; a longer one lacks a time."""
+_TEMPORARY = ".unfinished"
+_LINKS = re.compile(r"constant|system|processors?\d+(_\d+-\d+)?|\d[\d.eE+-]*(\.unfinished)?")
+
+
+class FollowedCase:
+    """Folder that is a case with the complete times of another case, whose solver is running.
+
+    It links the mesh, the dictionaries and the times. With ``purgeWrite`` the files of a time are hard links.
+    They remain when the solver removes its own, until :meth:`release`.
+
+    Parameters
+    ----------
+    case
+        The case of the solver.
+    folder
+        The folder of links.
+    selection
+        Range of times ``a:b``, ``a:`` or ``:b``; None for all.
+    region
+        Region of the mesh.
+    decomposed
+        Read the processor folders even if there is a flow beside them.
+
+    Raises
+    ------
+    InputError
+        ``selection`` is not a range; ``system/controlDict`` is missing, or its ``purgeWrite`` is 1.
+    """
+
+    def __init__(
+        self,
+        case: Path,
+        folder: Path,
+        selection: str | None = None,
+        region: str = "",
+        decomposed: bool = False,
+    ) -> None:
+        self.case, self.folder = Path(os.path.abspath(case)), folder  # noqa: PTH100
+        self.times: list[str] = []
+        """Names of the complete times that are selected."""
+        self.ended = False
+        """Whether the solver has ended, and all its times are complete."""
+        self.decomposed = decomposed
+        """Whether the times are in processor folders."""
+        self._selection, self._region = selection, region
+        names_in(case, ("0",), selection)
+        self._control_time = -1
+        self._control = self._read_control()
+        purge = _number(self._control, "purgeWrite", 0.0)
+        if purge == 1.0:
+            raise self._control.entries["purgeWrite"].mistake(
+                "is 1: the solver removes a time as soon as the next is written. Allowed with -follow: 0, "
+                "or at least 2."
+            )
+        self._purged = purge > 0.0
+        self._roots: list[Path] = []
+        self._released = 0
+        self._since = -math.inf
+        self._seen: tuple[object, float] = (), 0.0
+        self._lock, self._closed = threading.Lock(), threading.Event()
+        self._thread = threading.Thread(target=self._watch, name="foamprb-follow", daemon=True)
+        self._error: Exception | None = None
+
+    def begin(self, since: float | None = None) -> None:
+        """Make the folder, and watch the times in a thread if the solver removes them.
+
+        Parameters
+        ----------
+        since
+            Time from which a run continues, s. The hard links of its earlier process stay, and times before
+            it may be missing.
+        """
+        if since is None:
+            remove_links(self.folder)
+        else:
+            self._since = since
+        self.folder.mkdir(parents=True, exist_ok=True)
+        for name in ("constant", "system"):
+            _link(self.case / name, self.folder / name)
+        if self._purged:
+            self._thread.start()
+
+    def close(self) -> None:
+        """End the thread that watches the times."""
+        self._closed.set()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    def look(self) -> None:
+        """Link the times that are complete by now.
+
+        Raises
+        ------
+        InputError
+            A time was removed before it was linked.
+        OSError
+            A link cannot be made.
+        """
+        with self._lock:
+            if self._error is not None:
+                raise self._error
+            self._look()
+
+    def release(self, before: float, first: int) -> None:
+        """Remove the hard links of times before a time, s, except the ``first`` ones."""
+        self._released = max(self._released, first)
+        while (
+            self._purged and self._released < len(self.times) and float(self.times[self._released]) < before
+        ):
+            for root in self._roots:
+                shutil.rmtree(self._place(root) / self.times[self._released], ignore_errors=True)
+            self._released += 1
+
+    def _watch(self) -> None:
+        while not self._closed.wait(_BETWEEN_LOOKS):
+            try:
+                self.look()
+            except Exception as error:
+                # The next look of the run raises it.
+                self._error = error
+                return
+
+    def _look(self) -> None:
+        if not self._roots:
+            self._roots = self._find_roots()
+            if not self._roots:
+                return
+            for root in self._roots if self.decomposed else ():
+                self._place(root).mkdir(exist_ok=True)
+                _link(root / "constant", self._place(root) / "constant")
+            self.times += self._selected(_common_times(map(self._place, self._roots)))
+        written = _common_times(self._roots)
+        selected = self._selected(written)
+        ended = self._has_ended(written)
+        for name in selected:
+            if self.times and float(name) <= float(self.times[-1]):
+                continue
+            if name == written[-1] and not (ended and self._is_settled(name, self.times[-1:])):
+                break
+            if self.times:
+                self._refuse_gap(self.times[-1], name)
+            self._hold(name)
+            self.times.append(name)
+        _, _, end = (self._selection or "").partition(":")
+        past = bool(written) and not names_in(self.case, written[-1:], f":{end}")
+        self.ended = (ended or past) and self.times[-1:] == list(selected[-1:])
+
+    def _find_roots(self) -> list[Path]:
+        """Return the folders that hold the times; none until the solver has written to one of two places."""
+        processors = processor_folders(self.case)
+        if self.decomposed or (processors and is_only_decomposed(self.case, self._region)):
+            self.decomposed = True
+            return Processors(self.case).folders if processors else []
+        return [self.case] if not processors or len(available_times(self.case)) > 1 else []
+
+    def _selected(self, names: Sequence[str]) -> tuple[str, ...]:
+        return names_in(self.case, names, self._selection)
+
+    def _place(self, root: Path) -> Path:
+        """Return the folder of links to the times in a folder."""
+        return self.folder / root.relative_to(self.case)
+
+    def _hold(self, name: str) -> None:
+        """Link a time."""
+        for root in self._roots:
+            target = self._place(root) / name
+            if not self._purged:
+                _link(root / name, target)
+                continue
+            temporary = target.with_name(name + _TEMPORARY)
+            shutil.rmtree(temporary, ignore_errors=True)
+            try:
+                shutil.copytree(root / name, temporary, copy_function=_hard_link)
+            except (FileNotFoundError, shutil.Error) as error:
+                if (root / name).is_dir():
+                    raise
+                raise InputError(self._missed(f"files of {root / name} were removed", "a")) from error
+            temporary.rename(target)
+
+    def _refuse_gap(self, before: str, name: str) -> None:
+        """Raise InputError if the solver has removed a time between two times."""
+        if not self._purged or float(name) <= self._since:
+            return
+        interval, by_index = self._interval()
+        if by_index:
+            first, last = self._index(before), self._index(name)
+            gap = first is not None and last is not None and last - first > _GAP * interval
+        else:
+            gap = float(name) - float(before) > _GAP * interval
+        if gap:
+            raise InputError(self._missed(f"the times between {before} and {name} were removed", name))
+
+    def _missed(self, what: str, name: str) -> str:
+        return (
+            f"{self.case}: {what} before foamprb could link them (purgeWrite). Allowed: a larger purgeWrite; "
+            f"foamprb started before the solver; or to begin at a time that is there, -time {name}:."
+        )
+
+    def _has_ended(self, written: Sequence[str]) -> bool:
+        """Return whether ``controlDict`` lets the solver write no time after the last one."""
+        if not written:
+            return False
+        control, last = self._read_control(), float(written[-1])
+        stop = word_of(control, "stopAt", "endTime")
+        if stop == "noWriteNow":
+            return True
+        if stop in ("writeNow", "nextWrite"):
+            return (self._roots[0] / written[-1]).stat().st_mtime_ns > self._control_time
+        end, interval = _number(control, "endTime", math.inf), self._interval()
+        tolerance = 0.5 * _number(control, "deltaT", 0.0)
+        following = last if interval[1] or interval[0] == math.inf else last + interval[0]
+        return following - tolerance > end * (1.0 + _ROUNDED) or last >= end * (1.0 - _ROUNDED)
+
+    def _interval(self) -> tuple[float, bool]:
+        """Return the write interval, s, infinite if unknown; in steps, with True, if their length varies."""
+        control = self._control
+        interval = _number(control, "writeInterval", math.inf)
+        kind = word_of(control, "writeControl", "timeStep")
+        if kind == "timeStep":
+            if word_of(control, "adjustTimeStep", "no") in ("yes", "on", "true", "y", "t"):
+                return interval, True
+            return interval * _number(control, "deltaT", math.inf), False
+        return (interval if kind in ("runTime", "adjustable", "adjustableRunTime") else math.inf), False
+
+    def _index(self, name: str) -> int | None:
+        """Return the number of steps that the solver had taken at a time; None if it is not known."""
+        for root in (self._roots[0], self._place(self._roots[0])):
+            with suppress(InputError):
+                written = read_dictionary(root / name / "uniform/time", self.case)
+                return int(read_entry(written, "index", int))
+        return 0 if float(name) == 0.0 else None
+
+    def _is_settled(self, name: str, before: Sequence[str]) -> bool:
+        """Return whether the files of a time have not changed for a while, and are whole."""
+        files = [path for root in self._roots for path in sorted((root / name / self._region).iterdir())]
+        state = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in files]
+        if state != self._seen[0]:
+            age = max(0.0, clock.time() - 1e-9 * max((changed for *_, changed in state), default=0.0))
+            self._seen = state, clock.monotonic() - age
+        quiet = clock.monotonic() - self._seen[1]
+        if quiet < _QUIET:
+            return False
+        known = [self._place(self._roots[0]) / time for time in before]
+        # The fields of a time that the solver did not write are others.
+        expected = {
+            path.name
+            for time in known
+            for path in ((time / self._region).iterdir() if (time / "uniform/time").exists() else ())
+        }
+        there = {path.name for path in files}
+        return quiet >= _CERTAIN or (expected <= there and all(map(_is_whole, files)))
+
+    def _read_control(self) -> Dictionary:
+        """Return ``system/controlDict``; the one of before while it is being changed."""
+        path = self.case / _CONTROL
+        try:
+            changed = path.stat().st_mtime_ns
+            if changed != self._control_time:
+                self._control, self._control_time = read_dictionary(path, self.case), changed
+        except (OSError, InputError):
+            if self._control_time < 0:
+                raise InputError(f"{path}: -follow needs this file, which cannot be read.") from None
+        return self._control
+
+
+def _common_times(folders: Iterable[Path]) -> tuple[str, ...]:
+    """Return the times that all folders have, rising."""
+    first, *others = [available_times(folder) if folder.is_dir() else () for folder in folders]
+    return tuple(name for name in first if all(name in names for names in others))
+
+
+def remove_links(folder: Path) -> None:
+    """Remove a folder of links, and nothing that a :class:`FollowedCase` did not make."""
+    for path in _links_in(folder):
+        if path.is_symlink():
+            path.unlink()
+        elif path.name.startswith("processor"):
+            remove_links(path)
+        else:
+            shutil.rmtree(path, ignore_errors=True)
+    with suppress(OSError):
+        folder.rmdir()
+
+
+def _links_in(folder: Path) -> Iterator[Path]:
+    if folder.is_dir() and not folder.is_symlink():
+        yield from (path for path in list(folder.iterdir()) if _LINKS.fullmatch(path.name))
+
+
+def _link(source: Path, target: Path) -> None:
+    """Make a symbolic link in place of an old one."""
+    if target.is_symlink():
+        target.unlink()
+    if not target.exists():
+        target.symlink_to(source, target_is_directory=True)
+
+
+def _hard_link(source: str, target: str) -> None:
+    """Link a file, or copy it where the file system has no links."""
+    try:
+        os.link(source, target)
+    except FileNotFoundError:
+        raise
+    except OSError:
+        shutil.copy2(source, target)
+
+
+def _is_whole(path: Path) -> bool:
+    """Return whether a file ends as OpenFOAM ends it; True for folders and compressed files."""
+    if path.is_dir() or path.suffix == ".gz":
+        return True
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - _TAIL))
+        return file.read().rstrip().endswith(_ENDINGS)
+
+
+def _number(dictionary: Dictionary, key: str, default: float) -> float:
+    """Return the number of an entry; the default if it is missing or no number."""
+    with suppress(InputError):
+        return float(read_entry(dictionary, key, float)) if key in dictionary.entries else default
+    return default

@@ -1,0 +1,205 @@
+"""Complete times of a case whose solver is running: folders written in steps, as OpenFOAM writes them."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from foamprb.errors import InputError
+from foamprb.flow.read import follow
+from foamprb.flow.read.follow import FollowedCase, remove_links
+
+CONTROL = {
+    "stopAt": "endTime", "endTime": "0.4", "deltaT": "0.01", "purgeWrite": "0",
+    "writeControl": "timeStep", "writeInterval": "10",
+}  # fmt: skip
+
+
+@pytest.fixture(autouse=True)
+def _at_once(monkeypatch):
+    monkeypatch.setattr(follow, "_QUIET", 0.0)
+
+
+def control(case, **entries):
+    file = case / "system/controlDict"
+    file.parent.mkdir(exist_ok=True)
+    text = " ".join(f"{key} {value};" for key, value in (CONTROL | entries).items())
+    file.write_text(f"FoamFile {{ version 2.0; format ascii; class dictionary; }} {text}")
+    return file
+
+
+def write(folder: Path, *fields: str, end: str = "// *** //\n") -> None:
+    """A time as the solver writes it: ``uniform/time`` first, then the fields."""
+    (folder / "uniform").mkdir(parents=True, exist_ok=True)
+    index = round(float(folder.name) / 0.01)
+    (folder / "uniform/time").write_text(
+        f"FoamFile {{ version 2.0; format ascii; class dictionary; }} index {index};"
+    )
+    for name in fields:
+        (folder / name).write_text(f"values of {name}\n{end}")
+
+
+@pytest.fixture
+def case(tmp_path):
+    case = tmp_path / "case"
+    (case / "constant/polyMesh").mkdir(parents=True)
+    (case / "constant/polyMesh/faces").touch()
+    control(case)
+    (case / "0").mkdir()
+    (case / "0/U").touch()
+    return case
+
+
+def followed(case, selection=None, since=None, **options):
+    found = FollowedCase(case, case / "flow", selection, **options)
+    found.begin(since)
+    # The tests look themselves.
+    found.close()
+    found.look()
+    return found
+
+
+def test_a_time_is_complete_when_the_next_one_exists(case):
+    flow = followed(case)
+    assert flow.times == []
+    write(case / "0.1", "U", "p")
+    flow.look()
+    assert flow.times == ["0"]
+    (case / "0.2").mkdir()
+    flow.look()
+    assert flow.times == ["0", "0.1"]
+    assert not flow.ended
+    assert sorted(path.name for path in (case / "flow").iterdir()) == ["0", "0.1", "constant", "system"]
+    assert (case / "flow/0.1/p").read_text().startswith("values of p")
+
+
+def test_the_last_time_is_complete_when_its_files_are(case):
+    for time in ("0.1", "0.2", "0.3"):
+        write(case / time, "U", "p")
+    flow = followed(case)
+    write(case / "0.4", "U", end="1.2")
+    flow.look()
+    assert flow.times == ["0", "0.1", "0.2", "0.3"]
+    write(case / "0.4", "U")
+    flow.look()
+    # The time before has a pressure too.
+    assert (flow.times[-1], flow.ended) == ("0.3", False)
+    write(case / "0.4", "U", "p")
+    flow.look()
+    flow.look()
+    assert (flow.times[-1], flow.ended) == ("0.4", True)
+
+
+def test_a_range_ends_with_a_time_beyond_it(case):
+    write(case / "0.1", "U")
+    write(case / "0.2", "U")
+    flow = followed(case, "0.1:0.2")
+    assert (flow.times, flow.ended) == (["0.1"], False)
+    write(case / "0.3", "U")
+    flow.look()
+    assert (flow.times, flow.ended) == (["0.1", "0.2"], True)
+    assert followed(case, "0.12:0.18").ended
+
+
+@pytest.mark.parametrize(
+    ("entries", "ended"),
+    [
+        ({}, False),
+        ({"endTime": "0.2"}, True),
+        ({"endTime": "0.25"}, True),
+        ({"endTime": "0.3"}, False),
+        ({"endTime": "0.29", "adjustTimeStep": "yes"}, False),
+        ({"writeControl": "adjustableRunTime", "writeInterval": "0.1", "endTime": "0.29"}, True),
+        ({"writeControl": "clockTime", "endTime": "0.29"}, False),
+        ({"stopAt": "noWriteNow"}, True),
+        ({"stopAt": "writeNow"}, False),
+    ],
+)
+def test_the_end_of_the_solver_follows_from_its_dictionary(entries, ended, case):
+    write(case / "0.1", "U")
+    write(case / "0.2", "U")
+    control(case, **entries)
+    flow = followed(case)
+    flow.look()
+    assert flow.ended is ended
+    assert flow.times[-1] == ("0.2" if ended else "0.1")
+
+
+def test_a_solver_that_is_stopped_ends_with_the_time_it_writes_then(case):
+    write(case / "0.1", "U")
+    control(case, stopAt="writeNow")
+    flow = followed(case)
+    write(case / "0.13", "U")
+    flow.look()
+    flow.look()
+    assert (flow.times, flow.ended) == (["0", "0.1", "0.13"], True)
+
+
+def test_times_that_the_solver_removes_are_kept_until_they_are_released(case):
+    control(case, purgeWrite="2")
+    flow = followed(case)
+    for time in ("0.1", "0.2", "0.3"):
+        write(case / time, "U")
+        flow.look()
+    shutil.rmtree(case / "0.1")
+    assert flow.times == ["0", "0.1", "0.2"]
+    assert (case / "flow/0.1/U").read_text().startswith("values of U")
+    assert (case / "flow/0.2/U").samefile(case / "0.2/U")
+    flow.release(0.2, 1)
+    assert sorted(path.name for path in (case / "flow").iterdir()) == ["0", "0.2", "constant", "system"]
+    # A run that continues has them, and looks for gaps after its checkpoint only.
+    shutil.rmtree(case / "0.2")
+    write(case / "0.4", "U")
+    assert followed(case, since=0.25).times == ["0", "0.2", "0.3", "0.4"]
+
+
+def test_a_time_that_was_removed_too_early_is_an_error(case):
+    control(case, purgeWrite="2", endTime="1")
+    flow = followed(case)
+    for time in ("0.1", "0.3", "0.4"):
+        write(case / time, "U")
+    with pytest.raises(InputError, match=r"times between 0\.1 and 0\.3 were removed .* -time 0\.3:\."):
+        flow.look()
+    # Written at even numbers of steps, of any length.
+    control(case, purgeWrite="2", endTime="1", adjustTimeStep="yes", writeInterval="20")
+    assert followed(case, "0.1:").times == ["0.1", "0.3"]
+
+
+def test_times_of_processors_are_those_of_all(case):
+    for k in (0, 1):
+        (case / f"processor{k}/constant").mkdir(parents=True)
+        write(case / f"processor{k}/0", "U")
+        write(case / f"processor{k}/0.1", "U")
+    write(case / "processor0/0.2", "U")
+    flow = followed(case)
+    assert (flow.decomposed, flow.times) == (True, ["0"])
+    write(case / "processor1/0.2", "U")
+    flow.look()
+    assert flow.times == ["0", "0.1"]
+    assert (case / "flow/processor1/0.1/U").exists()
+    assert (case / "flow/processor1/constant").samefile(case / "processor1/constant")
+
+
+def test_nothing_but_links_is_removed(case):
+    followed(case)
+    (case / "flow/notes").touch()
+    write(case / "0.1", "U")
+    followed(case)
+    remove_links(case / "flow")
+    assert [path.name for path in (case / "flow").iterdir()] == ["notes"]
+    assert (case / "0/U").exists()
+    assert (case / "constant/polyMesh/faces").exists()
+
+
+def test_what_cannot_be_followed_is_refused(case):
+    control(case, purgeWrite="1")
+    with pytest.raises(InputError, match=r"purgeWrite is 1: .* Allowed with -follow: 0, or at least 2"):
+        followed(case)
+    control(case)
+    with pytest.raises(InputError, match="'latestTime' is no range of times"):
+        followed(case, "latestTime")
+    (case / "system/controlDict").unlink()
+    with pytest.raises(InputError, match="controlDict: -follow needs this file"):
+        followed(case)
