@@ -122,6 +122,7 @@ def write_run(case: Path, moved: Motion, mesh: bool = True, fates: bool = False)
                 "Ca": np.linspace(0.1, 1.0, n),
                 "t0": np.zeros(n),
                 "t1": np.full(n, moved.times[-1]),
+                **{f"{'xyz'[c]}1": moved.x[-1, :, c] * (c < 2) for c in range(3)},
                 "fate": names,
                 "patch": ["", "floor", "lid", *[""] * n][:n],
             },

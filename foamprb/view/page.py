@@ -6,6 +6,7 @@ import base64
 import hashlib
 import html
 import json
+import math
 import re
 from collections.abc import Iterator, Sequence
 from functools import cache
@@ -21,10 +22,10 @@ from foamprb.view.colours import DARK, LIGHT, MAPS, colour_map
 from foamprb.view.encode import Column, Grid
 from foamprb.view.flowfield import QUANTITIES, STREAM_OPACITY, FlowField
 from foamprb.view.geometry import Surface
+from foamprb.view.painting import PER_WIDTH, REACH, Painting
 from foamprb.view.scene import (
     INSETS,
     MARGIN,
-    MOST_DEPOSITS,
     MOST_TRAILS,
     SCALE_BAR,
     TALL,
@@ -73,6 +74,7 @@ class Page:
         shown = [geometry.points] if geometry is not None else []
         shown += [bodies.x[bodies.present]]
         shown += [scene.paths.points] if scene.paths is not None else []
+        shown += [scene.painting.places] if scene.painting is not None else []
         low, high = encode.bounds(*shown)
         # The coordinates of the page: the origin is the middle of the box, the unit its longest side.
         self._middle, self._size = 0.5 * (low + high), float((high - low).max()) or 1.0
@@ -140,7 +142,6 @@ class Page:
             "times": _rounded(scene.bodies.times),
             "home": self._camera(scene.camera),
             "enlargement": scene.enlargement,
-            "mostDeposits": MOST_DEPOSITS,
             "trail": scene.trail,
             "mostTrails": MOST_TRAILS,
             "colour": list(scene.colour),
@@ -194,6 +195,7 @@ class Page:
             "edges": self._add(encode.pack_points(edges, grid)),
             "flow": None if scene.flowfield is None else self._flow(scene.flowfield, grid),
             "paths": self._paths(grid),
+            "painting": None if scene.painting is None else self._painting(scene.painting, grid),
         }
 
     def _surface(self, surface: Surface, grid: Grid) -> dict[str, Any]:
@@ -229,6 +231,20 @@ class Page:
             "high": self._inside(volume.high),
             "values": values,
             "plane": None if plane is None else [self._inside(plane[0]), _rounded(plane[1])],
+        }
+
+    def _painting(self, painting: Painting, grid: Grid) -> dict[str, Any]:
+        unit, factor = painting.unit
+        return {
+            "places": self._add(encode.pack_points(painting.places, grid)),
+            "times": self._add(encode.pack_values(painting.times)),
+            "width": painting.width / self._size,
+            "cell": painting.width / PER_WIDTH / self._size,
+            "reach": REACH,
+            "unit": unit,
+            "most": factor * painting.most,
+            # Density in the middle of the kernel.
+            "peak": factor * painting.each / (2.0 * math.pi * painting.width**2),
         }
 
     def _paths(self, grid: Grid) -> dict[str, Any] | None:

@@ -7,7 +7,7 @@ import math
 import os
 import sys
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,6 +28,7 @@ from foamprb.view.colours import (
     colour_map,
     colour_of_name,
     number,
+    ramp,
     readable,
     rgb,
     round_down,
@@ -37,9 +38,9 @@ from foamprb.view.colours import (
 from foamprb.view.flowfield import PLANE, QUANTITIES, STREAM_OPACITY, FlowField
 from foamprb.view.geometry import FLAT_TYPES, Geometry
 from foamprb.view.libraries import load
+from foamprb.view.painting import Painting
 from foamprb.view.scene import (
     INSETS,
-    MOST_DEPOSITS,
     MOST_TRAILS,
     SCALE_BAR,
     VIEW_ANGLE,
@@ -63,6 +64,8 @@ _GLYPH, _REACH, _LETTER, _AXES, _ARROWS = 56.0, 14.0, 11.0, 64.0, 73.0
 """Width of axes or an arrow, length and letter of an axis, distances of their middles from below; pixels."""
 _UNKNOWN = 153
 _TRAIL_OPACITY = 0.85
+_MOST_PAINTED = 200_000
+"""Triangles of a painted wall, about."""
 _GRAPHICS, _POINT = 0.7e9, 205.0
 """Address space of the graphics library, and of each point of a body, bytes."""
 _LATER: dict[str, Any] = {"render": False, "reset_camera": False}
@@ -88,6 +91,8 @@ class Drawing:
     style: Style
     scale: float
     """Pixels of the picture per pixel of the page."""
+    painted: list[Any] = field(default_factory=list)
+    """Walls on which deposits are painted."""
 
     def show(self, frame: int) -> None:
         """Draw the bodies and the texts of a time."""
@@ -103,7 +108,7 @@ class Drawing:
             self._add("bodies", draw(sphere_for(len(shown)), place, F, size, colours))
             if len(shown) <= _MOST_MARKED:
                 self._add("mark", draw(mark(), place, F, 1.002 * size, marked(colours)))
-        self._mark_deposits(frame)
+        self._show_deposits(frame)
         if self.texts:
             times = bodies.times
             self._write("clock", f"t = {written(times[frame], 's', times[-1])}", 17, "right", 30, bold=True)
@@ -144,6 +149,10 @@ class Drawing:
                 scale.beyond,
                 scale.extremes,
             )
+        if (painting := scene.painting) is not None:
+            unit, factor = painting.unit
+            colours = ramp(self.style.glass, self.style.deposit)
+            left = self._bar("paint", "deposits", unit, (0.0, factor * painting.most), colours, left)
         name, part = scene.colour
         if name in scene.bodies.fields:
             field = scene.bodies.fields[name]
@@ -314,14 +323,20 @@ class Drawing:
         self.plotter.add_actor(actor, name=name, **_LATER)
         return actor
 
-    def _mark_deposits(self, frame: int) -> None:
-        """Mark the positions of stuck bodies, in front of everything."""
+    def _show_deposits(self, frame: int) -> None:
+        """Paint the deposits on the walls or, if there are few, mark them in front of everything."""
+        if (painting := self.scene.painting) is not None:
+            for wall in self.painted:
+                share = painting.density(wall.points, self.scene.bodies.times[frame]) / painting.most
+                paint = ramp(self.style.glass, self.style.deposit)
+                wall.point_data["colour"] = paint[np.clip(255.0 * share, 0, 255).astype(np.uint8)]
+            return
         bodies = self.scene.bodies
         stuck = [k for k, word in enumerate(bodies.status.meanings) if word == "stuck"]
         codes = bodies.status.codes
         rows = np.flatnonzero(bodies.present[frame] & np.isin(codes[min(frame, len(codes) - 1)], stuck))
         self.plotter.remove_actor("deposits", render=False)
-        if not 0 < len(rows) <= MOST_DEPOSITS:
+        if len(rows) == 0:
             return
         actor = self._add_flat("deposits", pyvista.PolyData(bodies.x[frame, rows]))
         world = vtkCoordinate()
@@ -456,7 +471,7 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool, off
     scale = size[1] / PAGE_HEIGHT
     drawing = Drawing(plotter, scene, texts, style, scale)
     if scene.geometry is not None:
-        draw_geometry(plotter, scene.geometry, style)
+        drawing.painted = draw_geometry(plotter, scene.geometry, style, scene.painting)
     if scene.flowfield is not None:
         draw_flow(plotter, scene.flowfield, style)
     if texts:
@@ -499,8 +514,16 @@ def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: lis
     plotter.camera_set = True
 
 
-def draw_geometry(plotter: Any, geometry: Geometry, style: Style) -> None:
-    """Draw the far side of walls, the near side and other patches almost transparent, and the edges."""
+def draw_geometry(
+    plotter: Any, geometry: Geometry, style: Style, painting: Painting | None = None
+) -> list[Any]:
+    """Draw the far side of walls, the near side and other patches almost transparent, and the edges.
+
+    Returns
+    -------
+    The walls on which deposits are painted; their colours are an array of their points.
+    """
+    painted = []
     for surface in geometry.surfaces:
         if surface.type in FLAT_TYPES:
             continue
@@ -508,13 +531,56 @@ def draw_geometry(plotter: Any, geometry: Geometry, style: Style) -> None:
         more = {"smooth_shading": True} | _LATER
         if surface.type in WALLS:
             more["color"] = style.glass
-            plotter.add_mesh(mesh, culling="front", ambient=0.62, diffuse=0.4, specular=0.0, **more)
             plotter.add_mesh(mesh, culling="back", opacity=0.1, ambient=0.6, diffuse=0.4, **more)
+            if painting is not None:
+                normals = mesh.compute_normals(cell_normals=False, consistent_normals=False)["Normals"]
+                points, triangles = refined(np.hstack([surface.points, normals]), surface.triangles, painting)
+                mesh = pyvista.PolyData.from_regular_faces(points[:, :3], triangles)
+                mesh.point_data["Normals"] = points[:, 3:]
+                mesh.point_data.active_normals_name = "Normals"
+                mesh.point_data["colour"] = np.zeros((len(points), 3), dtype=np.uint8)
+                painted.append(mesh)
+                more = {"scalars": "colour", "rgb": True, "show_scalar_bar": False} | _LATER
+            plotter.add_mesh(mesh, culling="front", ambient=0.8, diffuse=0.22, specular=0.0, **more)
         else:
             plotter.add_mesh(mesh, color=style.accent, opacity=0.07, ambient=1.0, diffuse=0.0, **more)
     if len(geometry.edges):
         lines = pyvista.line_segments_from_points(geometry.edges.reshape(-1, 3))
         plotter.add_mesh(lines, color=style.edge, line_width=1.0, lighting=False, **_LATER)
+    return painted
+
+
+def refined(points: Floats, triangles: Ints, painting: Painting) -> tuple[Floats, Ints]:
+    """Divide triangles until their sides are about as long as the kernel of a painting is wide.
+
+    Parameters
+    ----------
+    points, triangles
+        Places, m, and further values, (v, 3 + k), which are interpolated; and (t, 3).
+
+    Returns
+    -------
+    Points (w, 3 + k) and triangles (u, 3).
+    """
+    corners = points[triangles]
+    sides = np.linalg.norm(corners[:, :, :3] - np.roll(corners[:, :, :3], 1, axis=1), axis=2).max(axis=1)
+    wanted = np.maximum(1.0, sides / painting.width)
+    # All sides longer for a mesh that would become too fine.
+    wanted *= min(1.0, math.sqrt(_MOST_PAINTED / float((wanted**2).sum())))
+    number = np.maximum(1, np.rint(wanted)).astype(np.int64)
+    all_points, all_triangles, first = [], [], 0
+    for n in np.unique(number).tolist():
+        rows = [(i, j) for i in range(n + 1) for j in range(n + 1 - i)]
+        at = {row: k for k, row in enumerate(rows)}
+        weights = np.array([(n - i - j, i, j) for i, j in rows]) / n
+        upright = [(at[i, j], at[i + 1, j], at[i, j + 1]) for i, j in rows if i + j < n]
+        turned = [(at[i + 1, j], at[i + 1, j + 1], at[i, j + 1]) for i, j in rows if i + j < n - 1]
+        own = np.einsum("sv,tvc->tsc", weights, corners[number == n])
+        offsets = first + len(rows) * np.arange(len(own))
+        all_points.append(own.reshape(-1, points.shape[1]))
+        all_triangles.append((np.array(upright + turned) + offsets[:, None, None]).reshape(-1, 3))
+        first += len(all_points[-1])
+    return np.concatenate(all_points), np.concatenate(all_triangles)
 
 
 def draw_flow(plotter: Any, field: FlowField, style: Style) -> None:

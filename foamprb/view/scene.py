@@ -16,6 +16,7 @@ from foamprb.view.bodies import MAGNITUDE, Bodies, Codes
 from foamprb.view.colours import MAPS, round_down, round_limits
 from foamprb.view.flowfield import FlowField
 from foamprb.view.geometry import Geometry, Surface
+from foamprb.view.painting import Painting
 
 Floats = NDArray[np.float64]
 
@@ -45,8 +46,6 @@ TRAIL = 0.3
 """Length of the fading trail of a body with the median speed, as a share of the visible length."""
 MOST_TRAILS = 5000
 """Largest number of bodies that have trails by default."""
-MOST_DEPOSITS = 3000
-"""Largest number of deposits that are marked by default."""
 _SLACK = 1e-5
 """Distance beyond the limits, as a share of their range, that counts as inside."""
 _THIN = 0.35
@@ -121,6 +120,8 @@ class Scene:
         Unit vector; zero without gravity.
     groups
         Dimensionless groups and the fluid, as text.
+    painting
+        Density of deposits on the walls, if there are many.
     """
 
     title: str
@@ -139,6 +140,7 @@ class Scene:
     flow: Floats = field(default_factory=lambda: np.zeros(3))
     gravity: Floats = field(default_factory=lambda: np.zeros(3))
     groups: str = ""
+    painting: Painting | None = None
 
     @cached_property
     def limits(self) -> tuple[float, float]:

@@ -30,6 +30,7 @@ from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.flowfield import FlowField, field_of
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.page import Page
+from foamprb.view.painting import Painting, painting_of
 from foamprb.view.paraview import write_state
 from foamprb.view.picture import film, has_display, picture, require_graphics, window
 from foamprb.view.results import Run, Table, open_run
@@ -185,6 +186,7 @@ class _Background:
     flow: Floats
     gravity: Floats
     groups: str
+    painting: Painting | None
 
     def scene(self, bodies: Bodies) -> Scene:
         """Return the scene of some bodies."""
@@ -214,6 +216,7 @@ class _Background:
             flow=self.flow,
             gravity=g / (float(np.linalg.norm(g)) or 1.0),
             groups=self.groups,
+            painting=self.painting,
         )
 
 
@@ -307,7 +310,17 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
     flow = record.get("flow")
     direction = main_direction(flow.get("direction") if isinstance(flow, dict) else None)
     return _Background(
-        request, run, colour, fates, geometry, field, run.paths(), direction, g, groups_of(record)
+        request,
+        run,
+        colour,
+        fates,
+        geometry,
+        field,
+        run.paths(),
+        direction,
+        g,
+        groups_of(record),
+        painting_of(fates, geometry),
     )
 
 
@@ -322,8 +335,8 @@ def groups_of(record: dict[str, Any]) -> str:
             )
             parts += [f"{label} {' to '.join(ends)}"] if ends else []
         fluid = record.get("fluid", {})
-        parts += [f"μ {_short(1e3 * fluid['mu'])} mPa s"] if fluid.get("mu") else []
-        parts += [f"ρ {_short(fluid['rho'])} kg/m³"] if fluid.get("rho") else []
+        parts += [f"fluid {_short(1e3 * fluid['mu'])} mPa s"] if fluid.get("mu") else []
+        parts += [f"{_short(fluid['rho'])} kg/m³"] if fluid.get("rho") else []
     return ", ".join(parts)
 
 

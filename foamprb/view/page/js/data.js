@@ -129,20 +129,20 @@ export async function load() {
     for (const spec of scene.flow.values) values.push({ ...spec, whole: await column(spec, Uint8Array) });
     flow = { ...scene.flow, values, lines: { ...lines, points: await places(lines.points, frame), start: await column(lines.start) } };
   }
+  const linear = async (spec) => Float64Array.from(await column(spec), (whole) => spec.low[0] + spec.step[0] * whole);
+  const painting = scene.painting && {
+    ...scene.painting, places: await places(scene.painting.places, frame), times: await linear(scene.painting.times),
+  };
   let paths = null;
   if (scene.paths) {
     paths = {
       bodies: await column(scene.paths.bodies), start: await column(scene.paths.start),
-      points: await places(scene.paths.points, frame), times: await column(scene.paths.times, Float32Array),
+      points: await places(scene.paths.points, frame), times: await linear(scene.paths.times),
     };
-    const { low, step } = scene.paths.times;
-    for (let i = 0; i < paths.times.length; i++) paths.times[i] = low[0] + step[0] * paths.times[i];
   }
-  const radius = new Float32Array(n);
-  const packed = await column(scene.bodies.radius);
-  for (let i = 0; i < n; i++) radius[i] = (scene.bodies.radius.low[0] + scene.bodies.radius.step[0] * packed[i]) / frame.size;
+  const radius = Float32Array.from(await linear(scene.bodies.radius), (r) => r / frame.size);
   return {
-    scene, n, m, times: scene.times, codes, fields, surfaces, flow, paths, radius,
+    scene, n, m, times: scene.times, codes, fields, surfaces, flow, painting, paths, radius,
     edges: await places(scene.edges, frame),
     ids: await column(scene.bodies.ids, Float64Array),
     x: await places(scene.bodies.places, frame),

@@ -5,11 +5,12 @@ import { Bodies } from "./bodies.js";
 import { Eye } from "./camera.js";
 import { drawChart } from "./chart.js";
 import { compassHeight, compassWidth, paintCompass, roundLength } from "./compass.js";
-import { bytesOf, colourOfName, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
+import { bytesOf, colourOfName, number, pretty, ramp, readable, table, tableOfNames, written } from "./colours.js";
 import { load } from "./data.js";
 import { FlowPlane, streamlines } from "./flow.js";
 import { GALLERY, Gallery } from "./gallery.js";
 import { paintLegends, showLegend } from "./legend.js";
+import { Painting } from "./painting.js";
 import { Link } from "./link.js";
 import { CURVES, TimePlot, curveKey, quantiles, through } from "./plot.js";
 import { Deposits, Walls } from "./surroundings.js";
@@ -42,13 +43,13 @@ const keys = [
   ["H", "this list", () => $("about").showModal()],
 ];
 
-let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, plot, gallery, link;
+let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, painting, plot, gallery, link;
 const scene = new Scene();
 const state = {
   t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
   enlargement: 1, fates: new Set(), injectors: new Set(), gone: false, curve: null, count: 0, kept: [], boxed: null,
 };
-let legends = [], dirty = false, stale = false, textures = {};
+let legends = {}, dirty = false, stale = false, textures = {};
 
 async function start() {
   if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it needs WebGL 2, which this browser or computer does not provide");
@@ -62,7 +63,8 @@ async function start() {
   renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: true, preserveDrawingBuffer: false });
   renderer.outputColorSpace = LinearSRGBColorSpace;
   bodies = new Bodies(data);
-  walls = new Walls(data);
+  painting = data.painting && new Painting(data);
+  walls = new Walls(data, painting);
   deposits = new Deposits();
   trails = new Trails(data, 3);
   ownTrail = new Trails(data, 4);
@@ -241,19 +243,24 @@ function caption() {
 }
 
 function showDeposits() {
-  const wanted = $("deposits").value;
-  const list = [];
-  if (wanted !== "none") {
-    const { n, m, x } = data, { status, fate } = data.codes;
-    const t = wanted === "all" ? m - 1 : state.t;
+  const list = [], { n, x } = data, { status } = data.codes, { t } = state;
+  if ($("deposits").value === "marked") {
     for (let i = 0; i < n; i++) {
-      if (status.meaning(t, i) !== "stuck" || !data.present(t, i) || state.fates.has(fate.code(0, i))) continue;
-      if (wanted === "now" && !bodies.shown[i]) continue;
       const p = 3 * (n * t + i);
-      list.push(x[p], x[p + 1], x[p + 2]);
+      if (bodies.shown[i] && status.meaning(t, i) === "stuck") list.push(x[p], x[p + 1], x[p + 2]);
     }
   }
   deposits.draw(list);
+  if ($("deposits").value === "painted") painting.show(data.times[t]);
+}
+
+function setDeposits() {
+  const painted = $("deposits").value === "painted";
+  if (painted) legends.paint = { label: "Deposits", unit: data.painting.unit, low: 0, high: data.painting.most, table: ramp(variable("--glass"), variable("--deposit")) };
+  else delete legends.paint;
+  paint();
+  showLegends();
+  showDeposits();
 }
 
 // Fading trails of the shown bodies and of those that have just left, or whole paths up to now. The selected body
@@ -300,7 +307,7 @@ function drawPlot() {
   const field = data.fields[state.name], codes = data.codes[state.name], every = Array.from({ length: data.n }, (_, i) => i);
   const list = state.chosen >= 0 && !state.kept.includes(state.chosen) ? [...state.kept, state.chosen] : state.kept;
   const curves = field ? list.map((i, k) => ({ values: series(field, state.part, i), colour: CURVES[k], text: `${data.ids[i]}` })) : [];
-  const numbers = field ? [] : legends[0].names.map(([code, text]) => ({ code, text, values: data.times.map(() => 0) }));
+  const numbers = field ? [] : legends.colour.names.map(([code, text]) => ({ code, text, values: data.times.map(() => 0) }));
   for (const { code, values } of numbers) {
     values.forEach((_, t) => { for (let i = 0; i < data.n; i++) if (codes.code(t, i) === code && counts(t, i) && passes(i, t)) values[t]++; });
   }
@@ -419,8 +426,8 @@ function fill(spec) {
   $("injectors").hidden = !injector || injector.meanings.length < 2;
   $("deposits-row").hidden = !fate.meanings.some((word) => word.startsWith("stuck"));
   $("trails").value = data.m > 1 && spec.trail > 0 && data.n <= spec.mostTrails ? "fading" : "none";
-  if (data.n > spec.mostDeposits) $("deposits").value = "none";
-  else $("deposits").value = "now";
+  if (painting) option($("deposits"), "painted", "painted on the walls");
+  $("deposits").value = painting ? "painted" : "marked";
   $("walls").hidden = data.surfaces.length === 0;
   walls.patches.forEach((patch, k) => {
     const label = check(`${patch.name}`, patch.visible, (on) => { patch.visible = on; paint(); });
@@ -477,7 +484,7 @@ function setColour(name, part, range = null) {
     setTexture({ bytes: tableOfNames(codes.meanings.length), texture: null }, true);
     const present = new Uint8Array(256);
     for (const code of codes.whole) present[code] = 1;
-    legends[0] = { label: capital(codes.label), names: codes.meanings.map((word, k) => [k, word]).filter(([k, word]) => present[k] && word) };
+    legends.colour = { label: capital(codes.label), names: codes.meanings.map((word, k) => [k, word]).filter(([k, word]) => present[k] && word) };
     showLegends();
   } else {
     setRange(...(range ?? data.fields[name].ranges[part].usual), false);
@@ -496,7 +503,7 @@ function setRange(low, high, redraw = true) {
   const unit = field.unit ? ` (${pretty(field.unit)})` : "";
   $("range-word").textContent = `Range${unit}`;
   const [least, most] = field.ranges[state.part].extremes;
-  legends[0] = { label: capital(nameOf(field, state.part)), unit: field.unit, low, high, least, most, table: textures[state.map]?.bytes };
+  legends.colour = { label: capital(nameOf(field, state.part)), unit: field.unit, low, high, least, most, table: textures[state.map]?.bytes };
   restale();
   if (redraw) { showLegends(); show(state.t); }
 }
@@ -509,7 +516,7 @@ function setMap(name) {
   $("map").value = name;
   setTexture(textures[name], false);
   restale();
-  if (legends[0] && !legends[0].names) legends[0].table = textures[name].bytes;
+  if (legends.colour && !legends.colour.names) legends.colour.table = textures[name].bytes;
   showLegends();
 }
 
@@ -606,15 +613,17 @@ function setSlice() {
   const k = $("slice").value, field = data.flow.values[k], map = textures[dark() ? "dark" : "light"];
   plane.show(k, textureOf(map, false));
   $("plane-place").hidden = !field;
-  if (field) legends[1] = { label: capital(field.label), unit: field.unit, low: field.range[0], high: field.range[1], least: field.extremes[0], most: field.extremes[1], table: map.bytes };
-  else legends.length = 1;
+  if (field) legends.plane = { label: capital(field.label), unit: field.unit, low: field.range[0], high: field.range[1], least: field.extremes[0], most: field.extremes[1], table: map.bytes };
+  else delete legends.plane;
   showLegends();
   dirty = true;
 }
 
+const legendsShown = () => [legends.plane, legends.paint, legends.colour].filter((spec) => spec?.names || spec?.table);
+
 function showLegends() {
   $("legends").replaceChildren();
-  for (const spec of [...legends].reverse()) if (spec && (spec.names || spec.table)) showLegend($("legends"), spec);
+  for (const spec of legendsShown()) showLegend($("legends"), spec);
   if (eye.width) resize();
 }
 
@@ -636,7 +645,7 @@ function setTheme(wanted) {
   $("theme").value = wanted;
   const system = matchMedia("(prefers-color-scheme: dark)").matches;
   document.documentElement.dataset.theme = wanted === "auto" ? (system ? "dark" : "light") : wanted;
-  paint();
+  setDeposits();
   setSlice();
   restale();
 }
@@ -650,7 +659,7 @@ function paint() {
   const paper = rgb("--paper");
   // Colours are given in the colour space of the screen; no conversion.
   renderer.setClearColor(new Color().setRGB(...paper), 1);
-  walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent") }, $("opacity").value, dark());
+  walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent"), deposit: rgb("--deposit") }, $("opacity").value, dark(), $("deposits").value === "painted");
   bodies.material.uniforms.darkness.value = dark() ? 1 : 0;
   bodies.material.uniforms.accent.value.set(...rgb("--accent"));
   if (streams) {
@@ -853,7 +862,7 @@ async function paintPicture() {
     write(label.textContent, ((box.left + box.right) / 2) * s, (box.bottom - 5) * s, `${12 * s}px ${style.font}`, style.soft, "center");
   }
   context.textAlign = "left";
-  paintLegends(context, legends, style, s, height * s);
+  paintLegends(context, legendsShown().reverse(), style, s, height * s);
   const corner = boxOf($("compass"));
   paintCompass(context, corner.left * s, corner.top * s, eye.axes(), metresOfPixel(), data.scene, style, s);
   return page;
@@ -926,7 +935,7 @@ function listen() {
   });
   on("mark", "change", () => { bodies.material.uniforms.mark.value = $("mark").checked ? 1 : 0; dirty = true; });
   on("trails", "change", showTrails);
-  on("deposits", "change", () => { showDeposits(); dirty = true; });
+  on("deposits", "change", setDeposits);
   on("gone", "change", () => { state.gone = $("gone").checked; show(state.t); });
   for (const id of ["filter", "filter-low", "filter-high"]) on(id, "change", setFilter);
   const chooseWanted = () => {
@@ -1004,6 +1013,7 @@ window.foamprb = {
   ready, state, show, choose, bodyAt, setColour, setEnlargement, paintPicture, draw, placeOf,
   get data() { return data; },
   get eye() { return eye; },
+  get painting() { return painting; },
   get plot() { return plot; },
   get bodies() { return bodies; },
   get renderer() { return renderer; },

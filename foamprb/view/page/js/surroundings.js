@@ -10,8 +10,9 @@ const SURFACE_VERTEX = `
 precision highp float;
 in vec3 position, normal;
 uniform mat4 modelViewMatrix, projectionMatrix;
-out vec3 across, place;
+out vec3 across, place, own;
 void main() {
+  own = position;
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
   across = mat3(modelViewMatrix) * normal;
   place = seen.xyz;
@@ -20,9 +21,11 @@ void main() {
 
 const SURFACE_FRAGMENT = `
 precision highp float;
-in vec3 across, place;
-uniform vec3 base, deep;
-uniform float opacity;
+in vec3 across, place, own;
+precision highp sampler3D;
+uniform sampler3D paint;
+uniform vec3 base, deep, deposit, paintLow, paintNumber;
+uniform float opacity, paintCell, isPainted;
 out vec4 colour;
 ${SHADE}
 void main() {
@@ -32,8 +35,10 @@ void main() {
   float facing = abs(dot(normal, towards));
   float lit = 0.5 + 0.5 * dot(normal, normalize(vec3(-0.35, 0.75, 0.55)));
   vec3 seen = mix(deep, base, smoothstep(0.1, 0.95, lit));
+  float share = isPainted > 0.5 ? texture(paint, (0.5 + (own - paintLow) / paintCell) / paintNumber).r : 0.0;
+  seen = mix(seen, deposit * mix(0.75, 1.0, lit), share);
   // Glass is denser at grazing angles.
-  colour = vec4(seen, opacity >= 1.0 ? 1.0 : opacity * (1.0 + 2.5 * pow(1.0 - facing, 3.0)));
+  colour = vec4(seen, opacity >= 1.0 ? 1.0 : opacity * (1.0 + 2.5 * pow(1.0 - facing, 3.0)) + 0.3 * share);
 }`;
 
 const LINE_VERTEX = `
@@ -89,7 +94,7 @@ export const isWall = (patch) => patch.type === "wall" || patch.type === "mapped
 export const isFlat = (patch) => patch.type === "empty" || patch.type === "wedge";
 
 export class Walls {
-  constructor(data) {
+  constructor(data, painting) {
     this.group = new Group();
     this.patches = data.surfaces.map((surface) => {
       const geometry = new BufferGeometry();
@@ -98,7 +103,8 @@ export class Walls {
       geometry.computeVertexNormals();
       const side = (more, order) => {
         const mesh = new Mesh(geometry, material(SURFACE_VERTEX, SURFACE_FRAGMENT,
-          { base: new Vector3(), deep: new Vector3(), opacity: 1, darkness: 0 }, more));
+          { base: new Vector3(), deep: new Vector3(), deposit: new Vector3(), opacity: 1, darkness: 0, isPainted: 0 }, more));
+        Object.assign(mesh.material.uniforms, painting?.uniforms ?? { paint: { value: null }, paintLow: { value: new Vector3() }, paintCell: { value: 1 }, paintNumber: { value: new Vector3(1, 1, 1) } });
         mesh.renderOrder = order;
         this.group.add(mesh);
         return mesh;
@@ -116,14 +122,16 @@ export class Walls {
     this.group.add(this.edges);
   }
 
-  paint(palette, style, dark) {
+  paint(palette, style, dark, painted) {
     for (const patch of this.patches) {
       const wall = isWall(patch);
       patch.far.visible = patch.visible && style === "glass" && wall;
       patch.veil.visible = patch.visible && style !== "none" && !patch.far.visible;
       patch.near.visible = patch.visible && style !== "none";
       for (const mesh of [patch.far, patch.veil, patch.near]) {
-        const { base, deep, opacity } = mesh.material.uniforms;
+        const { base, deep, deposit, opacity, isPainted } = mesh.material.uniforms;
+        isPainted.value = wall && painted ? 1 : 0;
+        deposit.value.set(...palette.deposit);
         base.value.set(...(wall ? palette.glass : palette.accent));
         deep.value.set(...(wall ? palette.glassDeep : palette.accent));
         opacity.value = mesh === patch.far ? 1 : wall ? (style === "glass" ? 0.1 : 0.06) : 0.05;
