@@ -9,6 +9,7 @@ import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -126,7 +127,7 @@ class Job:
 
 
 def prepare(
-    case: Path | str,
+    case: PathLike[str] | str,
     time: float | str | None = None,
     dictionary: Path | None = None,
     threads: int | None = None,

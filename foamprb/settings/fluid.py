@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from contextlib import suppress
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 from typing import Annotated
 
@@ -208,7 +209,7 @@ def _find_density(
 
 
 def read_medium(
-    case: Path | str,
+    case: PathLike[str] | str,
     region: str = "",
     time: float | str = "latestTime",
     *,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 from dataclasses import dataclass
 from importlib.metadata import version
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +65,10 @@ class CaseRun(Run):
 
 
 def open_run(
-    path: Path | str, cloud: str | None = None, region: str = "", results: Path | str | None = None
+    path: PathLike[str] | str,
+    cloud: str | None = None,
+    region: str = "",
+    results: PathLike[str] | str | None = None,
 ) -> CaseRun:
     """Open the results of a cloud of a case; see :func:`foamprb.view.results.open_run`."""
     root = None if results is None else Path(results)

@@ -8,6 +8,7 @@ import logging
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
@@ -27,10 +28,12 @@ from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
 from foamprb.results.vtk_check import is_compressed, require_sizes
+from foamprb.view.dataset import lazy_dataset
 from foamprb.view.libraries import load
 
 if TYPE_CHECKING:
     import pyvista
+    import xarray
 
 log = logging.getLogger("foamprb")
 
@@ -221,7 +224,56 @@ class Run:
         cloud = self.cloud(-1 if time is None else self.nearest(time))
         mesh = load("pyvista").PolyData(poly_data(cloud))
         mesh.field_data["time"] = [cloud.time]
+        # For VTK's Tensor Glyph.
+        mesh.set_active_tensors("glyph")
         return mesh
+
+    def bodies(
+        self, time: float | None = None, enlargement: float = 1.0, resolution: int = 16
+    ) -> pyvista.PolyData:
+        """Return the surfaces of the bodies at the written time nearest to ``time``, s, by default the last.
+
+        Each point has the arrays of its body.
+
+        Parameters
+        ----------
+        time
+            Time, s.
+        enlargement
+            Factor of the size.
+        resolution
+            Number of facets around a body.
+
+        Raises
+        ------
+        InputError
+            See :meth:`snapshot`.
+        """
+        pyvista, cloud = load("pyvista"), self.cloud(-1 if time is None else self.nearest(time))
+        sphere = pyvista.Sphere(radius=1.0, theta_resolution=resolution, phi_resolution=resolution)
+        n, size = len(cloud.points), sphere.n_points
+        shapes = cloud.arrays["glyph"].reshape(n, 3, 3)
+        points = cloud.points[:, None] + enlargement * (sphere.points.astype(np.float64) @ shapes)
+        corners = sphere.regular_faces + size * np.arange(n)[:, None, None]
+        mesh = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), corners.reshape(-1, 3))
+        for name, array in cloud.arrays.items():
+            mesh.point_data[name] = np.repeat(array, size, axis=0)
+        mesh.field_data["time"] = [cloud.time]
+        return mesh
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return all arrays over ``time`` and ``particle``; a value is read from its file when it is used.
+
+        Before a particle appears its numbers are NaN, and its codes and integers −1. Attributes follow the CF
+        conventions.
+
+        Raises
+        ------
+        InputError
+            If xarray is not installed; if a file is missing or damaged.
+        """
+        version = self.record.get("versions", {}).get("foamprb", "")
+        return lazy_dataset(self.times, self.cloud, f"foamprb {version}".rstrip())
 
     @property
     def tracks(self) -> pyvista.PolyData | None:
@@ -276,7 +328,10 @@ def frame_of(table: Table) -> Any:
 
 
 def open_run(
-    path: Path | str, cloud: str | None = None, region: str = "", results: Path | str | None = None
+    path: PathLike[str] | str,
+    cloud: str | None = None,
+    region: str = "",
+    results: PathLike[str] | str | None = None,
 ) -> Run:
     """Open the results of a cloud of a case.
 

@@ -85,7 +85,7 @@ class Runs(Mapping[str, Run]):
         return frame_of(self.table(name))
 
 
-def open_runs(*patterns: Path | str) -> Runs:
+def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
     """Open the results of several runs.
 
     Parameters
@@ -101,7 +101,7 @@ def open_runs(*patterns: Path | str) -> Runs:
     """
     found: dict[str, Run] = {}
     paths = {}
-    for pattern in map(str, patterns):
+    for pattern in [os.fspath(pattern) for pattern in patterns]:
         matches = sorted(glob.glob(pattern)) if glob.has_magic(pattern) else [pattern]  # noqa: PTH207
         for path in map(Path, matches):
             try:

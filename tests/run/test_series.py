@@ -10,8 +10,10 @@ import shutil
 import numpy as np
 import pytest
 import pyvista
+from foamlib import FoamCase
 from transient_case import SCALE, write_transient_case
 
+import foamprb
 from foamprb.cli import main
 from foamprb.flow import fluxes
 from foamprb.flow.meshflow import MeshFlow
@@ -169,6 +171,17 @@ def test_a_run_goes_on_after_its_solver_wrote_and_removed_times(case, tmp_path, 
     assert "the time 1.5 of the flow is missing" in message(case, capsys, "-resume")
     (tmp_path / "1.5").rename(case / "1.5")
     assert (run(case, "-resume") / "fates.csv").read_bytes() == expected
+
+
+def test_a_case_of_foamlib_stands_for_its_folder(case):
+    of_foamlib = FoamCase(case)
+    assert foamprb.select_times(of_foamlib) == ("0", "0.5", "1.5")
+    assert foamprb.read_case(of_foamlib, 0).at_nodes()[0] == "0"
+    assert isinstance(foamprb.read_series(of_foamlib), SeriesFlow)
+    assert foamprb.read_medium(of_foamlib, rho=1000.0).mu == pytest.approx(1e-3)
+    foamprb.execute(foamprb.prepare(of_foamlib))
+    assert len(foamprb.open_run(of_foamlib).times) == 4
+    assert list(foamprb.open_runs(of_foamlib)) == ["case"]
 
 
 def test_a_run_does_not_go_on_in_another_flow(case, capsys):

@@ -81,6 +81,62 @@ def test_without_pyvista_tables_are_read_and_the_extra_is_named(case, monkeypatc
         run.snapshot()
 
 
+def test_surfaces_of_the_bodies_have_their_arrays(case):
+    run = foamprb.open_run(case)
+    cloud, bodies = run.snapshot(0.3), run.bodies(0.3, enlargement=2.0)
+    assert cloud.active_tensors_name == "glyph"
+    size = bodies.n_points // cloud.n_points
+    assert bodies["origId"].tolist() == np.repeat(cloud["origId"], size).tolist()
+    away = np.linalg.norm(bodies.points - np.repeat(cloud.points, size, axis=0), axis=1)
+    farthest = away.reshape(-1, size).max(axis=1)
+    assert farthest == pytest.approx(2.0 * cloud["semiAxes"][:, 0], rel=0.02)
+    # R F has its columns one after the other in the array, and the eigenvectors of B = F Fᵀ.
+    F = cloud["glyph"].reshape(-1, 3, 3).swapaxes(1, 2)
+    axis = np.linalg.eigh(F @ F.swapaxes(1, 2))[1][:, :, -1]
+    tip = (bodies.points - np.repeat(cloud.points, size, axis=0)).reshape(-1, size, 3)
+    tip = tip[np.arange(len(tip)), away.reshape(-1, size).argmax(axis=1)] / farthest[:, None]
+    assert np.abs(np.einsum("ni,ni->n", tip, axis)) == pytest.approx(1.0, abs=0.05)
+    assert bodies.field_data["time"] == pytest.approx(0.3)
+
+
+def test_dataset_reads_values_when_they_are_used(case, monkeypatch):
+    pytest.importorskip("xarray")
+    run, read = foamprb.open_run(case), []
+    original = type(run).cloud
+
+    def logged(self, index, arrays=None):
+        read.append((index, arrays))
+        return original(self, index, arrays)
+
+    monkeypatch.setattr(type(run), "cloud", logged)
+    data = run.to_xarray()
+    assert dict(data.sizes)["time"] == 5
+    assert len(read) == 1
+    last = run.snapshot()
+    assert data.x.isel(time=-1).values.tolist() == last.points[:, 0].tolist()
+    del read[:]
+    found = data["semiAxes"].isel(time=slice(1, 3), particle=[1, 5], semiAxes_component=0).values
+    assert [index for index, _ in read] == [1, 2]
+    assert read[0][1] == ("origId", "semiAxes")
+    then = run.snapshot(0.1)
+    row = then["origId"].tolist().index(5)
+    assert found[0, 1] == then["semiAxes"][row, 0]
+    # Some bodies appear later.
+    late = sorted({*range(9)} - {*run.snapshot(0.0)["origId"]})
+    assert np.isnan(data.d.isel(time=0, particle=late).values).all()
+    assert (data.status.isel(time=0, particle=late).values == -1).all()
+    assert data.d.isel(time=slice(0, 0)).values.shape == (0, 9)
+    assert data["shearRate"].attrs["units"] == "1/s"
+    assert data.status.attrs["flag_meanings"].split()[2] == "stuck"
+    assert data.attrs["Conventions"] == "CF-1.11"
+
+
+def test_dataset_names_its_extra(case, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(InputError, match=r"to_xarray needs xarray: pip install 'foamprb\[xarray\]'"):
+        foamprb.open_run(case).to_xarray()
+
+
 def test_missing_and_damaged_files_are_reported(case):
     run = foamprb.open_run(case)
     with pytest.raises(InputError, match=r"no table 'fate'. Did you mean 'fates'"):

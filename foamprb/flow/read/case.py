@@ -243,7 +243,9 @@ def shown(path: Path) -> Path:
     return existing(path) or path
 
 
-def select_times(case: Path, selection: str | None = None, region: str = "") -> tuple[str, ...]:
+def select_times(
+    case: os.PathLike[str] | str, selection: str | None = None, region: str = ""
+) -> tuple[str, ...]:
     """Return the names of the selected time directories of a case; see :func:`choose_times`.
 
     Raises
@@ -251,4 +253,5 @@ def select_times(case: Path, selection: str | None = None, region: str = "") -> 
     InputError
         The case cannot be read, or see :func:`choose_times`.
     """
+    case = Path(case)
     return choose_times(case, _require_times(case, region), selection)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -146,7 +147,7 @@ class Case:
 
 
 def read_case(
-    case: Path | str,
+    case: PathLike[str] | str,
     time: float | str = "latestTime",
     velocity: str = "U",
     region: str = "",
@@ -181,7 +182,7 @@ def read_case(
 
 
 def read_series(
-    case: Path | str,
+    case: PathLike[str] | str,
     times: str | None = None,
     period: float | None = None,
     velocity: str = "U",
