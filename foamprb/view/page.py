@@ -8,7 +8,7 @@ import html
 import json
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -108,8 +108,7 @@ class Page:
         header = json.dumps(self._header | notes, ensure_ascii=False, separators=(",", ":"))
         script, style = _text("bundle.js"), _text("page.css")
         texts = {
-            "policy": f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
-            "img-src data: blob:; connect-src 'none'; base-uri 'none'; form-action 'none'",
+            "policy": _policy([script], [style]),
             "version": self._version,
             "title": html.escape(f"{self.scene.title} – {self.scene.subtitle}"),
             "style": style,
@@ -118,14 +117,12 @@ class Page:
             "scene": header.replace("<", "\\u003c"),
             "script": script,
         }
-        for number, piece in enumerate(re.split(r"\{\{(\w+)\}\}", _text("page.html"))):
-            if number % 2 == 0:
+        for piece in _filled("page.html", texts | {"sections": None}):
+            if piece is not None:
                 yield piece
-            elif piece == "sections":
-                for k, data in enumerate(self._sections):
-                    yield f'<script type="text/plain" id="section-{k}">{data}</script>\n'
-            else:
-                yield texts[piece]
+                continue
+            for k, data in enumerate(self._sections):
+                yield f'<script type="text/plain" id="section-{k}">{data}</script>\n'
 
     def _described(self, halves: NDArray[np.float64]) -> dict[str, Any]:
         scene = self.scene
@@ -288,6 +285,53 @@ class Page:
     def _inside(self, point: NDArray[np.float64]) -> list[float]:
         """Return a point, m, in the coordinates of the page."""
         return _rounded((point - self._middle) / self._size)
+
+
+def twins(title: str, pages: Sequence[tuple[str, str]], version: str) -> Iterator[str]:
+    """Yield the text of a page that shows two pages side by side, with one camera, clock and legend.
+
+    Parameters
+    ----------
+    title
+        Title of the page.
+    pages
+        Names and texts of the pages.
+    version
+        Version of foamprb.
+    """
+    script, style = _text("twins.js"), _text("twins.css")
+    texts = {
+        "policy": _policy([script, _text("bundle.js")], [style, _text("page.css")]),
+        "version": version,
+        "title": html.escape(title),
+        "style": style,
+        "script": script,
+        "frames": None,
+    }
+    for piece in _filled("twins.html", texts):
+        if piece is not None:
+            yield piece
+            continue
+        for (name, text), words in zip(pages, ("bare&twin", "bare&twin&second"), strict=True):
+            # Only these two characters have a meaning in the attribute.
+            inner = text.replace("&", "&amp;").replace('"', "&quot;")
+            label = html.escape(name)
+            yield f'<iframe title="{label}" name="foamprb {html.escape(words)}" srcdoc="{inner}"></iframe>\n'
+
+
+def _filled(template: str, texts: Mapping[str, str | None]) -> Iterator[str | None]:
+    """Yield the pieces of a template, with texts instead of their names in double braces."""
+    for number, piece in enumerate(re.split(r"\{\{(\w+)\}\}", _text(template))):
+        yield piece if number % 2 == 0 else texts[piece]
+
+
+def _policy(scripts: Sequence[str], styles: Sequence[str]) -> str:
+    """Return a policy that allows these scripts and styles alone."""
+    allowed = [" ".join(f"'{_hash(text)}'" for text in texts) for texts in (scripts, styles)]
+    return (
+        f"default-src 'none'; script-src {allowed[0]}; style-src {allowed[1]}; "
+        "img-src data: blob:; connect-src 'none'; base-uri 'none'; form-action 'none'"
+    )
 
 
 def _has_names(codes: Codes) -> bool:

@@ -15,14 +15,23 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.view.results import Run, Table, frame_of, open_run
 
-__all__ = ["Runs", "open_runs"]
+__all__ = ["Runs", "open_runs", "results_at"]
 
 
 @dataclass(frozen=True, repr=False)
 class Runs(Mapping[str, Run]):
-    """Results of several runs, by the names of their folders."""
+    """Results of several runs, by the names of their folders.
+
+    Parameters
+    ----------
+    runs
+        The runs.
+    paths
+        Their cases or folders of results.
+    """
 
     runs: Mapping[str, Run]
+    paths: Mapping[str, Path]
 
     def __repr__(self) -> str:
         return f"<{len(self.runs)} runs: {', '.join(self.runs)}>"
@@ -99,7 +108,6 @@ def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
     InputError
         If a folder that is named has no results, or none is found.
     """
-    found: dict[str, Run] = {}
     paths = {}
     for pattern in [os.fspath(pattern) for pattern in patterns]:
         matches = sorted(glob.glob(pattern)) if glob.has_magic(pattern) else [pattern]  # noqa: PTH207
@@ -112,13 +120,19 @@ def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
     if not paths:
         raise InputError(f"{' '.join(map(str, patterns))}: no results there. foamprb run writes them.")
     top = os.path.commonpath([path.resolve().parent for path in paths])
-    for path, run in paths.items():
-        found[os.path.relpath(path.resolve(), top)] = run
-    return Runs(found)
+    names = {path: os.path.relpath(path.resolve(), top) for path in paths}
+    return Runs(
+        {names[path]: run for path, run in paths.items()}, {name: path for path, name in names.items()}
+    )
+
+
+def results_at(path: Path) -> Path | None:
+    """Return the folder of results for :func:`~foamprb.view.results.open_run`; None if it is in a case."""
+    return None if (path / "postProcessing").is_dir() else path
 
 
 def _open(path: Path) -> Run:
-    return open_run(path) if (path / "postProcessing").is_dir() else open_run(path, results=path)
+    return open_run(path, results=results_at(path))
 
 
 def _plain(text: str) -> str:

@@ -29,7 +29,7 @@ from foamprb.view.bodies import Bodies, fates_of, fields_of_fates, gather, requi
 from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.flowfield import FlowField, field_of
 from foamprb.view.geometry import Geometry, boundary
-from foamprb.view.page import Page
+from foamprb.view.page import Page, twins
 from foamprb.view.painting import Painting, painting_of
 from foamprb.view.paraview import write_state
 from foamprb.view.picture import film, has_display, picture, require_graphics, window
@@ -62,6 +62,8 @@ MOST_DRAWN = 100_000
 """Largest number of bodies in a page or a picture, unless -bodies requests more."""
 MOST_CELLS = 250_000
 """Largest number of cells of a mesh whose flow is read for streamlines."""
+_TWIN, _MOST_TWIN = 15.0, 5000
+"""Largest size of each of two scenes on one page, MB, and its largest number of bodies."""
 _SAMPLE, _ESTIMATES = 500, 2
 """Bodies in an estimate of the size of a page, and the number of estimates."""
 _MOST_TRAILING = 16
@@ -120,6 +122,19 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     """
     if path is not None:
         refuse_other_kind(path, PAGE_BEGINS)
+    page, run = _packed(request, megabytes, version)
+    target = path or run.results.page
+    size = 0
+    with atomic_write(target) as temporary, temporary.open("wb") as file:
+        for part in page.parts():
+            size += file.write(part.encode("utf-8"))
+    bodies = page.scene.bodies
+    log.info("%d bodies at %d times, %.1f MB: %s", len(bodies.ids), len(bodies.times), size / 1e6, target)
+    return target
+
+
+def _packed(request: Request, megabytes: float, version: str) -> tuple[Page, Run]:
+    """Return a page of a limited size, and its run; see :func:`write_page`."""
     if not megabytes >= 1.0:
         raise InputError(f"-maxSize {megabytes:g}: at least 1 (MB) is needed.")
     most = int(megabytes * 1e6)
@@ -156,13 +171,35 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     if page.left_out:
         log.warning("%s: left out, there is no room in %g MB. -maxSize allows more.",
                     ", ".join(page.left_out), megabytes)  # fmt: skip
-    target = path or run.results.page
-    size = 0
-    with atomic_write(target) as temporary, temporary.open("wb") as file:
-        for part in page.parts():
-            size += file.write(part.encode("utf-8"))
-    log.info("%d bodies at %d times, %.1f MB: %s", len(page.scene.bodies.ids), m, size / 1e6, target)
-    return target
+    return page, run
+
+
+def write_twins(requests: dict[str, Request], path: Path, version: str) -> Path:
+    """Write a page with the scenes of two runs, by name, that have one camera, clock and legend.
+
+    Parameters
+    ----------
+    requests
+        Options of the scenes.
+    path
+        The file.
+    version
+        Version of foamprb.
+
+    Raises
+    ------
+    InputError, OSError
+        See :func:`write_page`.
+    """
+    refuse_other_kind(path, PAGE_BEGINS)
+    pages = []
+    for name, request in requests.items():
+        page, _ = _packed(replace(request, bodies=_MOST_TWIN), _TWIN, version)
+        pages.append((name, "".join(page.parts())))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8") as file:
+        file.writelines(twins(" and ".join(requests), pages, version))
+    return path
 
 
 def spread(count: int, most: int) -> list[int]:
