@@ -33,6 +33,8 @@ html_show_sourcelink = False
 html_sidebars = {"index": []}
 html_theme_options: dict[str, Any] = {
     "navbar_align": "left",
+    # The field with its shortcut has a label that differs from its text.
+    "navbar_persistent": ["search-button"],
     "header_links_before_dropdown": 5,
     "secondary_sidebar_items": ["page-toc"],
     "show_nav_level": 1,
@@ -110,7 +112,9 @@ def commands() -> str:
         rows = [(option(action), action.help) for action in parser._actions if action.dest != "help"]
         lines = [f"| `{words}` | {meaning.replace('|', '/')} |" for words, meaning in rows]
         text += (
-            f"\n## {name}\n\n`foamprb {name}`: {help_.help}\n\n| | |\n|---|---|\n" + "\n".join(lines) + "\n"
+            f"\n## {name}\n\n`foamprb {name}`: {help_.help}\n\n| option | meaning |\n|---|---|\n"
+            + "\n".join(lines)
+            + "\n"
         )
     return text
 

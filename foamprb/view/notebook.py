@@ -27,7 +27,8 @@ class ViewPage:
 
     def _repr_html_(self) -> str:
         text = html.escape(self.path.read_text(encoding="utf-8"))
-        return f'<iframe srcdoc="{text}" width="100%" height="{_HEIGHT}" frameborder="0"></iframe>'
+        size = f'width="100%" height="{_HEIGHT}" frameborder="0"'
+        return f'<iframe title="foamprb view" srcdoc="{text}" {size}></iframe>'
 
 
 @dataclass(frozen=True, repr=False)

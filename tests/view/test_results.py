@@ -27,8 +27,8 @@ def test_a_notebook_shows_the_page_of_view(case):
     page = foamprb.open_run(case).view(time=0.2, max_size=5)
     assert page.path == case / "postProcessing/softCloud/softCloud.html"
     shown = page._repr_html_()
-    assert shown.startswith('<iframe srcdoc="&lt;!doctype html')
-    assert '"' not in shown.split('"')[1]
+    assert shown.startswith('<iframe title="foamprb view" srcdoc="&lt;!doctype html')
+    assert '"' not in shown.split('"')[3]
 
 
 def test_the_name_of_a_case_need_not_be_text(tmp_path, monkeypatch):

@@ -152,7 +152,7 @@ def written_table(results: Results) -> str:
         limit_ratio = target.limit / value if target.least and value else value / target.limit
         verdict = "met" if target.met(value) else "**not met**"
         lines.append((target.text, number(value), bound, f"{verdict} ({limit_ratio:.2f} of the limit)"))
-    return table(("target", "measured", "limit", ""), lines)
+    return table(("target", "measured", "limit", "outcome"), lines)
 
 
 def _machines(results: Results) -> str:

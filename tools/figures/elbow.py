@@ -353,7 +353,7 @@ def table(runs: Sequence[Run], cells: Sequence[int]) -> str:
     """Compare each run with the other program's on the same mesh and on the finest mesh."""
     finest = {(run.name, run.level): run for run in sorted(runs, key=lambda run: -run.dt)}
     rows = [
-        "| | cells | step, s | on the same mesh: median, m | 95 % | fates alike "
+        "| program | cells | step, s | on the same mesh: median, m | 95 % | fates alike "
         "| on the finest: median, m | 95 % | fates alike |",
         f"|---|---|---|{'---|' * 6}",
     ]
