@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import doctest
+import importlib
 import inspect
 import re
 
@@ -50,6 +52,16 @@ def test_reference_has_every_public_name_once():
     pages = "".join(page.read_text() for page in REFERENCE)
     found = re.findall(r"^\.\. auto\w+:: foamprb\.(\w+)$", pages, re.MULTILINE)
     assert sorted(found) == sorted(foamprb.__all__)
+
+
+def test_examples_of_docstrings_run():
+    values = [getattr(foamprb, name) for name in foamprb.__all__]
+    modules = {value.__module__ for value in values if hasattr(value, "__module__")} | {
+        "foamprb.flow.analytic"
+    }
+    found = [doctest.testmod(importlib.import_module(module)) for module in sorted(modules)]
+    assert sum(result.attempted for result in found) >= 7
+    assert sum(result.failed for result in found) == 0
 
 
 def test_other_names_are_refused():

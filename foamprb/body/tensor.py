@@ -24,7 +24,13 @@ ZERO: Tensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def select(condition: Any, a: Scalar, b: Scalar) -> Scalar:
-    """Return ``a`` where ``condition`` holds, else ``b``; both are evaluated."""
+    """Return ``a`` where ``condition`` holds, else ``b``; both are evaluated.
+
+    Examples
+    --------
+    >>> float(select(2.0 > 1.0, 3.0, 4.0))
+    3.0
+    """
     return np.where(condition, a, b)
 
 

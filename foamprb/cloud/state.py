@@ -258,6 +258,12 @@ def spheres(
         Bulk modulus of the solid, Pa, one for all or (n,), in place of Poisson's ratio. At a fixed ratio,
         softer solids change their volume more;
         :func:`foamprb.body.compressibility.sufficient_bulk_modulus` keeps it.
+
+    Examples
+    --------
+    >>> p = spheres([[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0]], d=5e-6, rho=1050.0, mu=[100.0, 200.0])
+    >>> p.size, p.D.tolist()
+    (2, [0.0, 0.0])
     """
     p = empty(len(x))
     p.x[:] = p.x0[:] = x

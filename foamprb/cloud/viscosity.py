@@ -168,23 +168,23 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
 
 
 class PowerLaw(laws.PowerLaw, RateViscosity):
-    """See :class:`foamprb.body.viscosity.PowerLaw`."""
+    """k γ̇ⁿ⁻¹ between two limits, OpenFOAM's ``powerLaw``: k in Pa sⁿ, limits in Pa s."""
 
 
 class CrossPowerLaw(laws.CrossPowerLaw, RateViscosity):
-    """See :class:`foamprb.body.viscosity.CrossPowerLaw`."""
+    """μ∞ + (μ₀ − μ∞)/(1 + (m γ̇)ⁿ), OpenFOAM's ``CrossPowerLaw``: μ in Pa s, m in s."""
 
 
 class BirdCarreau(laws.BirdCarreau, RateViscosity):
-    """See :class:`foamprb.body.viscosity.BirdCarreau`."""
+    """μ∞ + (μ₀ − μ∞)(1 + (k γ̇)ᵃ)^((n − 1)/a), OpenFOAM's ``BirdCarreau``: μ in Pa s, k in s."""
 
 
 class HerschelBulkley(laws.HerschelBulkley, RateViscosity):
-    """See :class:`foamprb.body.viscosity.HerschelBulkley`."""
+    """(τ₀ + k γ̇ⁿ)/γ̇, at most μ₀, OpenFOAM's ``HerschelBulkley``: μ₀ in Pa s, τ₀ in Pa, k in Pa sⁿ."""
 
 
 class Casson(laws.Casson, RateViscosity):
-    """See :class:`foamprb.body.viscosity.Casson`."""
+    """(√(τ₀/γ̇) + √m)² between two limits, OpenFOAM's ``Casson``: m and limits in Pa s, τ₀ in Pa."""
 
 
 RATE_LAWS: dict[str, type[RateViscosity]] = {

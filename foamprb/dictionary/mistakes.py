@@ -65,12 +65,14 @@ def _place(error: InputError) -> tuple[str, int]:
 class Mistakes:
     """Collector of the mistakes of guarded blocks, each of which ends at its first mistake.
 
-    >>> mistakes = Mistakes()
-    >>> with mistakes:
-    ...     read_one_thing()
-    >>> with mistakes:
-    ...     read_another()
-    >>> mistakes.raise_any()
+    ::
+
+        mistakes = Mistakes()
+        with mistakes:
+            read_one_thing()
+        with mistakes:
+            read_another()
+        mistakes.raise_any()
 
     Variables that a block assigns may be used after :meth:`raise_any`, or later in the same block.
     """

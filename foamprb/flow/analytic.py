@@ -446,6 +446,14 @@ def slit(height: float, mean_velocity: float) -> AnalyticFlow:
     ----------
     height, mean_velocity
         m and m/s; the shear rate at a wall is 6 U/height.
+
+    Examples
+    --------
+    >>> flow = slit(30e-6, 0.05)
+    >>> x = np.array([[0.0, 0.0, 15e-6]])
+    >>> u, gradient = flow.sample(x, flow.locate(x), 0.0)
+    >>> u.round(3).tolist()
+    [[0.075, 0.0, 0.0]]
     """
     arrays = channels.SlitArrays(float(height), 6.0 * mean_velocity / height)
     return _between(arrays, (Patch("lower", "wall"), Patch("upper", "wall")))

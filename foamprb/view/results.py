@@ -333,25 +333,7 @@ def open_run(
     region: str = "",
     results: PathLike[str] | str | None = None,
 ) -> Run:
-    """Open the results of a cloud of a case.
-
-    Parameters
-    ----------
-    path
-        Folder of the case.
-    cloud
-        Name of the cloud; by default ``softCloud``, or the only one.
-    region
-        Region of the mesh; by default the default region, or any other if that has no results.
-    results
-        Folder of the results if the run wrote them elsewhere than into ``postProcessing`` of the case.
-
-    Raises
-    ------
-    InputError
-        If there are no results, or several clouds without a name; if the list of files or the last file is
-        damaged.
-    """
+    """See :func:`foamprb.view.notebook.open_run`."""
     folder = ResultsFolder.find(Path(path), cloud, region, None if results is None else Path(results))
     entries = read_pvd(folder.pvd)
     if not entries:

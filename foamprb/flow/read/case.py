@@ -246,12 +246,20 @@ def shown(path: Path) -> Path:
 def select_times(
     case: os.PathLike[str] | str, selection: str | None = None, region: str = ""
 ) -> tuple[str, ...]:
-    """Return the names of the selected time directories of a case; see :func:`choose_times`.
+    """Return the names of the selected time directories of a case, in the order of time.
+
+    Parameters
+    ----------
+    case, region
+        Folder of the case, and a region of its mesh.
+    selection
+        Values and ranges ``a:b``, ``a:`` or ``:b`` (ends included), separated by commas or blanks;
+        ``latestTime``; None for all.
 
     Raises
     ------
     InputError
-        The case cannot be read, or see :func:`choose_times`.
+        The case cannot be read; a value or a range selects nothing; or two names are the same time.
     """
     case = Path(case)
     return choose_times(case, _require_times(case, region), selection)
