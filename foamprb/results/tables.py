@@ -6,6 +6,7 @@ import csv
 import importlib
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from foamprb.results.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
 
-# Rows that are converted to text together; their cells fit into the processor's cache.
+# Rows that are converted to text or from it together; their cells fit into the processor's cache.
 _CHUNK = 2048
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 _QUOTE = '"'
@@ -97,15 +98,31 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
     """
     if path.suffix == ".parquet":
         return _read_parquet(path)
+    columns: list[list[NDArray[Any]]] = []
     try:
         with path.open(encoding="utf-8", newline="") as file:
-            rows = list(csv.reader(file))
+            reader = csv.reader(file)
+            names = next(reader, [])
+            columns = [[] for _ in names]
+            while rows := list(islice(reader, _CHUNK)):
+                if any(len(row) != len(names) for row in rows):
+                    names = []
+                    break
+                for name, parts, cells in zip(names, columns, zip(*rows, strict=True), strict=True):
+                    parts.append(_typed(cells, name in words))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: not a readable table ({error}).") from error
-    if not rows or any(len(row) != len(rows[0]) for row in rows):
+    if not names:
         raise InputError(f"{path}: not a table: its lines have different numbers of columns.")
-    names, *lines = rows
-    return {name: _typed([line[i] for line in lines], name in words) for i, name in enumerate(names)}
+    kinds = [{part.dtype.kind for part in parts} for parts in columns]
+    mixed = {name for name, found in zip(names, kinds, strict=True) if "U" in found and len(found) > 1}
+    if mixed:
+        # Some of the rows look like numbers.
+        return read_table(path, {*words, *mixed})
+    return {
+        name: np.concatenate(parts or [_typed((), name in words)])
+        for name, parts in zip(names, columns, strict=True)
+    }
 
 
 def _parquet(what: str) -> tuple[Any, Any]:
@@ -154,7 +171,7 @@ def _read_parquet(path: Path) -> dict[str, NDArray[Any]]:
     }
 
 
-def _typed(words: list[str], stay: bool) -> NDArray[Any]:
+def _typed(words: Sequence[str], stay: bool) -> NDArray[Any]:
     """Return numbers if all words are numbers; if ``stay``, return the words."""
     for kind in () if stay else (np.int64, np.float64):
         try:

@@ -12,7 +12,7 @@ __all__ = ["is_compressed", "require_sizes"]
 _HEAD, _DATA = b'compressor="vtkLZ4DataCompressor"', b'<AppendedData encoding="raw">'
 _BYTES = {"Int8": 1, "UInt8": 1, "Int16": 2, "UInt16": 2, "Int32": 4, "UInt32": 4, "Int64": 8, "UInt64": 8,
           "Float32": 4, "Float64": 8}  # fmt: skip
-_MOST_HEADER = 1 << 24
+_MOST_HEADER, _CHUNK = 1 << 24, 1 << 16
 _CELLS = ("Verts", "Lines", "Strips", "Polys")
 
 
@@ -31,7 +31,7 @@ def require_sizes(path: Path) -> None:
         If they are not, or the header cannot be read; with the reason.
     """
     with path.open("rb") as file:
-        head = file.read(_MOST_HEADER)
+        head = _head(file)
         start = head.find(_DATA)
         first = head.find(b"_", start + len(_DATA)) + 1
         if start < 0 or first == 0:
@@ -70,6 +70,17 @@ def require_sizes(path: Path) -> None:
         begins, ends = ([place[k] for place in places] for k in (0, 1))
         if begins != [0, *ends[:-1]]:
             raise ValueError("its header does not match its data")
+
+
+def _head(file: BinaryIO) -> bytes:
+    """Return the beginning of a file with the header, and some of the data."""
+    head = bytearray()
+    while (chunk := file.read(_CHUNK)) and len(head) < _MOST_HEADER:
+        found = _DATA in head
+        head += chunk
+        if found:
+            break
+    return bytes(head)
 
 
 def _blocks(file: BinaryIO, at: int, end: int, word: str) -> tuple[int, list[tuple[int, int]]]:

@@ -70,6 +70,22 @@ def test_many_rows_keep_their_order(tmp_path: Path) -> None:
     np.testing.assert_array_equal(table, np.c_[np.arange(n), np.arange(n) / 3])
 
 
+def test_kind_of_a_column_is_that_of_all_its_rows(tmp_path: Path) -> None:
+    n = 10_000
+    path = tmp_path / "t.csv"
+    numbers = [*range(n), 0.5]
+    words = [*map(str, range(n)), "=a"]
+    write_table(path, {"id": np.arange(n + 1), "x": numbers, "word": words})
+    table = read_table(path)
+    assert [array.dtype.kind for array in table.values()] == ["i", "f", "U"]
+    assert table["x"].tolist() == numbers
+    assert table["word"].tolist() == words
+    with path.open("a") as file:
+        file.write("1,2\n")
+    with pytest.raises(InputError, match="different numbers of columns"):
+        read_table(path)
+
+
 def test_no_rows(tmp_path: Path) -> None:
     path = tmp_path / "t.csv"
     write_table(path, {"id": [], "x": np.empty(0)})
