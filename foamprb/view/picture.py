@@ -64,6 +64,8 @@ _GLYPH, _REACH, _LETTER, _AXES, _ARROWS = 56.0, 14.0, 11.0, 64.0, 73.0
 """Width of axes or an arrow, length and letter of an axis, distances of their middles from below; pixels."""
 _UNKNOWN = 153
 _TRAIL_OPACITY = 0.85
+_HAZE, _HAZE_LENGTH = 0.3, 0.6
+"""Largest share of the paper in colours, and how far behind the focus it is reached, in its distances."""
 _MOST_PAINTED = 200_000
 """Triangles of a painted wall, about."""
 _GRAPHICS, _POINT = 0.7e9, 205.0
@@ -102,7 +104,7 @@ class Drawing:
             self.plotter.remove_actor(old, render=False)
         self._draw_trails(frame)
         if len(shown):
-            colours = body_colours(scene, frame, shown)
+            colours = self._hazed(body_colours(scene, frame, shown), bodies.x[frame, shown])
             F = bodies.F[frame, shown].astype(np.float64)
             place, size = bodies.x[frame, shown], bodies.radius[shown] * scene.enlargement
             self._add("bodies", draw(sphere_for(len(shown)), place, F, size, colours))
@@ -119,11 +121,21 @@ class Drawing:
         points, colours = trails(self.scene, frame)
         if len(points):
             lines = pyvista.line_segments_from_points(points.reshape(-1, 3))
+            colours[..., :3] = self._hazed(colours[..., :3], points)
             lines.point_data["colour"] = colours.reshape(-1, 4)
             self.plotter.add_mesh(
                 lines, scalars="colour", rgb=True, lighting=False, line_width=2.2 * self.scale, name="trails",
                 show_scalar_bar=False, **_LATER,
             )  # fmt: skip
+
+    def _hazed(self, colours: Table, places: Floats) -> Table:
+        """Return colours (…, 3) faded towards the paper at places (…, 3) beyond the focus."""
+        eye = self.plotter.camera
+        towards = np.subtract(eye.focal_point, eye.position)
+        ahead = (places - eye.position) @ towards / (towards @ towards)
+        share = _HAZE * np.clip((ahead - 1.0) / _HAZE_LENGTH, 0.0, 1.0)[..., None]
+        hazed: Table = np.rint(colours + share * (np.array(rgb(self.style.paper)) - colours)).astype(np.uint8)
+        return hazed
 
     def _add(self, name: str, mesh: Any) -> None:
         """Draw a mesh with its own colours, in the light of the bodies."""

@@ -5,7 +5,7 @@ import {
   BufferAttribute, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial,
   Sphere, Vector3,
 } from "three";
-import { SHADE } from "./shade.js";
+import { HAZE, SHADE } from "./shade.js";
 
 const VERTEX = `
 precision highp float;
@@ -66,7 +66,7 @@ uniform sampler2D colours;
 uniform float mark;
 uniform vec3 accent, unknown;
 out vec4 colour;
-${SHADE}
+${SHADE}${HAZE}
 
 void main() {
   mat3 inverted = mat3(inverse0, inverse1, inverse2);
@@ -97,13 +97,14 @@ void main() {
     base = mix(base, light > 0.45 ? base * 0.42 : mix(base, vec3(1.0), 0.62), 0.8 * on);
   }
   vec3 lit = shade(base, normal, normalize(-ray));
+  lit = hazed(lit, -z, 0.3);
   // Outline of the selected body.
   if (isChosen > 0.5) lit = mix(lit, accent, smoothstep(1.0 - 4.5 * blur, 1.0 - 3.5 * blur, away));
   colour = vec4(lit, cover);
 }`;
 
 export class Bodies {
-  constructor(data) {
+  constructor(data, haze) {
     this.data = data;
     const n = data.n;
     const geometry = new InstancedBufferGeometry();
@@ -130,7 +131,7 @@ export class Bodies {
       uniforms: {
         shapeStep: { value: data.shapeStep }, enlargement: { value: 1 }, pixel: { value: 1e-3 }, smallest: { value: 1.4 },
         chosen: { value: -1 }, mark: { value: 1 }, colours: { value: null }, accent: { value: new Vector3() },
-        unknown: { value: new Vector3(0.6, 0.63, 0.66) }, darkness: { value: 0 },
+        unknown: { value: new Vector3(0.6, 0.63, 0.66) }, darkness: { value: 0 }, haze,
       },
     });
     this.mesh = new Mesh(geometry, this.material);

@@ -50,14 +50,14 @@ void main() {
   colour = vec4(texture(colours, vec2((texture(grid, at).r * 255.0 + 0.5) / 256.0, 0.5)).rgb, 1.0);
 }`;
 
-export function streamlines(flow) {
+export function streamlines(flow, haze) {
   const { points, start } = flow.lines, places = [];
   for (let k = 0; k + 1 < start.length; k++) {
     for (let i = start[k] + 1; i < start[k + 1]; i++) for (const j of [i - 1, i]) places.push(points[3 * j], points[3 * j + 1], points[3 * j + 2]);
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(places), 3));
-  const lines = new LineSegments(geometry, lineMaterial(flow.lines.opacity));
+  const lines = new LineSegments(geometry, lineMaterial(flow.lines.opacity, haze));
   lines.renderOrder = 2;
   return lines;
 }

@@ -1,6 +1,6 @@
 // One body at eight times of its life, side by side at one scale, seen in the direction of the scene, beside a bar.
 
-import { Color, Matrix4, PerspectiveCamera, Scene, Vector3 } from "three";
+import { Color, Matrix4, PerspectiveCamera, Scene, Vector4 } from "three";
 import { Bodies } from "./bodies.js";
 import { roundLength } from "./compass.js";
 import { written } from "./colours.js";
@@ -13,7 +13,8 @@ export class Gallery {
     this.data = data;
     const own = { n: GALLERY, x: new Float32Array(3 * GALLERY), F: new Int16Array(9 * GALLERY), radius: new Float32Array(GALLERY), shapeStep: data.shapeStep };
     this.own = own;
-    this.bodies = new Bodies(own);
+    // Without haze: all are near.
+    this.bodies = new Bodies(own, { value: new Vector4(0, 0, 0, 1e9) });
     this.bodies.material.uniforms.smallest.value = 0;
     this.scene = new Scene();
     this.scene.add(this.bodies.mesh);

@@ -26,7 +26,7 @@ export function tickText(spec, value, factor) {
 export function showLegend(parent, spec) {
   const box = document.createElement("div");
   box.className = "legend";
-  const heading = document.createElement("h3");
+  const heading = document.createElement("h2");
   const { text, unit, note, factor } = title(spec);
   heading.textContent = text;
   if (note) {

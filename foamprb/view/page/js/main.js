@@ -1,6 +1,6 @@
 // The page: its state, the drawing, and the controls.
 
-import { Color, ColorManagement, DataTexture, LinearFilter, LinearSRGBColorSpace, NearestFilter, Raycaster, RGBAFormat, Scene, Vector2, Vector3, WebGLRenderer } from "three";
+import { Color, ColorManagement, DataTexture, LinearFilter, LinearSRGBColorSpace, NearestFilter, Raycaster, RGBAFormat, Scene, Vector2, Vector3, Vector4, WebGLRenderer } from "three";
 import { Bodies } from "./bodies.js";
 import { Eye } from "./camera.js";
 import { drawChart } from "./chart.js";
@@ -46,7 +46,7 @@ const keys = [
 ];
 
 let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, painting, plot, gallery, link, twin;
-const scene = new Scene();
+const scene = new Scene(), haze = { value: new Vector4(1, 1, 1, 1) };
 const state = {
   t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
   enlargement: 1, fates: new Set(), injectors: new Set(), gone: false, curve: null, count: 0, kept: [], boxed: null,
@@ -64,14 +64,14 @@ async function start() {
   ColorManagement.enabled = false;
   renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: true, preserveDrawingBuffer: false });
   renderer.outputColorSpace = LinearSRGBColorSpace;
-  bodies = new Bodies(data);
+  bodies = new Bodies(data, haze);
   painting = data.painting && new Painting(data);
-  walls = new Walls(data, painting);
+  walls = new Walls(data, painting, haze);
   deposits = new Deposits();
-  trails = new Trails(data, 3);
-  ownTrail = new Trails(data, 4);
+  trails = new Trails(data, 3, haze);
+  ownTrail = new Trails(data, 4, haze);
   scene.add(bodies.mesh, walls.group, trails.mesh, ownTrail.mesh, deposits.points);
-  if (data.flow) scene.add((plane = new FlowPlane(data, walls)).group, (streams = streamlines(data.flow)));
+  if (data.flow) scene.add((plane = new FlowPlane(data, walls)).group, (streams = streamlines(data.flow, haze)));
   eye = new Eye(canvas, spec.home, insets(), () => {
     dirty = true;
     twin?.post({ eye: eyeInMetres() });
@@ -161,6 +161,7 @@ function draw() {
   bodies.material.uniforms.pixel.value = tangent / eye.height;
   if (stale) drawPlot();
   if (!$("card").hidden) drawGallery();
+  haze.value.w = eye.distance;
   plane?.face(eye.camera.position);
   renderer.render(scene, eye.camera);
   placeLabels();
@@ -696,6 +697,7 @@ function paint() {
   }
   deposits.points.material.uniforms.base.value.set(...rgb("--deposit"));
   deposits.points.material.uniforms.paper.value.set(...paper);
+  haze.value.set(...paper, haze.value.w);
   dirty = true;
 }
 

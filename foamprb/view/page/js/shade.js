@@ -1,5 +1,10 @@
 // Common light, from the upper left behind the camera. Vectors are in camera coordinates.
 
+// Haze: what is farther than the middle of the picture fades towards the colour of the paper.
+export const HAZE = `
+uniform vec4 haze;   // colour of the paper, and distance of the middle of the picture
+vec3 hazed(vec3 lit, float distance, float most) { return mix(lit, haze.rgb, most * clamp((distance / haze.w - 1.0) / 0.6, 0.0, 1.0)); }`;
+
 export const SHADE = `
 uniform float darkness;
 vec3 shade(vec3 base, vec3 normal, vec3 towards) {

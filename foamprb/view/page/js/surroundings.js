@@ -4,7 +4,7 @@ import {
   BackSide, BufferAttribute, BufferGeometry, FrontSide, GLSL3, Group, LineSegments, Mesh, Points,
   RawShaderMaterial, Vector3,
 } from "three";
-import { SHADE } from "./shade.js";
+import { HAZE, SHADE } from "./shade.js";
 
 const SURFACE_VERTEX = `
 precision highp float;
@@ -27,7 +27,7 @@ uniform sampler3D paint;
 uniform vec3 base, deep, deposit, paintLow, paintNumber;
 uniform float opacity, paintCell, isPainted;
 out vec4 colour;
-${SHADE}
+${SHADE}${HAZE}
 void main() {
   // Towards the viewer: gl_FrontFacing is true for the visible side of any material.
   vec3 normal = normalize(dot(across, place) < 0.0 ? across : -across);
@@ -37,6 +37,7 @@ void main() {
   vec3 seen = mix(deep, base, smoothstep(0.1, 0.95, lit));
   float share = isPainted > 0.5 ? texture(paint, (0.5 + (own - paintLow) / paintCell) / paintNumber).r : 0.0;
   seen = mix(seen, deposit * mix(0.75, 1.0, lit), share);
+  seen = hazed(seen, -place.z, 0.35);
   // Glass is denser at grazing angles.
   colour = vec4(seen, opacity >= 1.0 ? 1.0 : opacity * (1.0 + 2.5 * pow(1.0 - facing, 3.0)) + 0.3 * share);
 }`;
@@ -45,19 +46,24 @@ const LINE_VERTEX = `
 precision highp float;
 in vec3 position;
 uniform mat4 modelViewMatrix, projectionMatrix;
+out float distance;
 void main() {
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  distance = -seen.z;
+  gl_Position = projectionMatrix * seen;
   // Edges lie in front of their walls.
   gl_Position.z -= 2e-5 * gl_Position.w;
 }`;
 
 const LINE_FRAGMENT = `
 precision highp float;
+in float distance;
 uniform vec3 base;
 uniform float opacity;
 out vec4 colour;
+${HAZE}
 void main() {
-  colour = vec4(base, opacity);
+  colour = vec4(hazed(base, distance, 0.6), opacity);
 }`;
 
 const POINT_VERTEX = `
@@ -88,13 +94,17 @@ function material(vertexShader, fragmentShader, uniforms, more = {}) {
   return new RawShaderMaterial({ glslVersion: GLSL3, vertexShader, fragmentShader, uniforms: values, ...more });
 }
 
-export const lineMaterial = (opacity) => material(LINE_VERTEX, LINE_FRAGMENT, { base: new Vector3(), opacity }, { transparent: true, depthWrite: false });
+export function lineMaterial(opacity, haze) {
+  const made = material(LINE_VERTEX, LINE_FRAGMENT, { base: new Vector3(), opacity }, { transparent: true, depthWrite: false });
+  made.uniforms.haze = haze;
+  return made;
+}
 
 export const isWall = (patch) => patch.type === "wall" || patch.type === "mappedWall";
 export const isFlat = (patch) => patch.type === "empty" || patch.type === "wedge";
 
 export class Walls {
-  constructor(data, painting) {
+  constructor(data, painting, haze) {
     this.group = new Group();
     this.patches = data.surfaces.map((surface) => {
       const geometry = new BufferGeometry();
@@ -104,7 +114,7 @@ export class Walls {
       const side = (more, order) => {
         const mesh = new Mesh(geometry, material(SURFACE_VERTEX, SURFACE_FRAGMENT,
           { base: new Vector3(), deep: new Vector3(), deposit: new Vector3(), opacity: 1, darkness: 0, isPainted: 0 }, more));
-        Object.assign(mesh.material.uniforms, painting?.uniforms ?? { paint: { value: null }, paintLow: { value: new Vector3() }, paintCell: { value: 1 }, paintNumber: { value: new Vector3(1, 1, 1) } });
+        Object.assign(mesh.material.uniforms, { haze }, painting?.uniforms ?? { paint: { value: null }, paintLow: { value: new Vector3() }, paintCell: { value: 1 }, paintNumber: { value: new Vector3(1, 1, 1) } });
         mesh.renderOrder = order;
         this.group.add(mesh);
         return mesh;
@@ -117,7 +127,7 @@ export class Walls {
     });
     const edges = new BufferGeometry();
     edges.setAttribute("position", new BufferAttribute(data.edges, 3));
-    this.edges = new LineSegments(edges, lineMaterial(0.75));
+    this.edges = new LineSegments(edges, lineMaterial(0.75, haze));
     this.edges.renderOrder = 4;
     this.group.add(this.edges);
   }

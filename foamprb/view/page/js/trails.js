@@ -2,6 +2,7 @@
 // towards their tails; or whole paths, which do not fade.
 
 import { BufferAttribute, GLSL3, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, RawShaderMaterial, Sphere, Vector2, Vector3 } from "three";
+import { HAZE } from "./shade.js";
 
 const VERTEX = `
 precision highp float;
@@ -11,7 +12,7 @@ in vec2 values;
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform vec2 size;
 uniform float width, tail, now;
-out float across, colourAt, share;
+out float across, colourAt, share, distance;
 void main() {
   gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
   across = position.y;
@@ -28,6 +29,7 @@ void main() {
   vec2 along = (b.xy / b.w - a.xy / a.w) * size;
   along = length(along) > 1e-3 ? normalize(along) : vec2(1.0, 0.0);
   vec4 here = position.x < 0.5 ? a : b;
+  distance = here.w;
   float time = position.x < 0.5 ? from.w : to.w;
   share = now > tail ? clamp((time - tail) / (now - tail), 0.0, 1.0) : 1.0;
   colourAt = position.x < 0.5 ? value.x : value.y;
@@ -37,27 +39,28 @@ void main() {
 
 const FRAGMENT = `
 precision highp float;
-in float across, colourAt, share;
+in float across, colourAt, share, distance;
 uniform sampler2D colours;
 uniform vec3 unknown;
 uniform float opacity, fading;
 out vec4 colour;
+${HAZE}
 void main() {
   vec3 base = colourAt != colourAt || colourAt < -0.5 ? unknown : texture(colours, vec2((clamp(colourAt, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb;
   float edge = 1.0 - smoothstep(0.55, 1.0, abs(across));
-  colour = vec4(base, opacity * edge * mix(1.0, pow(share, 1.5), fading));
+  colour = vec4(hazed(base, distance, 0.3), opacity * edge * mix(1.0, pow(share, 1.5), fading));
 }`;
 
 const NUMBERS = 10;
 
 export class Trails {
-  constructor(data, width) {
+  constructor(data, width, haze) {
     this.data = data;
     this.material = new RawShaderMaterial({
       glslVersion: GLSL3, vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false,
       uniforms: {
         size: { value: new Vector2(1, 1) }, width: { value: width }, tail: { value: -Infinity }, now: { value: 0 },
-        opacity: { value: 0.8 }, fading: { value: 1 }, colours: { value: null }, unknown: { value: new Vector3(0.6, 0.63, 0.66) },
+        opacity: { value: 0.8 }, fading: { value: 1 }, colours: { value: null }, unknown: { value: new Vector3(0.6, 0.63, 0.66) }, haze,
       },
     });
     this.mesh = new Mesh(new InstancedBufferGeometry(), this.material);
