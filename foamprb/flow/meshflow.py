@@ -102,7 +102,7 @@ def _folds(
     return folds, start, rim
 
 
-_LISTS = ("near", "wall_", "seen")
+LISTS = ("near", "wall_", "seen")
 """Prefixes of the names of arrays for lists of walls."""
 AT_ONCE = 1 << 20
 """Number of tetrahedra per chunk when volumes are computed."""
@@ -312,7 +312,7 @@ class MeshFlow:
         fixed: dict[str, Any] = {
             name: place(array)
             for name, array in self._arrays._asdict().items()
-            if isinstance(array, np.ndarray) and not name.startswith(_LISTS)
+            if isinstance(array, np.ndarray) and not name.startswith(LISTS)
         }
         self._arrays = self._arrays._replace(**fixed)
         held = {field.name for field in fields(self.mesh)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import BEYOND, Halo
 from foamprb.flow.mesh.tree import build_tree, pairs_near
-from foamprb.flow.meshflow import AT_ONCE, MeshFlow, end_triangles, shortest_extent
+from foamprb.flow.meshflow import AT_ONCE, LISTS, MeshFlow, end_triangles, shortest_extent
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
 
 
@@ -41,7 +41,6 @@ class PartFlow(MeshFlow):
 
     def __init__(self, halo: Halo, mesh: Mesh, *given: Any, **options: Any) -> None:
         self.halo = halo
-        self._boundary_walls: dict[tuple[int, ...], Walls] = {}
         super().__init__(mesh, *given, **options)
         self._close(*_ends(halo))
         own = halo.part.own
@@ -100,10 +99,19 @@ class PartFlow(MeshFlow):
         ends = self.halo.of_all((boxes[part.own, :3].min(axis=0), boxes[part.own, 3:].max(axis=0)))
         tree.boxes[1, :3] = np.min([low for low, _ in ends], axis=0)
         tree.boxes[1, 3:] = np.max([high for _, high in ends], axis=0)
+        # The walls of all nodes follow, in the order of the whole mesh.
+        rows_here = self._own_triangles(mesh)
+        faces = self._faces_of(mesh, rows_here)
+        self._all_walls = walls = Walls(*_in_order(self.halo, faces, *walls_at(mesh, rows_here)))
+        self._first_wall, count, nodes = n + len(rows), len(walls.patches), len(arrays.nodes)
+        corners = np.zeros((3 * count, 16))
+        corners[:, :3] = walls.corners.reshape(-1, 3)
+        of_walls = np.arange(nodes, nodes + 3 * count, dtype=np.int32).reshape(-1, 3)
         self._arrays = arrays._replace(
-            triangles=np.concatenate([arrays.triangles, triangles]),
-            triangle_patch=patches,
-            triangle_normals=np.concatenate([arrays.triangle_normals, normals]),
+            nodes=np.concatenate([arrays.nodes, corners]),
+            triangles=np.concatenate([arrays.triangles, triangles, of_walls]),
+            triangle_patch=np.concatenate([patches, walls.patches]),
+            triangle_normals=np.concatenate([arrays.triangle_normals, normals, walls.normals]),
             triangle_tet=np.concatenate([arrays.triangle_tet, rows.astype(np.int32)]),
             across=np.concatenate([arrays.across, np.zeros((len(rows), 2), dtype=np.int32)]),
             tree_boxes=tree.boxes,
@@ -132,22 +140,11 @@ class PartFlow(MeshFlow):
 
     def _walls(self, patches: Sequence[int], reach: float) -> tuple[Ints, Walls, Walls | None]:
         """See :meth:`MeshFlow._walls`; the walls of all nodes, in the order of the whole mesh."""
-        mesh, halo, key = self.mesh, self.halo, tuple(sorted(set(patches)))
-        if key not in self._boundary_walls:
-            rows = self._own_triangles(mesh)
-            rows = rows[np.isin(mesh.triangle_patch[rows], key)]
-            found = _in_order(halo, self._faces_of(mesh, rows), *walls_at(mesh, rows))
-            self._boundary_walls[key] = Walls(*found)
-        walls = self._boundary_walls[key]
-        if any(patch.neighbour for patch in self.patches):
-            images = images_of_walls(mesh, walls, reach, self._coupled_boxes())
-            walls = Walls(
-                np.concatenate([walls.corners, images.corners]),
-                np.concatenate([walls.normals, images.normals]),
-                np.concatenate([walls.patches, images.patches]),
-            )
-        nothing = walls.take(slice(0))
-        return np.empty(0, dtype=np.int32), nothing, walls
+        some = np.flatnonzero(np.isin(self._all_walls.patches, patches))
+        walls, names = self._all_walls.take(some), (self._first_wall + some).astype(np.int32)
+        if not any(patch.neighbour for patch in self.patches):
+            return names, walls, None
+        return names, walls, images_of_walls(self.mesh, walls, reach, self._coupled_boxes())
 
     def _coupled_boxes(self) -> dict[int, tuple[Floats, Floats]]:
         """Return the boxes of coupled patches by index."""
@@ -163,9 +160,26 @@ class PartFlow(MeshFlow):
         return found
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """See :meth:`MeshFlow.move`."""
-        super().move(place)
-        self.halo.part = replace(self.halo.part, mesh=self.mesh)
+        """See :meth:`MeshFlow.move`; array by array, so that one at a time is there twice."""
+        # The arrays have further triangles, which the mesh does not know.
+        held = {field.name for field in fields(self.mesh) if not field.name.startswith("triangle")}
+        for name in self._arrays._fields:
+            if isinstance(getattr(self._arrays, name), np.ndarray) and not name.startswith(LISTS):
+                moved: dict[str, Any] = {name: place(getattr(self._arrays, name))}
+                self._arrays = self._arrays._replace(**moved)
+                if name in held:
+                    self.mesh = replace(self.mesh, **moved)
+                    self.halo.part = replace(self.halo.part, mesh=self.mesh)
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """See :meth:`MeshFlow.at_nodes`."""
+        time, u, l = super().at_nodes()
+        n = self.mesh.n_points + self.mesh.n_cells
+        return time, u[:n], l[:n]
+
+    def forget_walls(self) -> None:
+        """Free the lists of walls that :meth:`arrays` returned last."""
+        self._near = None
 
     def numbers_of(self, hosts: NDArray[Any]) -> Labels:
         """Return the numbers of tetrahedra in the whole mesh, (n,); −1 stays −1."""
@@ -231,24 +245,19 @@ class PartFlow(MeshFlow):
         return numbers[chosen], u[rows[chosen]], l[rows[chosen]]
 
     def fastest(self) -> float:
-        """Return the largest velocity over the width of a cell, its volume over its largest face, 1/s."""
+        """Return the largest number of own cells that the fluid passes in a time, 1/s.
+
+        It is the flux through the largest face, as seen from its velocity, over the volume.
+        """
         mesh, part = self.mesh, self.halo.part
-        _, areas = measured(
-            mesh.points,
-            Faces(
-                mesh.face_start,
-                mesh.face_points,
-                mesh.owner,
-                mesh.neighbour,
-                mesh.cell_face_start,
-                mesh.cell_faces,
-            ),
-        )
-        largest = np.maximum.reduceat(
-            np.linalg.norm(areas, axis=1)[mesh.cell_faces], mesh.cell_face_start[:-1]
-        )
-        speeds = np.linalg.norm(self.at_nodes()[1][mesh.n_points :], axis=1)
-        return float((speeds * largest / mesh.volumes)[part.own].max(initial=0.0))
+        of_cells = mesh.cell_face_start, mesh.cell_faces
+        faces = Faces(mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour, *of_cells)
+        areas, u = measured(mesh.points, faces)[1], self.at_nodes()[1][mesh.n_points :]
+        most = np.zeros(mesh.n_cells)
+        for cells in (mesh.owner, mesh.neighbour):
+            passed = np.abs(np.einsum("fi,fi->f", areas[: len(cells)], u[cells]))
+            np.maximum.at(most, cells, passed)
+        return float((most / mesh.volumes)[part.own].max(initial=0.0))
 
     def places_in_whole(self) -> tuple[Ints, Labels, Ints]:
         """Return nodes and first tetrahedra of the cells in the whole mesh, and the first ones here."""

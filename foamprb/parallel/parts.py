@@ -19,6 +19,7 @@ from foamprb.flow.partflow import PartFlow
 from foamprb.flow.read.openfoam import steady_flow
 from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource
+from foamprb.memory import trim
 from foamprb.parallel.shared_memory import Publisher, Windows
 
 
@@ -146,10 +147,13 @@ class Part:
             self._follow()
             return None
         assert self._team is not None
-        flow = steady_flow(PartCase(root, region, self._team, depth), time, source)
+        case = PartCase(root, region, self._team, depth)
+        flow = steady_flow(case, time, source)
+        case.forget()
         assert isinstance(flow, PartFlow)
         self.flow, halo = flow, flow.halo
         flow.move(self._publisher.move)
+        trim()
         self._node.bcast(("done", (None,)))
         u = flow.at_nodes()[1][flow.mesh.n_points :]
         own = halo.part.own
@@ -174,9 +178,9 @@ class Part:
             except InputError as error:
                 self._node.bcast(("failed", (error,)))
                 raise
-            placed = pickle.dumps(
-                self._publisher.publish(Shared(arrays, PlacesInWhole(*self.flow.places_in_whole())))
-            )
+            places = PlacesInWhole(*self.flow.places_in_whole())
+            placed = pickle.dumps(self._publisher.replace(Shared(arrays, places)))
+            self.flow.forget_walls()
             self._node.bcast(("done", (placed,)))
         else:
             placed = self._follow()

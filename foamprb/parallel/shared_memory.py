@@ -114,6 +114,8 @@ class Publisher:
         self._own: dict[tuple[int, tuple[int, ...], str], int] = {}
         """Windows that take the place of their sources, by where they are."""
         self._small = b""
+        self._placed: list[int] = []
+        """Windows filled by the last :meth:`replace`."""
 
     @property
     def size(self) -> int:
@@ -128,6 +130,29 @@ class Publisher:
         moved = self._windows.arrays[key]
         self._own[_where(moved)] = key
         return moved
+
+    def replace(self, tree: Any) -> Any:
+        """Place the arrays in a tuple in shared memory, and free those of the call before.
+
+        Returns
+        -------
+        The tuple with a :class:`Place` for each large array; the arrays themselves are not kept.
+        """
+        before, self._placed = self._placed, []
+
+        def place(leaf: Any) -> Any:
+            if not _is_large(leaf):
+                return leaf
+            key = self._own.get(_where(leaf))
+            if key is None:
+                key = self._fill_new(leaf)
+                self._placed.append(key)
+            return Place(key)
+
+        placed = _map(tree, place)
+        for key in before:
+            self._order("free", key)
+        return placed
 
     def publish(self, tree: Any) -> Any:
         """Make the arrays in a tuple known to all processes; those of the call before are forgotten.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import pickle
 import sys
 import time
@@ -164,6 +165,8 @@ class Worker:
         """Read the flow on the cells of this node; return a summary on its first process."""
         if self._part is not None:
             self._part.close()
+            self._part = None
+            gc.collect()
         self._part = Part(self._MPI, self.windows)
         return self._part.open(root, region, time, source, depth)
 

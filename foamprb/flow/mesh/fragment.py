@@ -7,7 +7,6 @@ nodes that own these. Nobody holds the whole mesh.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import reduce
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -55,59 +54,81 @@ class Fragment(NamedTuple):
     neighbour: Labels
     """(n_faces,) cell; −1 if it is not known, or there is none."""
 
-    def take(self, cells: Mask) -> Fragment:
-        """Return some of the cells, by a mask, with their faces and points."""
-        numbers = self.cells[cells]
-        chosen = np.flatnonzero(np.isin(self.owner, numbers) | np.isin(self.neighbour, numbers))
-        start, found = take_lists(self.start, self.lists, chosen)
-        lists = found.astype(np.int64)
-        held = np.isin(self.points, lists)
-        sides = self.owner[chosen], self.neighbour[chosen]
-        return Fragment(
-            numbers, self.points[held], self.places[held], self.faces[chosen], start, lists, *sides
-        )
+
+def merged(parts: Sequence[Fragment]) -> Fragment:
+    """Return the cells of several fragments."""
+    points, first = np.unique(np.concatenate([part.points for part in parts]), return_index=True)
+    places = np.concatenate([part.places for part in parts])[first]
+    faces = np.concatenate([part.faces for part in parts])
+    order = np.argsort(faces, kind="stable")
+    begins = np.flatnonzero(np.diff(faces[order], prepend=-1))
+    # A face between two fragments has its owner in one of them, and its neighbour in the other.
+    owner, neighbour = (
+        np.maximum.reduceat(np.concatenate(sides)[order], begins) if len(begins) else np.empty(0, np.int64)
+        for sides in ([part.owner for part in parts], [part.neighbour for part in parts])
+    )
+    chosen = order[begins]
+    sizes = np.concatenate([np.diff(part.start) for part in parts])
+    ends = starts(np.array([len(part.lists) for part in parts]))
+    begin = np.concatenate([part.start[:-1] + end for part, end in zip(parts, ends, strict=False)])
+    lists = np.concatenate([part.lists for part in parts])[ragged(begin[chosen], sizes[chosen])]
+    cells = np.sort(np.concatenate([part.cells for part in parts]))
+    return Fragment(cells, points, places, faces[chosen], starts(sizes[chosen]), lists, owner, neighbour)
+
+
+class CellSearch:
+    """Search for cells of a fragment by their points and faces."""
+
+    def __init__(self, own: Fragment) -> None:
+        self.own = own
+        self._lists = np.searchsorted(own.points, own.lists)
+        self._sides = [places_of(own.cells, side) for side in (own.owner, own.neighbour)]
 
     def touching(self, points: Labels) -> Mask:
         """Return True for cells with any of some points, (n_cells,)."""
-        faces = self.faces_with(points)
-        return np.isin(self.cells, np.concatenate([self.owner[faces], self.neighbour[faces]]))
+        cells = np.zeros(len(self.own.cells) + 1, dtype=bool)
+        held = np.isin(self.own.points, points)
+        if held.any():
+            faces = np.logical_or.reduceat(held[self._lists], self.own.start[:-1])
+            for side in self._sides:
+                cells[side[faces]] = True
+        # The last stands for no cell.
+        return cells[:-1]
 
-    def faces_with(self, points: Labels) -> Mask:
-        """Return True for faces with any of some points, (n_faces,)."""
-        if len(self.faces) == 0:
-            return np.empty(0, dtype=bool)
-        held = np.isin(self.points, points)[np.searchsorted(self.points, self.lists)]
-        return np.logical_or.reduceat(held, self.start[:-1])
+    def take(self, cells: Mask) -> Fragment:
+        """Return some of the cells, by a mask, with their faces and points."""
+        own, kept = self.own, np.append(cells, False)
+        here = [kept[side] for side in self._sides]
+        chosen = np.flatnonzero(here[0] | here[1])
+        start, lists = take_lists(own.start, self._lists, chosen)
+        held = np.zeros(len(own.points), dtype=bool)
+        held[lists] = True
+        owner, neighbour = (
+            np.where(inside[chosen], side[chosen], -1)
+            for inside, side in zip(here, (own.owner, own.neighbour), strict=True)
+        )
+        points = own.points[held], own.places[held]
+        return Fragment(
+            own.cells[cells], *points, own.faces[chosen], start, own.points[lists], owner, neighbour
+        )
+
+    def rim(self) -> Labels:
+        """Return the points of the faces with a cell on one side only."""
+        open_ = np.flatnonzero((self.own.owner < 0) | (self.own.neighbour < 0))
+        return np.unique(take_lists(self.own.start, self.own.lists, open_)[1]).astype(np.int64)
 
     def points_of(self, faces: Labels) -> Labels:
         """Return the points of those of some faces that are here."""
-        here = np.flatnonzero(np.isin(self.faces, faces))
-        return np.unique(take_lists(self.start, self.lists, here)[1]).astype(np.int64)
+        here = np.flatnonzero(np.isin(self.own.faces, faces))
+        return np.unique(take_lists(self.own.start, self.own.lists, here)[1]).astype(np.int64)
 
 
-def merged(a: Fragment, b: Fragment) -> Fragment:
-    """Return the cells of two fragments."""
-    points, first = np.unique(np.concatenate([a.points, b.points]), return_index=True)
-    faces, place = np.unique(np.concatenate([a.faces, b.faces]), return_index=True)
-    sides = []
-    for one, other in ((a.owner, b.owner), (a.neighbour, b.neighbour)):
-        side = np.full(len(faces), -1, dtype=np.int64)
-        for part, values in ((a, one), (b, other)):
-            at = np.searchsorted(faces, part.faces)
-            side[at] = np.maximum(side[at], values)
-        sides.append(side)
-    lists = np.concatenate([a.lists, b.lists])
-    sizes = np.concatenate([np.diff(a.start), np.diff(b.start)])
-    begin = np.concatenate([a.start[:-1], len(a.lists) + b.start[:-1]])
-    return Fragment(
-        np.union1d(a.cells, b.cells),
-        points,
-        np.concatenate([a.places, b.places])[first],
-        faces,
-        starts(sizes[place]),
-        lists[ragged(begin[place], sizes[place])],
-        *sides,
-    )
+def places_of(numbers: Labels, wanted: Labels) -> Index:
+    """Return the index of each wanted number in rising ones, −1 for those that are missing."""
+    if len(numbers) == 0:
+        return np.full(len(wanted), -1, dtype=np.intp)
+    at = np.minimum(np.searchsorted(numbers, wanted), len(numbers) - 1)
+    return np.where(numbers[at] == wanted, at, -1)
 
 
 class Grown(NamedTuple):
@@ -122,13 +143,13 @@ class Grown(NamedTuple):
     """Number of layers that were added."""
 
 
-def grow(own: Fragment, team: Team, layers: int, partners: Labels, n_internal: int) -> Grown:
+def grow(pieces: list[Fragment], team: Team, layers: int, partners: Labels, n_internal: int) -> Grown:
     """Add layers of cells around the own cells, which share a point, also across coupled faces.
 
     Parameters
     ----------
-    own
-        The own cells.
+    pieces
+        The own cells; the list is emptied.
     team
         The nodes.
     layers
@@ -138,36 +159,55 @@ def grow(own: Fragment, team: Team, layers: int, partners: Labels, n_internal: i
     n_internal
         Number of faces between cells in the whole mesh.
     """
-    everyone, fragment = range(team.size), own
-    found = [(own.cells, team.rank, 0)]
+    own = merged(pieces)
+    pieces.clear()
+    everyone, search = range(team.size), CellSearch(own)
     sent = np.zeros((team.size, len(own.cells)), dtype=bool)
     sent[team.rank] = True
-    asked = np.empty(0, dtype=np.int64)
+    found = [(own, team.rank, 0)]
 
-    def fetch(points: Labels) -> list[Fragment]:
-        """Return the cells of each node that touch some points, without those that it has sent before."""
+    def fetch(points: Labels, number: int) -> None:
+        """Find the cells of each node that touch some points, without those that it has sent before."""
         parcels = []
         for k, wanted in enumerate(team.exchange([points for _ in everyone])):
-            touched = own.touching(wanted) & ~sent[k]
+            touched = search.touching(wanted) & ~sent[k]
             sent[k] |= touched
-            parcels.append(own.take(touched))
-        return team.exchange(parcels)
+            parcels.append(search.take(touched))
+        pieces = enumerate(team.exchange(parcels))
+        found.extend((piece, k, number) for k, piece in pieces if len(piece.cells))
 
+    # All cells around the other points are own ones.
+    points, asked, crossed = search.rim(), own.points, np.empty(0, dtype=np.int64)
+    latest, cyclic = 0, bool(np.any(partners >= 0))
     for number in range(1, layers + 1):
-        points, asked = np.setdiff1d(fragment.points, asked), fragment.points
-        pieces = fetch(points)
-        fragment = reduce(merged, pieces, fragment)
-        found += [(piece.cells, k, number) for k, piece in enumerate(pieces)]
-        if np.any(partners >= 0):
-            faces = fragment.faces[fragment.faces_with(asked)] - n_internal
-            across = partners[faces[faces >= 0]]
-            asking = team.exchange([across[across >= 0] + n_internal for _ in everyone])
-            answers = team.exchange([own.points_of(wanted) for wanted in asking])
-            pieces = fetch(np.unique(np.concatenate(answers)))
-            fragment = reduce(merged, pieces, fragment)
-            found += [(piece.cells, k, number) for k, piece in enumerate(pieces)]
-    cells = np.concatenate([numbers for numbers, _, _ in found])
-    order = np.argsort(cells)
-    counts = [len(numbers) for numbers, _, _ in found]
+        before, latest = latest, len(found)
+        fetch(points, number)
+        if cyclic:
+            faces = [_cyclic_faces(piece, partners, n_internal, asked) for piece, _, _ in found[before:]]
+            across = np.setdiff1d(
+                n_internal + partners[np.concatenate([asked[:0], *faces]) - n_internal], crossed
+            )
+            crossed = np.union1d(crossed, across)
+            asking = team.exchange([across for _ in everyone])
+            answers = team.exchange([search.points_of(wanted) for wanted in asking])
+            fetch(np.unique(np.concatenate(answers)), number)
+        new = [piece.points for piece, _, _ in found[latest:]]
+        points = np.setdiff1d(np.concatenate([asked[:0], *new]), asked)
+        asked = np.union1d(asked, points)
+    order = np.argsort(np.concatenate([piece.cells for piece, _, _ in found]))
+    counts = [len(piece.cells) for piece, _, _ in found]
     node, layer = (np.repeat(np.array([row[k] for row in found]), counts)[order] for k in (1, 2))
+    parts = [piece for piece, _, _ in found]
+    found.clear()
+    fragment = merged(parts)
     return Grown(fragment, layer.astype(np.uint8), node.astype(np.int32), layers)
+
+
+def _cyclic_faces(part: Fragment, partners: Labels, n_internal: int, points: Labels) -> Labels:
+    """Return the faces of cyclic patches that have any of some points."""
+    outer = np.flatnonzero(part.faces >= n_internal)
+    outer = outer[partners[part.faces[outer] - n_internal] >= 0]
+    if len(outer) == 0:
+        return part.faces[:0]
+    start, lists = take_lists(part.start, part.lists, outer)
+    return part.faces[outer[np.logical_or.reduceat(np.isin(lists, points), start[:-1])]]

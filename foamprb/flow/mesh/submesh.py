@@ -16,9 +16,9 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Patch
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
 from foamprb.flow.mesh.coupling import Coupling, couple
-from foamprb.flow.mesh.fragment import Grown, Labels, Team
+from foamprb.flow.mesh.fragment import Grown, Labels, Team, places_of
 from foamprb.flow.mesh.geometry import faces_of
-from foamprb.flow.mesh.lists import Index, int32, ragged, starts
+from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
 from foamprb.flow.mesh.mesh import Mesh, assemble
 
 CUT = PatchSurface("(cut)", "processor", None)
@@ -72,7 +72,7 @@ def partners_of(patches: Sequence[PatchSurface], patch_start: Index) -> Labels:
 
 
 def assemble_part(
-    grown: Grown,
+    pieces: list[Grown],
     patches: Sequence[PatchSurface],
     patch_start: Index,
     n_internal: int,
@@ -83,8 +83,8 @@ def assemble_part(
 
     Parameters
     ----------
-    grown
-        Its cells.
+    pieces
+        Its cells; the list is emptied, to free them early.
     patches, patch_start
         Patches of the whole mesh, and the first boundary face of each.
     n_internal
@@ -92,43 +92,52 @@ def assemble_part(
     team, source
         The nodes; the name of the mesh for messages.
     """
-    f = grown.fragment
-    owner, neighbour = (_places(f.cells, side) for side in (f.owner, f.neighbour))
-    inside = (owner >= 0) & (neighbour >= 0)
-    outside = f.faces >= n_internal
-    order = np.concatenate([np.flatnonzero(m) for m in (inside, outside, ~inside & ~outside)])
-    turned = owner[order] < 0
-    sizes = np.diff(f.start)[order]
-    begin = f.start[:-1][order]
-    within = ragged(np.zeros(len(order), dtype=np.intp), sizes)
-    size_of, turn_of = np.repeat(sizes, sizes), np.repeat(turned, sizes)
-    within = np.where(turn_of, -within % size_of, within)
-    lists = np.searchsorted(f.points, f.lists[np.repeat(begin, sizes) + within])
-    owner = np.where(turned, neighbour[order], owner[order])
-    n_inside, boundary = int(inside.sum()), f.faces[outside] - n_internal
-    ends = np.concatenate([np.searchsorted(boundary, patch_start), [len(order) - n_inside]])
-    faces = faces_of(
-        int32(starts(sizes)), int32(lists), int32(owner), int32(neighbour[order[:n_inside]]), len(f.cells)
-    )
-    poly = PolyMesh(f.places, faces, [*patches, CUT], ends)
-    own = grown.layer == 0
-    local = _LocalCoupling(team, patch_start, boundary, own[owner[n_inside : n_inside + len(boundary)]])
+    poly, numbers, own_faces, cells = _local_poly(pieces.pop(), patches, patch_start, n_internal)
+    n_points, boundary = len(poly.points), numbers[2][len(poly.faces.neighbour) :][: len(own_faces)]
+    local = _LocalCoupling(team, patch_start, boundary - n_internal, own_faces)
     mesh = assemble(poly, source, local)
-    if max(team.exchange([len(mesh.points) - len(f.points)] * team.size)) > 0:
+    if max(team.exchange([len(mesh.points) - n_points] * team.size)) > 0:
         raise InputError(
             f"{source}: the mesh has baffles, walls without thickness between cells, which cannot yet be "
             "distributed over computers. Run reconstructPar, or use one computer."
         )
     patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
-    mesh = replace(mesh, triangle_patch=patch)
+    layer, node, layers = cells
+    return SubMesh(replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, layers - RINGS)
+
+
+def _local_poly(
+    grown: Grown, patches: Sequence[PatchSurface], patch_start: Index, n_internal: int
+) -> tuple[PolyMesh, tuple[Labels, Labels, Labels], Mask, tuple[NDArray[Any], NDArray[Any], int]]:
+    """Return points, faces and patches of the cells of a node.
+
+    Returns
+    -------
+    The mesh; the numbers of cells, points and faces in the whole; which of the boundary faces of the whole
+    mesh belong to own cells; layer and node of the cells, and the number of layers.
+    """
+    f = grown.fragment
+    owner, neighbour = (places_of(f.cells, side) for side in (f.owner, f.neighbour))
+    inside = (owner >= 0) & (neighbour >= 0)
+    outside = f.faces >= n_internal
+    order = np.concatenate([np.flatnonzero(m) for m in (inside, outside, ~inside & ~outside)])
+    n_inside, n_outside = int(inside.sum()), int(outside.sum())
+    turned, sizes = owner[order] < 0, np.diff(f.start)[order]
+    places = ragged(np.zeros(len(order), dtype=np.intp), sizes)
+    back = np.repeat(turned, sizes)
+    places[back] = (-places % np.repeat(sizes, sizes))[back]
+    places += np.repeat(f.start[:-1][order], sizes)
+    lists = int32(np.searchsorted(f.points, f.lists[places]))
+    del places, back
+    owner = np.where(turned, neighbour[order], owner[order])
+    ends = np.searchsorted(f.faces[outside] - n_internal, patch_start)
+    faces = faces_of(
+        int32(starts(sizes)), lists, int32(owner), int32(neighbour[order[:n_inside]]), len(f.cells)
+    )
+    poly = PolyMesh(f.places, faces, [*patches, CUT], np.append(ends, len(order) - n_inside))
+    own = (grown.layer == 0)[owner[n_inside : n_inside + n_outside]]
     numbers = f.cells, f.points, f.faces[order]
-    return SubMesh(mesh, *numbers, grown.layer, grown.node, n_internal, grown.layers - RINGS)
-
-
-def _places(numbers: Labels, wanted: Labels) -> Index:
-    """Return the index of each wanted number, −1 for those that are missing."""
-    at = np.minimum(np.searchsorted(numbers, wanted), max(len(numbers) - 1, 0))
-    return np.where(numbers[at] == wanted, at, -1)
+    return poly, numbers, own, (grown.layer, grown.node, grown.layers)
 
 
 class _LocalCoupling:
@@ -183,7 +192,7 @@ class _LocalCoupling:
             both[:, np.searchsorted(faces, numbers)] = values
         start = np.concatenate([starts(counts), [len(faces)]])
         named, found = couple(patches, start, both[0], both[1], surfaces, source)
-        here = [_places(self._boundary, faces[side]) for c in found for side in (c.faces, c.partners)]
+        here = [places_of(self._boundary, faces[side]) for c in found for side in (c.faces, c.partners)]
         kept = []
         for k, coupling in enumerate(found):
             pairs = (here[2 * k] >= 0) & (here[2 * k + 1] >= 0)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import reduce
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import Transform
-from foamprb.flow.mesh.fragment import Team, grow, merged
+from foamprb.flow.mesh.fragment import Team, grow
 from foamprb.flow.mesh.submesh import CUT, RINGS, Halo, assemble_part, partners_of
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
 from foamprb.flow.read.case import MissingFieldError, mesh_files
@@ -29,6 +28,7 @@ from foamprb.flow.read.processors import (
     read_pieces,
     whole_patches,
 )
+from foamprb.memory import trim
 
 REMEDY = "Run reconstructPar, or use one computer."
 _REFUSED = frozenset(
@@ -56,6 +56,7 @@ class PartCase(DecomposedCase):
     def __init__(self, root: Path, region: str, team: Team, depth: int) -> None:
         super().__init__(root, region)
         self._team, self._depth = team, depth
+        self._whole: CaseMesh | None = None
         ends = np.linspace(0, self.processors.n, team.size + 1).astype(int)
         self.processors.chosen = range(ends[team.rank], ends[team.rank + 1])
 
@@ -63,6 +64,8 @@ class PartCase(DecomposedCase):
         """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`."""
         team, folder = self._team, self.mesh_folder(time)
         files = mesh_files(self._first, time, self.region)
+        if self._whole is not None and files == self._files:
+            return self._whole
         pieces = read_pieces(self.processors, files, self.root)
         parts = read_addresses(self.processors, files[1].parent, pieces)
         if parts is None:
@@ -87,11 +90,14 @@ class PartCase(DecomposedCase):
                 )
         most = max(int(part.faces.max(initial=-1)) for part in parts)
         n_internal = 1 + max(team.exchange([most] * team.size)) - int(self._ranges[-1])
-        own = reduce(merged, [fragment_of(piece, part) for piece, part in zip(pieces, parts, strict=True)])
+        fragments = [fragment_of(piece, part) for piece, part in zip(pieces, parts, strict=True)]
         del pieces
         surfaces, ranges = patches_of_mesh(self._patches), self._ranges.astype(np.intp)
-        grown = grow(own, team, self._depth + RINGS, partners_of(surfaces, ranges), n_internal)
+        partners = partners_of(surfaces, ranges)
+        grown = [grow(fragments, team, self._depth + RINGS, partners, n_internal)]
+        trim()
         part = assemble_part(grown, surfaces, ranges, n_internal, team, str(folder))
+        trim()
         self.halo, mesh = Halo(part, team), part.mesh
         counts, first = np.diff(mesh.patch_start).tolist(), (mesh.n_internal + mesh.patch_start).tolist()
         infos = [*self._patches, PatchInfo(CUT.name, CUT.type, 0, 0, "", Transform(), {})]
@@ -99,15 +105,19 @@ class PartCase(DecomposedCase):
         self._local = patches
         require_volumes(mesh, folder)
         require_patch_shapes(mesh, folder)
-        return CaseMesh(mesh, patches, tuple(notes_of_types(patches)))
+        self._whole, self._files = CaseMesh(mesh, patches, tuple(notes_of_types(patches))), files
+        return self._whole
+
+    def forget(self) -> None:
+        """Free the mesh that was read."""
+        self._whole = None
 
     def field(self, time: str, name: str, kind: Kind) -> FoamField:
         """Read a field at a time; see :meth:`~foamprb.flow.read.openfoam.Case.field`."""
         files = self.processors.files(Path(time) / self.region / name)
         if files is None:
             raise MissingFieldError(f"{self.folder(time) / name}: no such file.")
-        if self.halo is None:
-            self.mesh(time)
+        self.mesh(time)
         assert self.halo is not None
         fields = [
             checked(read_field(file, kind, self.root), part)

@@ -10,7 +10,7 @@ from threads_team import together
 from foamprb.compile.link import link
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
-from foamprb.flow.mesh.fragment import Fragment, grow
+from foamprb.flow.mesh.fragment import CellSearch, Fragment, grow
 from foamprb.flow.mesh.geometry import faces_of
 from foamprb.flow.mesh.mesh import assemble, build_mesh
 from foamprb.flow.mesh.submesh import RINGS, Halo, assemble_part, partners_of, total_of
@@ -41,12 +41,10 @@ def poly_of(mesh):
 
 def part_of(poly, cells, team, layers):
     """The sub-mesh of a node that owns some cells and does not know what lies beyond them."""
-    own = whole_of(poly).take(cells)
-    known = [np.where(np.isin(side, own.cells), side, -1) for side in (own.owner, own.neighbour)]
-    own = own._replace(owner=known[0], neighbour=known[1])
+    own = CellSearch(whole_of(poly)).take(cells)
     n = len(poly.faces.neighbour)
-    grown = grow(own, team, layers, partners_of(poly.patches, poly.patch_start), n)
-    return assemble_part(grown, poly.patches, poly.patch_start, n, team, "mesh")
+    grown = grow([own], team, layers, partners_of(poly.patches, poly.patch_start), n)
+    return assemble_part([grown], poly.patches, poly.patch_start, n, team, "mesh")
 
 
 def gaps_at(arrays, points, hosts, R):
