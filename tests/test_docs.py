@@ -25,6 +25,13 @@ def test_links_lead_to_files():
     assert not [(page.name, t) for page in PAGES for t in targets(page) if not (page.parent / t).exists()]
 
 
+def test_sections_link_every_page():
+    sections = [ROOT / "docs" / f"{name}.md" for name in ("how-to", "evidence")]
+    sections += [page for page in PAGES if page.stem == "index"]
+    known = {(page.parent / t).resolve() for page in sections for t in targets(page)}
+    assert {page for page in PAGES if page not in sections} <= known
+
+
 def test_pages_of_models_name_the_cases_that_check_them():
     faults = {}
     for page in MODELS:

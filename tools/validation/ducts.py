@@ -64,7 +64,7 @@ def _own(rate: float, times: Floats) -> Floats:
 
 
 def focusing(quick: bool) -> Outcome:
-    """Focusing in a plane channel."""
+    """Focusing in plane channel."""
     (place,) = balances(PLANE_CHANNEL)
     table = hinges(PLANE_CHANNEL)
     rows = [

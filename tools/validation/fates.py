@@ -24,7 +24,7 @@ def _carried(p: Particles, flow: Flow, dt: float, fates: Fates) -> Particles:
 
 
 def limits(quick: bool) -> Outcome:
-    """Rupture and release in an extension."""
+    """Rupture and release."""
     dt = 1e-3 if quick else 1e-4
     flow = analytic.linear(np.diag([RATE, -0.5 * RATE, -0.5 * RATE]))
     stress = MU * np.sqrt(3.0) * RATE

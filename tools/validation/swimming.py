@@ -46,7 +46,7 @@ def expected(t: float, molecules: bool) -> float:
 
 
 def swimmers(quick: bool) -> Outcome:
-    """Mean square displacement, and Jeffery's turning."""
+    """Diffusion of swimmers."""
     n, dt = (1000, 2e-2) if quick else (10000, 2e-3)
     rows = []
     for molecules, name in ((True, "BrownianMotion"), (False, "rotationalDiffusivity")):

@@ -121,7 +121,7 @@ def _sink(quick: bool) -> tuple[list[Row], Figure]:
 
 
 def carriers(quick: bool) -> Outcome:
-    """Soft bodies in shear-thinning fluids."""
+    """Shear-thinning fluids."""
     rows = [
         Row(
             f"BirdCarreau of blood, γ̇ = {rate:g} 1/s: μ_f [Pa s]",
