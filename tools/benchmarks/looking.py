@@ -2,7 +2,7 @@
 
 A run of particles in a pipe writes the results into a temporary folder, 1e5 particles at 51 times 2.2 GB.
 
-    python tools/benchmarks/looking.py -n 100000 -times 51
+    PYTHONPATH=tools python tools/benchmarks/looking.py -n 100000 -times 51
 """
 
 from __future__ import annotations
