@@ -8,17 +8,19 @@ from foamprb.cloud.state import Status
 from foamprb.results.atomic import write_text
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.vtk import write_triangles
+from foamprb.view.colours import LIGHT, colour_map, rgb
 from foamprb.view.geometry import FLAT_TYPES
-from foamprb.view.scene import VIEW_ANGLE, Scene
+from foamprb.view.scene import VIEW_ANGLE, Scene, anchor
 
 __all__ = ["write_state"]
 
 _ASPECT = 4 / 3
 """Ratio of width to height for which the camera shows the whole scene."""
 
+_PALETTE = ("paper", "ink", "soft", "glass")
 _TEXT = """\
 # State of ParaView 5.11 or newer, by foamprb paraview: File > Load State, or paraview --script=THIS_FILE.
-# Shows the deformed bodies of the cloud, enlarged, the walls, and the paths of particleTracks.
+# Shows the scene of foamprb view: deformed bodies, enlarged, the walls, and the paths of particleTracks.
 from pathlib import Path
 
 from paraview import simple
@@ -27,6 +29,11 @@ CLOUD = {cloud!r}
 TIME = {time!r}
 ENLARGEMENT = {enlargement!r}
 COLOURS = {colours!r}
+# Position on the range of the colours, red, green and blue.
+MAP = {map!r}
+TITLE, CAPTION = {title!r}, {caption!r}
+NAMES = {names!r}
+PAPER, INK, SOFT, GLASS = {palette!r}
 POSITION, FOCUS, UP = {position!r}, {focus!r}, {up!r}
 # More bodies than this are drawn by the graphics card as copies of one sphere, from semiAxes and orientation.
 # Fewer bodies are made one by one from glyph, so that a point of the surface keeps its place on the body.
@@ -35,6 +42,12 @@ MANY = 20000
 # ParaView runs this text without the name of its file.
 folder = Path(globals().get("__file__", {file!r})).resolve().parent
 view = simple.GetActiveViewOrCreate("RenderView")
+view.UseColorPaletteForBackground, view.Background = 0, PAPER
+# From the upper left behind the camera.
+view.UseLight = 0
+light = simple.CreateLight()
+light.Coords, light.Position, light.FocalPoint = "Camera", [-0.35, 0.6, 0.72], [0, 0, 0]
+view.AdditionalLights = light
 
 series = simple.PVDReader(registrationName=CLOUD, FileName=str(folder / (CLOUD + ".pvd")))
 scene = simple.GetAnimationScene()
@@ -77,27 +90,55 @@ if bodies is not cloud:
     bodies.ScaleFactor = ENLARGEMENT
     shown = simple.Show(bodies, view)
     bodies.ScaleFactor = ENLARGEMENT
+shown.Ambient, shown.Diffuse, shown.Specular, shown.SpecularPower = 0.36, 0.68, 0.25, 40.0
 simple.ColorBy(shown, ("POINTS", "taylorDeformation"))
-simple.GetColorTransferFunction("taylorDeformation").RescaleTransferFunction(*COLOURS)
+colours = simple.GetColorTransferFunction("taylorDeformation")
+colours.ColorSpace = "RGB"
+colours.RGBPoints = [number for row in MAP for number in row]
+colours.RescaleTransferFunction(*COLOURS)
 shown.SetScalarBarVisibility(view, True)
+bar = simple.GetScalarBar(colours, view)
+bar.Title, bar.ComponentTitle, bar.Orientation = "Taylor deformation", "", "Horizontal"
+bar.WindowLocation, bar.Position, bar.ScalarBarLength = "Any Location", [0.03, 0.04], 0.28
+bar.TitleColor = bar.LabelColor = INK
+bar.TitleFontSize = bar.LabelFontSize = 14
 
-for file in [folder / "walls.vtp", *sorted(folder.glob("*/tracks.vtp"))]:
-    name = "walls" if file.parent == folder else "paths"
+files = [("walls", folder / "walls.vtp"), ("near walls", folder / "walls.vtp")]
+for name, file in [*files, *(("paths", file) for file in sorted(folder.glob("*/tracks.vtp")))]:
     reader = simple.XMLPolyDataReader(registrationName=name, FileName=[str(file)])
     drawn = simple.Show(reader, view)
     # ColorBy(drawn, None) fails where nothing was coloured before.
     drawn.ColorArrayName = [None, ""]
-    drawn.Opacity = 0.15 if name == "walls" else 0.3
+    if name == "paths":
+        drawn.AmbientColor = drawn.DiffuseColor = INK
+        drawn.Opacity = 0.3
+        continue
+    # The far side is opaque, the near side almost transparent.
+    drawn.AmbientColor = drawn.DiffuseColor = GLASS
+    drawn.Ambient, drawn.Diffuse = 0.8, 0.22
+    drawn.BackfaceRepresentation = "Cull Frontface" if name == "walls" else "Cull Backface"
+    drawn.Opacity = 1.0 if name == "walls" else 0.1
 
-text = "bodies drawn %.3g times larger" % ENLARGEMENT
-note = simple.Text(registrationName="enlargement", Text=text)
-simple.Show(note, view).WindowLocation = "Lower Left Corner"
+for name, place in NAMES:
+    label = simple.Show(simple.Text(registrationName="name of " + name, Text=" " + name + " "), view)
+    label.TextPropMode, label.BillboardPosition = "Billboard 3D Text", place
+    label.Color, label.FontSize = SOFT, 12
+for name, text, corner in (("title", TITLE, "Upper Left"), ("enlargement", CAPTION, "Upper Right")):
+    note = simple.Show(simple.Text(registrationName=name, Text=text), view)
+    note.WindowLocation, note.Color, note.FontSize = corner + " Corner", INK, 14
+    note.Justification = corner.split()[1]
 # ParaView moves the camera at the first rendering.
 simple.Render(view)
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = POSITION, FOCUS, UP
 view.CameraViewAngle = {angle!r}
 simple.Render(view)
 """
+
+
+def _colours(scene: Scene) -> list[tuple[float, ...]]:
+    """Return the colours of the page: places from 0 to 1, and red, green and blue."""
+    table = colour_map(scene.map_name) / 255.0
+    return [(k / 255.0, *map(float, np.round(table[k], 4))) for k in range(0, 256, 15)]
 
 
 def write_state(folder: ResultsFolder, scene: Scene) -> None:
@@ -110,14 +151,26 @@ def write_state(folder: ResultsFolder, scene: Scene) -> None:
     """
     camera = scene.camera
     surfaces = scene.geometry.surfaces if scene.geometry is not None else ()
-    corners = [s.points[s.triangles] for s in surfaces if s.type not in FLAT_TYPES]
+    drawn = [s for s in surfaces if s.type not in FLAT_TYPES]
+    corners = [s.points[s.triangles] for s in drawn]
+    position = camera.focus + camera.distance(_ASPECT) * camera.towards
     write_triangles(folder.walls, np.concatenate([np.empty((0, 3, 3)), *corners]))
     values = {
         "cloud": folder.cloud,
         "time": float(scene.bodies.times[scene.first]),
         "enlargement": float(scene.enlargement),
         "colours": tuple(map(float, scene.limits)),
-        "position": (camera.focus + camera.distance(_ASPECT) * camera.towards).tolist(),
+        "map": _colours(scene),
+        "title": "\n".join(filter(None, (scene.title, scene.groups))),
+        "caption": f"bodies drawn {scene.enlargement:.3g}x larger"
+        if scene.enlargement != 1.0
+        else "to scale",
+        # In front of the surfaces, which would hide them.
+        "names": [(s.name, (0.9 * anchor(s, camera) + 0.1 * position).tolist()) for s in drawn],
+        "palette": tuple(
+            [c / 255 for c in rgb(name)] for name in (LIGHT.paper, LIGHT.ink, LIGHT.soft, LIGHT.glass)
+        ),
+        "position": position.tolist(),
         "focus": camera.focus.tolist(),
         "up": camera.up.tolist(),
         "angle": VIEW_ANGLE,

@@ -108,7 +108,8 @@ def test_copies_of_one_sphere_look_as_the_bodies_do(tmp_path: Path) -> None:
             state,
             "view = simple.GetActiveView()\n"
             "view.OrientationAxesVisibility = 0\n"
-            "simple.Hide(simple.FindSource('enlargement'), view)\n"
+            "for name in ('title', 'enlargement'):\n"
+            "    simple.Hide(simple.FindSource(name), view)\n"
             "for source in simple.GetSources().values():\n"
             "    if simple.GetDisplayProperties(source, view).Visibility:\n"
             "        simple.GetDisplayProperties(source, view).SetScalarBarVisibility(view, False)\n"
