@@ -27,8 +27,8 @@ from foamprb.settings.solution import StartFrom
 log = logging.getLogger("foamprb")
 
 _ROUND_OFF = 1e-9
-_PAUSE = 0.1
-"""Time between two looks at the case, s."""
+_PAUSE, _LONG_PAUSE, _SHARE = 0.1, 1.0, 0.02
+"""Shortest and longest time between two looks at the case, s; and its share of the time waited so far."""
 _FIRST_LINE, _LONGEST = 5.0, 3600.0
 """Wait before the first line in the log, s; the time between lines doubles, up to the longest."""
 
@@ -223,4 +223,4 @@ def wait(
         if waited > next_line:
             log.info("Waiting for %s", what)
             next_line += min(next_line, _LONGEST)
-        clock.sleep(_PAUSE)
+        clock.sleep(min(_LONG_PAUSE, max(_PAUSE, _SHARE * waited)))

@@ -274,21 +274,23 @@ class FollowedCase:
 
     def _is_settled(self, name: str, before: Sequence[str]) -> bool:
         """Return whether the files of a time have not changed for a while, and are whole."""
-        files = [path for root in self._roots for path in sorted((root / name / self._region).iterdir())]
-        state = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in files]
+        folders = [root / name / self._region for root in self._roots]
+        try:
+            files = [path for folder in folders for path in sorted(folder.iterdir())]
+            state = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in files]
+        except FileNotFoundError:
+            # The solver has not come to the region, or renames a file.
+            return False
         if state != self._seen[0]:
             age = max(0.0, clock.time() - 1e-9 * max((changed for *_, changed in state), default=0.0))
             self._seen = state, clock.monotonic() - age
         quiet = clock.monotonic() - self._seen[1]
         if quiet < _QUIET:
             return False
-        known = [self._place(self._roots[0]) / time for time in before]
         # The fields of a time that the solver did not write are others.
-        expected = {
-            path.name
-            for time in known
-            for path in ((time / self._region).iterdir() if (time / "uniform/time").exists() else ())
-        }
+        known = [self._place(self._roots[0]) / time for time in before]
+        known = [time / self._region for time in known if (time / "uniform/time").exists()]
+        expected = {path.name for folder in known if folder.is_dir() for path in folder.iterdir()}
         there = {path.name for path in files}
         return quiet >= _CERTAIN or (expected <= there and all(map(_is_whole, files)))
 

@@ -182,6 +182,18 @@ def test_times_of_processors_are_those_of_all(case):
     assert (case / "flow/processor1/constant").samefile(case / "processor1/constant")
 
 
+def test_last_time_needs_the_region(case):
+    write(case / "0.3", "U")
+    write(case / "0.4", "U")
+    flow = followed(case, region="water")
+    assert (flow.times, flow.ended) == (["0", "0.3"], False)
+    (case / "0.4/water").mkdir()
+    (case / "0.4/water/U").write_text("U //")
+    flow.look()
+    flow.look()
+    assert (flow.times, flow.ended) == (["0", "0.3", "0.4"], True)
+
+
 def test_nothing_but_links_is_removed(case):
     followed(case)
     (case / "flow/notes").touch()
