@@ -72,7 +72,7 @@ class Page:
         self.scene = scene
         bodies, geometry = scene.bodies, scene.geometry
         shown = [geometry.points] if geometry is not None else []
-        shown += [bodies.x[bodies.present]]
+        shown += [bodies.x[bodies.present], scene.edges]
         shown += [scene.paths.points] if scene.paths is not None else []
         shown += [scene.painting.places] if scene.painting is not None else []
         low, high = encode.bounds(*shown)
@@ -186,10 +186,9 @@ class Page:
     def _surroundings(self, grid: Grid) -> dict[str, Any]:
         scene, geometry = self.scene, self.scene.geometry
         surfaces = geometry.surfaces if geometry is not None else ()
-        edges = geometry.edges.reshape(-1, 3) if geometry is not None else np.zeros((0, 3))
         return {
             "surfaces": [self._surface(surface, grid) for surface in surfaces],
-            "edges": self._add(encode.pack_points(edges, grid)),
+            "edges": self._add(encode.pack_points(scene.edges.reshape(-1, 3), grid)),
             "flow": None if scene.flowfield is None else self._flow(scene.flowfield, grid),
             "paths": self._paths(grid),
             "painting": None if scene.painting is None else self._painting(scene.painting, grid),

@@ -484,6 +484,9 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool, off
     drawing = Drawing(plotter, scene, texts, style, scale)
     if scene.geometry is not None:
         drawing.painted = draw_geometry(plotter, scene.geometry, style, scene.painting)
+    if len(scene.edges):
+        lines = pyvista.line_segments_from_points(scene.edges.reshape(-1, 3))
+        plotter.add_mesh(lines, color=style.edge, line_width=1.0, lighting=False, **_LATER)
     if scene.flowfield is not None:
         draw_flow(plotter, scene.flowfield, style)
     if texts:
@@ -529,7 +532,7 @@ def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: lis
 def draw_geometry(
     plotter: Any, geometry: Geometry, style: Style, painting: Painting | None = None
 ) -> list[Any]:
-    """Draw the far side of walls, the near side and other patches almost transparent, and the edges.
+    """Draw the far side of walls, and the near side and other patches almost transparent.
 
     Returns
     -------
@@ -556,9 +559,6 @@ def draw_geometry(
             plotter.add_mesh(mesh, culling="front", ambient=0.8, diffuse=0.22, specular=0.0, **more)
         else:
             plotter.add_mesh(mesh, color=style.accent, opacity=0.07, ambient=1.0, diffuse=0.0, **more)
-    if len(geometry.edges):
-        lines = pyvista.line_segments_from_points(geometry.edges.reshape(-1, 3))
-        plotter.add_mesh(lines, color=style.edge, line_width=1.0, lighting=False, **_LATER)
     return painted
 
 

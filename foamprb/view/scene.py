@@ -160,6 +160,18 @@ class Scene:
         return extremes_of(self.bodies, *self.colour) or self.limits
 
     @cached_property
+    def edges(self) -> Floats:
+        """Edges of the geometry, or without it of a box around all bodies, (e, 2, 3), m."""
+        if self.geometry is not None:
+            return self.geometry.edges
+        ends = np.array(box(None, self.bodies))
+        corners = list(itertools.product((0, 1), repeat=3))
+        pairs = [
+            (a, b) for a, b in itertools.combinations(corners, 2) if np.abs(np.subtract(a, b)).sum() == 1
+        ]
+        return np.asarray(ends[np.array(pairs), range(3)])
+
+    @cached_property
     def trail(self) -> float:
         """Time that a fading trail covers, s; zero if the speeds are not known."""
         bodies, field = self.bodies, self.bodies.fields.get("U")

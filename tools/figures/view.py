@@ -47,8 +47,10 @@ CHOOSE = """
     };
 """
 SHOTS = (
-    Shot("view.png", 1280, 760, "light", ""),
-    Shot("view-dark.png", 1280, 760, "dark", f"{CHOOSE} foamprb.eye.zoom(0.28, 520, 360); choose(0.6, 0.5);"),
+    Shot("view.png", 1440, 900, "light", ""),
+    Shot(
+        "view-dark.png", 1440, 900, "dark", f"{CHOOSE} foamprb.eye.zoom(0.35, 620, 330); choose(0.62, 0.5);"
+    ),
     Shot("view-phone.png", 390, 780, "light", f"{CHOOSE} choose(0.5, 0.4);"),
 )
 
