@@ -103,28 +103,18 @@ def test_targets_know_their_sense():
 class TestProjection:
     def test_spheres_on_the_vertical_land_after_their_fall(self):
         """The paper's: 0.2327 s from 0.45 mm above the wall, so 1.93 mm/s; at most 4.2 mm to fall."""
-        times, _ = projection.lifetimes(20_000)
+        times = projection.lifetimes(20_000).life
         assert (times > 0.0).all()
         assert times.max() <= 2.0 * projection.RADIUS / (0.45e-3 / 0.2327)
         # Without falling, a particle on the axis needs L/(2 U).
         assert times.min() < projection.LENGTH / (2.0 * projection.MEAN) < times.max()
 
     def test_no_node_waits_when_all_have_the_same(self):
-        same = np.full(8000, projection.END)
-        assert projection.shared_statically(same, 10, 1.0).slowest == pytest.approx(1.0)
-        balance = projection.shared_dynamically(same, 10, 8, 0.0, 1.0)
-        assert balance.slowest == pytest.approx(1.0)
-        assert balance.moved == 0.0
+        assert projection.shared_by_number(np.full(8000, projection.END), 10, 1.0) == pytest.approx(1.0)
 
-    def test_chunks_are_taken_from_the_one_who_has_most(self):
-        """Two nodes, one with four chunks of 1 s and one with four of nothing: half of the work moves."""
-        end, stolen = projection._steal(np.array([[1.0] * 4, [0.0] * 4]), 0.0)
-        assert end == 2.0
-        assert stolen == 2
-
-    def test_finer_chunks_balance_better(self):
-        life, angle = projection.lifetimes(64_000)
-        by_place = life[np.argsort(angle)]
-        static = projection.shared_statically(by_place, 20, 1.0).slowest
-        few, many = (projection.shared_dynamically(by_place, 20, k, 0.0, 1.0).slowest for k in (4, 64))
-        assert 1.0 <= many < few < static
+    def test_particles_that_enter_together_are_the_work_of_few_nodes(self):
+        sample = projection.lifetimes(20_000)
+        assert projection.shared_by_place(sample, 1, 1) == 1.0
+        assert (
+            1.0 < projection.shared_by_place(sample, 4, 1) < projection.shared_by_place(sample, 20, 1) < 20.0
+        )

@@ -1,8 +1,8 @@
-"""Projected cost of a billion particles on a thousand nodes: a model with measured constants.
+"""Projected cost of a billion particles in a large mesh on a thousand nodes: a model with measured constants.
 
 Constants of foamprb are read from ``performance.csv`` (``tools/benchmark`` makes it); those of the cluster
-are assumed and listed. The load balance is simulated with the times at which rigid spheres land in or leave
-the paper's pipe. Writes ``projection.md`` and, with matplotlib, ``projection.png``.
+are assumed and listed. The load balance is simulated with the paths of rigid spheres in the paper's pipe.
+Writes ``projection.md`` and, with matplotlib, ``projection.png``.
 
     python tools/figures/projection.py --output docs
 """
@@ -10,7 +10,6 @@ the paper's pipe. Writes ``projection.md`` and, with matplotlib, ``projection.pn
 from __future__ import annotations
 
 import argparse
-import heapq
 import subprocess
 import sys
 import tempfile
@@ -31,7 +30,18 @@ from foamprb.results.tables import write_table
 RADIUS, LENGTH, WALL_RATE, GRAVITY = 2.1e-3, 0.75, 923.8, 9.81
 D, RHO_S, MU_F, RHO_F = 5e-6, 2560.0, 1.208 * 1.491e-5, 1.208
 MEAN = WALL_RATE * RADIUS / 4
-CELLS = 10_000_000
+CELLS = 200_000_000
+PREPARED, BALANCED = 2300.0, 300.0
+"""Bytes for each cell that a node holds while it prepares the flow, and of the whole mesh on the first node;
+measured with 5e5 cells on four nodes."""
+RINGS = 5
+"""Layers of cells around those of a node."""
+PAUSE = 2e-3
+"""Time of an exchange between nodes beside the data, s: two barriers with pauses of up to 1 ms."""
+EVERY = 40
+"""Steps between two exchanges."""
+TIMES = 200
+"""Times at which the places of particles are evaluated."""
 END, INTERVALS = 2.0, 20
 _SAMPLE = 1_000_000
 TEMPLATE = Path(__file__).with_suffix(".md.in")
@@ -45,7 +55,6 @@ class Cluster:
     cores: int = 64  # per node
     memory: float = 256e9  # bytes per node
     link: float = 10e9  # bytes per second and node
-    latency: float = 20e-6  # seconds to ask for and be given a chunk, over the network
     disk: float = 200e9  # bytes per second of the parallel file system, all nodes together
     per_node_disk: float = 2e9  # bytes per second that one node writes
     metadata: float = 20e3  # operations per second of its metadata server
@@ -56,7 +65,6 @@ MEANING = {
     "cores": "cores per node",
     "memory": "memory per node, bytes",
     "link": "network per node, bytes/s",
-    "latency": "latency of a chunk of particles, s",
     "disk": "parallel file system, all nodes together, bytes/s",
     "per_node_disk": "the same for one node, bytes/s",
     "metadata": "its metadata server, operations/s",
@@ -132,9 +140,9 @@ def table_row() -> tuple[float, float]:
     columns = {f"column{k}": random.random(n) for k in range(18)}
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "table.csv"
-        start = time.perf_counter()
+        start = time.process_time()
         write_table(file, columns)
-        return (time.perf_counter() - start) / n, file.stat().st_size / n
+        return (time.process_time() - start) / n, file.stat().st_size / n
 
 
 def modules() -> float:
@@ -145,45 +153,41 @@ def modules() -> float:
     )
 
 
-def lifetimes(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return landing or leaving times of rigid spheres entering in proportion to the flux, and their angles.
+class Sample(NamedTuple):
+    """Rigid spheres that enter in proportion to the flux: places (y, z), m, and times until they end, s."""
 
-    They settle at Stokes' speed in Poiseuille's flow: y is linear and x a cubic in t.
+    y: np.ndarray
+    z: np.ndarray
+    life: np.ndarray
 
-    Returns
-    -------
-    times (n,), s, and the angle of entry (n,), by which a mesh's inlet might be ordered.
-    """
+    @property
+    def fall(self) -> float:
+        """Stokes' speed, with which they settle along -y, m/s."""
+        return (RHO_S - RHO_F) * D**2 * GRAVITY / (18.0 * MU_F)
+
+    def distance(self, t: np.ndarray | float) -> np.ndarray:
+        """Return the distance along the pipe after a time: y is linear and x a cubic in t."""
+        y, z, fall = self.y, self.z, self.fall
+        square = (y * y + z * z) * t - y * fall * t**2 + fall**2 * t**3 / 3.0
+        return np.asarray(2.0 * MEAN * (t - square / RADIUS**2))
+
+
+def lifetimes(n: int) -> Sample:
+    """Return n spheres with the times at which they land or leave."""
     random = np.random.default_rng(0)
     # Flux below r is a fraction 1 − (1 − r²/R²)² of the whole.
     r = RADIUS * np.sqrt(1.0 - np.sqrt(1.0 - random.random(n)))
     angle = 2.0 * np.pi * random.random(n)
-    y, z = r * np.cos(angle), r * np.sin(angle)
-    fall = (RHO_S - RHO_F) * D**2 * GRAVITY / (18.0 * MU_F)
-    landing = (y + np.sqrt(RADIUS**2 - z**2)) / fall
-
-    def distance(t: np.ndarray) -> np.ndarray:
-        square = (y * y + z * z) * t - y * fall * t**2 + fall**2 * t**3 / 3.0
-        return 2.0 * MEAN * (t - square / RADIUS**2)
-
+    sample = Sample(r * np.cos(angle), r * np.sin(angle), np.empty(n))
+    landing = (sample.y + np.sqrt(RADIUS**2 - sample.z**2)) / sample.fall
     low, high = np.zeros(n), landing.copy()
     for _ in range(50):
         middle = 0.5 * (low + high)
-        beyond = distance(middle) > LENGTH
+        beyond = sample.distance(middle) > LENGTH
         high = np.where(beyond, middle, high)
         low = np.where(beyond, low, middle)
-    return np.minimum(np.where(distance(landing) > LENGTH, high, landing), END), angle
-
-
-class Balance(NamedTuple):
-    """Load balance of a way of sharing."""
-
-    slowest: float
-    """Time of the run over that with perfect balance."""
-    moved: float
-    """Share of the particles that change nodes, on average per write interval."""
-    requests: float
-    """Requests for chunks per write interval."""
+    leaves = sample.distance(landing) > LENGTH
+    return sample._replace(life=np.minimum(np.where(leaves, high, landing), END))
 
 
 def work_in(life: np.ndarray, interval: int) -> np.ndarray:
@@ -192,11 +196,11 @@ def work_in(life: np.ndarray, interval: int) -> np.ndarray:
     return np.clip(life - interval * length, 0.0, length)
 
 
-def shared_statically(life: np.ndarray, nodes: int, scatter: float) -> Balance:
-    """Return the balance if every node keeps its share and all synchronise at each write.
+def shared_by_number(life: np.ndarray, nodes: int, scatter: float) -> float:
+    """Return the time over that with perfect balance if every node has every N-th particle.
 
-    ``scatter`` is the ratio of the run's particles to the sample's: with random places, sums over more
-    particles scatter less about their mean.
+    All synchronise at each write. ``scatter`` is the ratio of the run's particles to the sample's: sums over
+    more particles scatter less about their mean.
     """
     total = slowest = 0.0
     for interval in range(INTERVALS):
@@ -204,97 +208,61 @@ def shared_statically(life: np.ndarray, nodes: int, scatter: float) -> Balance:
         mean = share.mean()
         total += mean
         slowest += mean + (share.max() - mean) / np.sqrt(scatter)
-    return Balance(slowest / total, 0.0, 0.0)
+    return slowest / total
 
 
-def shared_dynamically(
-    life: np.ndarray, nodes: int, chunks_per_node: int, latency: float, scale: float
-) -> Balance:
-    """Return the balance if a node without chunks takes one from the fullest node.
+def shared_by_place(sample: Sample, slices: int, sectors: int) -> float:
+    """Return the time over that with perfect balance if every node has the particles in its part of the pipe.
 
-    ``scale`` is the time of a node for a second of a sample's particle, s, for comparison with the latency.
+    The pipe is cut into slices along its axis, and these into sectors.
     """
-    total = slowest = moved = 0.0
-    for interval in range(INTERVALS):
-        work = scale * work_in(life, interval)
-        size = len(work) // (nodes * chunks_per_node)
-        chunks = work[: size * nodes * chunks_per_node].reshape(nodes, chunks_per_node, size).sum(axis=2)
-        total += chunks.sum() / nodes
-        finish, stolen = _steal(chunks, latency)
-        slowest += finish
-        moved += stolen / chunks.size
-    return Balance(slowest / total, moved / INTERVALS, float(nodes * chunks_per_node))
+    total = slowest = 0.0
+    for t in (np.arange(TIMES) + 0.5) * END / TIMES:
+        there = np.flatnonzero(sample.life > t)
+        x = sample.distance(t)[there]
+        angle = np.arctan2(sample.z[there], sample.y[there] - sample.fall * t)
+        part = np.clip((x / LENGTH * slices).astype(int), 0, slices - 1) * sectors
+        part += np.clip(((angle / (2.0 * np.pi) + 0.5) * sectors).astype(int), 0, sectors - 1)
+        slowest += np.bincount(part, minlength=1).max() if len(part) else 0.0
+        total += len(part) / (slices * sectors)
+    return slowest / total
 
 
-def _steal(chunks: np.ndarray, latency: float) -> tuple[float, int]:
-    """Return the end of the last node, and the number of chunks that changed nodes."""
-    left = [list(map(float, row)) for row in chunks]
-    fullest = [(-len(row), node) for node, row in enumerate(left)]
-    heapq.heapify(fullest)
-    clock = [(0.0, node) for node in range(len(left))]
-    heapq.heapify(clock)
-    end, stolen = 0.0, 0
-    while clock:
-        now, node = heapq.heappop(clock)
-        end = max(end, now)
-        if left[node]:
-            heapq.heappush(clock, (now + left[node].pop(), node))
-            continue
-        while fullest:
-            size, victim = heapq.heappop(fullest)
-            if not left[victim]:
-                continue
-            if -size != len(left[victim]):
-                # The entry is of before: that node has worked since.
-                heapq.heappush(fullest, (-len(left[victim]), victim))
-                continue
-            work = left[victim].pop()
-            heapq.heappush(fullest, (size + 1, victim))
-            stolen += 1
-            heapq.heappush(clock, (now + latency + work, node))
-            break
-    return end, stolen
+def cells_held(own: float) -> float:
+    """Return the number of cells of a node with the layers around its own cells, a cube."""
+    return (own ** (1.0 / 3.0) + 2.0 * RINGS) ** 3
 
 
 def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -> tuple[str, dict[str, Any]]:
     """Return the page, and the data of the plot."""
-    life, angle = lifetimes(_SAMPLE)
+    sample = lifetimes(_SAMPLE)
+    life = sample.life
     steps = particles * life.mean() / dt
     compute = steps * m.step / (c.nodes * c.cores * m.efficiency)
-    scatter = particles / _SAMPLE
-    # A sample's particle stands for this many; a second of it costs this much on one node.
-    scale = scatter * m.step / dt / (c.cores * m.efficiency)
-    by_place = life[np.argsort(angle)]
-    balances = {
-        "static, in the order of the inlet's faces": shared_statically(by_place, c.nodes, 1.0),
-        "static, random distribution": shared_statically(life, c.nodes, scatter),
-    }
-    chunked = {
-        k: shared_dynamically(by_place, c.nodes, k, c.latency, scale) for k in (1, 2, 4, 8, 16, 32, 64)
-    }
-    for k in (4, 16, 64):
-        balances[f"dynamic, {k} chunks a node"] = chunked[k]
-
-    files = {"a file a node": c.nodes, "a file a core": c.nodes * c.cores, "one file": 1}
+    places = {sectors: shared_by_place(sample, c.nodes // sectors, sectors) for sectors in (1, 10, 100)}
+    by_number = shared_by_number(life, c.nodes, particles / _SAMPLE)
+    own, ranks = CELLS / c.nodes, c.nodes * c.cores
+    held = cells_held(own)
     to_disk = max(particles * m.file / c.disk, particles / c.nodes * m.file / c.per_node_disk)
-    prepare_one = particles / c.nodes * m.snapshot
-    prepare_all = prepare_one / (c.cores * m.efficiency)
-    mesh = CELLS * m.cell
-    ranks, levels = c.nodes * c.cores, np.ceil(np.log2(c.nodes))
     # Creating under another name, writing, flushing, renaming, flushing the folder.
-    operations = {name: 5 * n / c.metadata for name, n in files.items()}
+    operations = 5.0 / c.metadata
+    gathered = particles * m.state
+    exchanges = END / dt / EVERY
     whole = {
-        "read and prepare the mesh, on one core of each node": CELLS * m.ready,
-        "the same once, then sent along a tree of nodes": CELLS * m.ready + levels * mesh / c.link,
+        "read and prepare the parts of the mesh, a core a node": held * m.ready,
         "particle-steps, perfectly balanced": compute,
-        "particle-steps, dynamic with 16 chunks a node": compute * chunked[16].slowest,
-        f"{writes} snapshots: measured and packed by one core a node": writes * prepare_one,
-        f"{writes} snapshots: by all cores": writes * prepare_all,
+        "particle-steps, particles by number, the mesh whole on each node": compute * by_number,
+        "particle-steps, particles by place, 10 sectors a slice": compute * places[10],
+        f"exchanges between nodes, every {EVERY} steps": exchanges * PAUSE,
+        f"{writes} snapshots: measured and packed, a process a core": writes
+        * particles
+        / (ranks * m.efficiency)
+        * m.snapshot,
         f"{writes} snapshots: onto the file system": writes * to_disk,
-        f"{writes} snapshots: metadata, a file a node": writes * operations["a file a node"],
-        f"{writes} snapshots: metadata, a file a core": writes * operations["a file a core"],
-        "the table of fates, as text by one process": particles * m.row,
-        "the same by a process a node": particles / c.nodes * m.row,
+        f"{writes} snapshots: metadata, a file a core": writes * operations * ranks,
+        f"{writes} checkpoints: gathered by the first process": writes * gathered / c.link,
+        f"{writes} checkpoints: written by the first process": writes * gathered / c.per_node_disk,
+        "the table of fates, as text by the first process": particles * m.row,
         "start of Python, a process a core, from the parallel file system": ranks
         * 4
         * m.modules
@@ -302,19 +270,13 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         "the same, a process a node": c.nodes * 4 * m.modules / c.metadata,
     }
     memory = {
-        "mesh, once a node": mesh,
-        "mesh, once a core": mesh * c.cores,
-        "particles": particles / c.nodes * m.state,
-        "particles in a run with output": particles / c.nodes * m.peak,
-        "during preparation of the mesh": CELLS * m.cell_peak,
-    }
-    traffic = {
-        "mesh, to every node": mesh * (c.nodes - 1),
-        "particles that change nodes, a write interval, 16 chunks": 2.0
-        * chunked[16].moved
-        * particles
-        * m.state,
-        "counts at each write": 64.0 * ranks,
+        "mesh, whole on each node": CELLS * m.cell,
+        "mesh, whole, during its preparation": CELLS * m.cell_peak,
+        "mesh, the part of a node with its layers": held * m.cell,
+        "mesh, the part, during its preparation": held * PREPARED,
+        "particles of a node, evenly": particles / c.nodes * m.state,
+        "first process: fluxes of all cells, during the preparation": CELLS * BALANCED,
+        "first process: the whole cloud, with the copy for the checkpoint": particles * m.peak,
     }
     text = TEMPLATE.read_text(encoding="utf-8").format(
         particles=number(particles),
@@ -327,7 +289,9 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
                 ("state, bytes/particle", number(m.state)),
                 ("peak in a run with output, bytes/particle", number(m.peak)),
                 ("mesh and flow, bytes/cell", number(m.cell)),
-                ("the same during preparation, bytes/cell", number(m.cell_peak)),
+                ("the same during preparation, whole, bytes/cell", number(m.cell_peak)),
+                ("the same, a part, bytes/cell held", number(PREPARED)),
+                ("fluxes of the whole mesh on the first process, bytes/cell", number(BALANCED)),
                 ("mesh and flow, µs of CPU/cell", number(1e6 * m.ready)),
                 ("snapshot: measures and file, µs/particle", number(1e6 * m.snapshot)),
                 ("snapshot, bytes/particle", number(m.file)),
@@ -344,11 +308,17 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         cells=number(CELLS),
         writes=writes,
         intervals=INTERVALS,
+        own=number(own),
+        held=number(held),
+        layers=RINGS,
         balance=table(
-            ("way", "time over perfect balance", "particles moved per interval", "chunks per interval"),
+            ("way", "time over perfect balance"),
             [
-                (name, f"{b.slowest:.3f}", f"{100 * b.moved:.2f} %", f"{b.requests:.0f}")
-                for name, b in balances.items()
+                ("by number, evened out after each chunk (the mesh whole on each node)", f"{by_number:.3f}"),
+                *(
+                    (f"by place, {c.nodes // k} slices of {k} sector{'s'[: k > 1]}", f"{v:.1f}")
+                    for k, v in places.items()
+                ),
             ],
         ),
         times=table(("what", "s"), [(k, number(v)) for k, v in whole.items()]),
@@ -356,23 +326,14 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
             ("per node", "GB", "of the node"),
             [(k, number(v / 1e9), f"{100 * v / c.memory:.1f} %") for k, v in memory.items()],
         ),
-        traffic=table(
-            ("network", "GB in all", "s at full speed"),
-            [(k, number(v / 1e9), number(v / (c.link * c.nodes))) for k, v in traffic.items()],
-        ),
-        sizes=table(
-            ("output", "files per snapshot", "GB a file", "files in all", "metadata, s per snapshot"),
-            [
-                (k, f"{n}", number(particles * m.file / n / 1e9), f"{n * writes}", number(operations[k]))
-                for k, n in files.items()
-            ],
-        ),
         snapshot=number(particles * m.file / 1e9),
         all_snapshots=number(writes * particles * m.file / 1e12),
         table_size=number(particles * m.row_bytes / 1e9),
+        most_cells=number(c.memory / BALANCED),
+        most_particles=number(c.memory / m.peak),
         order=_order(whole, compute),
     )
-    return text, {"life": life, "chunked": chunked}
+    return text, {"life": life, "places": places}
 
 
 def _order(whole: dict[str, float], compute: float) -> str:
@@ -389,7 +350,7 @@ def _order(whole: dict[str, float], compute: float) -> str:
 
 
 def plot(found: dict[str, Any], file: Path) -> None:
-    """Plot landing times, and balance against the number of chunks."""
+    """Plot landing times, and the balance by place."""
     try:
         import matplotlib as mpl
     except ImportError:
@@ -401,9 +362,9 @@ def plot(found: dict[str, Any], file: Path) -> None:
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
     left.hist(found["life"], bins=100, range=(0.0, END), density=True, color="tab:blue")
     left.set(xlabel="time until a particle lands or leaves, s", ylabel="density, 1/s")
-    chunked: dict[int, Balance] = found["chunked"]
-    right.semilogx(list(chunked), [b.slowest for b in chunked.values()], "o-", base=2)
-    right.set(xlabel="chunks a node", ylabel="time over perfect balance")
+    places: dict[int, float] = found["places"]
+    right.loglog(list(places), list(places.values()), "o-")
+    right.set(xlabel="sectors of a slice", ylabel="time over perfect balance")
     right.grid(alpha=0.3)
     figure.savefig(file, dpi=130)
     plt.close(figure)
