@@ -93,12 +93,14 @@ def test_example_of_a_flow_has_the_types_of_its_arguments(make):
     assert numba.typeof(type(flow).nothing()) == numba.typeof(flow.arrays(0.0, []))
 
 
-def test_code_of_the_second_process_is_used(two_processors, tmp_path, monkeypatch):
+def test_code_of_the_second_process_is_used(request, tmp_path, monkeypatch):
     (tmp_path / "numpy.py").write_text("open('executed', 'w')")
     monkeypatch.chdir(tmp_path)
-    flow = transient(build_mesh(block(1, 0.0, "mixed")))
+    flow = steady(build_mesh(block(1, 0.0, "mixed")))
+    request.getfixturevalue("two_processors")
     p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
-    cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, Models(integrator="stokes"))
+    models = Models(integrator="paper", touching="centre")
+    cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, models)
     early = Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
     assert not cloud.tracker.compiled
     Compilation(early, type(flow)).wait()
