@@ -25,16 +25,18 @@ def test_numbers_of_a_bead_in_water():
     assert e.capillary_number == pytest.approx(0.1)
     assert e.reynolds_number == pytest.approx(2.5e-3)
     assert e.stokes_number == pytest.approx(100.0 * 1050.0 * 25e-12 / 18e-3)
-    assert e.settling_speed == pytest.approx(2.0 / 9.0 * 50.0 * 9.81 * 6.25e-12 / 1e-3)
+    assert e.settling_speed == pytest.approx(2.0 / 9.0 * 50.0 * 9.81 * 6.25e-12 / 1e-3, rel=1e-6, abs=0.0)
     D = 1.380649e-23 * 300.0 / (6.0 * pi * 1e-3 * 2.5e-6)
-    assert e.diffusion_coefficient == pytest.approx(D)
+    assert e.diffusion_coefficient == pytest.approx(D, rel=1e-6, abs=0.0)
     assert e.peclet_number == pytest.approx(100.0 * 6.25e-12 / D)
     assert e.lift_speed == pytest.approx(0.0996 * 100.0 * 2.5e-6**3 / 20e-6**2, rel=0.01)
     assert e.settling_length == pytest.approx(10.0 * e.settling_speed, rel=1e-6)
     assert e.settling_reynolds_number == pytest.approx(e.settling_speed * 5.0)
     assert e.diffusion_length == pytest.approx((20.0 * D) ** 0.5)
     # 5/2 k_B T of energy μ_s V ε:ε.
-    assert 1.0 * 4.0 / 3.0 * pi * 2.5e-6**3 * e.thermal_strain**2 == pytest.approx(2.5 * 1.380649e-23 * 300)
+    assert 1.0 * 4.0 / 3.0 * pi * 2.5e-6**3 * e.thermal_strain**2 == pytest.approx(
+        2.5 * 1.380649e-23 * 300, abs=0.0
+    )
 
 
 @pytest.mark.parametrize(("Ca", "k"), [(0.1, 0.0996), (0.2, 0.1947), (0.4, 0.3600), (1.0, 0.6858)])
@@ -57,7 +59,7 @@ def test_the_lift_length_is_the_integral_of_the_lift_speed():
 def test_at_the_lift_height_the_lift_balances_weight():
     e = estimate(BEAD, WATER, 1.0)
     there = estimate(BEAD, WATER._replace(wall_distance=e.lift_height), 1.0)
-    assert there.lift_speed == pytest.approx(there.settling_speed)
+    assert there.lift_speed == pytest.approx(there.settling_speed, rel=1e-6, abs=0.0)
 
 
 def test_a_heavy_sphere_falls_before_it_settles():

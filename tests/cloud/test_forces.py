@@ -66,7 +66,7 @@ def test_forces_are_those_of_maxey_and_riley():
     assert (push.tolist(), inertia) == ([0.0] * 3, 1.0)
     push, inertia = summed(Gravity(), PressureGradient(), VirtualMass(Cvm=0.5))
     np.testing.assert_allclose(push, (1 - s) * g + s * Du + 0.5 * s * Du, rtol=1e-14)
-    assert inertia == pytest.approx(1 + 0.5 * s, rel=1e-15)
+    assert inertia == pytest.approx(1 + 0.5 * s, rel=1e-15, abs=0.0)
 
 
 @pytest.mark.parametrize("with_pressure", [False, True])
@@ -87,7 +87,7 @@ def test_slip_is_that_of_maxey_and_riley_to_first_order(with_pressure):
     slip = balanced_slip(flat(np.eye(3)), rates, steady, push, inertia, DU_DT, flat(l))
     s = 1.1 * RHO_F / RHO
     w = (1 - s) * np.array(G) / rate
-    assert inertia == pytest.approx(1 + 0.5 * s, rel=1e-15)
+    assert inertia == pytest.approx(1 + 0.5 * s, rel=1e-15, abs=0.0)
     expected = w + ((with_pressure * s - 1) * np.array(DU_DT) - (1 + 0.5 * s) * l @ w) / rate
     np.testing.assert_allclose(slip, expected, rtol=1e-13)
 

@@ -66,11 +66,11 @@ def test_a_body_falls_through_a_field_that_varies_in_space(mesh):
     assert cloud.particles.x[0, 2] == pytest.approx((math.sqrt(1.0 + 2.0 * a * c) - 1.0) / a, abs=5e-7)
     z = cloud.particles.x[0, 2]
     found = measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time), OPTIONAL)
-    assert found["muc"] == pytest.approx(1e-3 * (1.0 + a * z), rel=1e-12)
+    assert found["muc"] == pytest.approx(1e-3 * (1.0 + a * z), rel=1e-12, abs=0.0)
     assert found["U"][0, 2] == pytest.approx(-FALL / (1.0 + a * z), rel=1e-6)
     samples = flow_samples(cloud.particles, cloud.flow, cloud.time, cloud.medium.mu)
     (c,) = contexts(cloud.particles, samples, cloud.medium.mu, cloud.time)
-    assert c.mu == pytest.approx(found["muc"], rel=1e-14)
+    assert c.mu == pytest.approx(found["muc"], rel=1e-14, abs=0.0)
     assert viscosity_at_nodes(cloud.medium.mu, cloud.flow).max() == pytest.approx(1e-3 * (1.0 + a))
 
 
@@ -130,4 +130,4 @@ def test_openfoams_coefficients_are_multiplied_by_the_density():
     for name, coefficients in given.items():
         one, heavy = (RATE_LAWS[name].of_kinematic(coefficients, rho) for rho in (1.0, 1060.0))
         for rate in (1e-3, 5.0, 1e4):
-            assert heavy.at_rate(rate) == pytest.approx(1060.0 * one.at_rate(rate), rel=1e-14)
+            assert heavy.at_rate(rate) == pytest.approx(1060.0 * one.at_rate(rate), rel=1e-14, abs=0.0)

@@ -52,13 +52,15 @@ def test_the_velocity_is_that_of_poiseuille_and_of_womersley():
         r, t = math.hypot(x[1], x[2]), 0.31
         steady = 2.0 * MEAN * (1.0 - (r / RADIUS) ** 2)
         functions, arrays = kernels(PIPE)
-        assert functions["sample"](arrays, 0, x, t)[0] == pytest.approx((steady, 0.0, 0.0), rel=1e-14)
+        assert functions["sample"](arrays, 0, x, t)[0] == pytest.approx(
+            (steady, 0.0, 0.0), rel=1e-14, abs=0.0
+        )
         omega = 2.0 * np.pi / 0.7
         k = 1j**1.5 * np.sqrt(omega / 0.05)
         swing = 3.0 / (1j * omega) * np.exp(1j * (omega * t + 0.4)) * (1 - jv(0, k * r) / jv(0, k * RADIUS))
         functions, arrays = kernels(PULSE)
         u = functions["sample"](arrays, 0, x, t)[0]
-        assert u == pytest.approx((steady + swing.real, 0.0, 0.0), rel=1e-12)
+        assert u == pytest.approx((steady + swing.real, 0.0, 0.0), rel=1e-12, abs=0.0)
 
 
 def left_after(x0, x1):
@@ -167,7 +169,7 @@ def test_the_flow_in_a_slit_is_a_parabola():
     for z in (0.0, 0.05, 0.2, 0.31):
         x, s = (0.3, -0.2, z), z / HEIGHT
         u, l, u_t = functions["sample"](arrays, 0, x, 0.3)
-        assert u == pytest.approx((RATE * z * (1.0 - s), 0.0, 0.0), rel=1e-14)
+        assert u == pytest.approx((RATE * z * (1.0 - s), 0.0, 0.0), rel=1e-14, abs=0.0)
         assert l == pytest.approx((0.0, 0.0, RATE * (1.0 - 2.0 * s), *6 * [0.0]), rel=1e-13, abs=1e-13)
         assert u_t == NONE
         bends = functions["curvature"](arrays, 0, x, 0.3)
@@ -197,7 +199,7 @@ def test_the_gap_is_that_to_the_nearer_wall():
     reach = 0.02 * math.sqrt(0.2**2 + 0.6**2 + 1.5**2)
     for z, gap, patch in ((0.1, 0.1, 0), (0.27, 0.13, 1), (0.2, 0.2, 0)):
         found = functions["gap"](arrays, 0, (0.5, 0.6, z), F, 0.02)
-        assert found[0] == pytest.approx(gap - reach, rel=1e-12)
+        assert found[0] == pytest.approx(gap - reach, rel=1e-12, abs=0.0)
         assert found[1:] == (patch, patch)
     functions, arrays = kernels(SHEAR)
     found = functions["gap"](arrays, 0, (0.5, 0.6, 30.0), F, 0.02)

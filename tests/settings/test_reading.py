@@ -35,7 +35,7 @@ def test_defaults(read: Reader, case: Path) -> None:
     assert settings.solution.deltaT == 2e-5
     assert settings.solution.integrationSchemes.shape == "auto"
     assert settings.solution.integrationSchemes.tolerance == 1e-4
-    assert settings.fluid.mu == pytest.approx(1.208 * 1.5e-5, rel=1e-15)
+    assert settings.fluid.mu == pytest.approx(1.208 * 1.5e-5, rel=1e-15, abs=0.0)
     assert settings.gravity == (0.0, 0.0, 0.0)
     assert (settings.traction, settings.drag, settings.touching) == ("roscoe", "oberbeck", "ellipsoid")
     (inlet,) = settings.injections
@@ -214,7 +214,7 @@ def test_dimensions_of_gravity(case: Path, read: Reader, text: str, message: str
     for sound in ("(0 -981 0) [cm/s^2]", "[cm s^-2] (0 -981 0)"):
         (case / "constant/g").write_text(f"dimensions [acceleration]; value {sound};")
         found = read(("ellipsoidDrag;", "ellipsoidDrag; gravity;")).gravity
-        assert found == pytest.approx((0.0, -9.81, 0.0), rel=1e-15)
+        assert found == pytest.approx((0.0, -9.81, 0.0), rel=1e-15, abs=0.0)
 
 
 def test_each_mistake_gives_its_one_message(read: Reader) -> None:

@@ -23,7 +23,7 @@ def test_weights_are_those_of_the_corners(random):
         origin, c1, c2, c3, volume = frame(arrays, 1)
         a, b, c, d = nodes[tet]
         assert origin == tuple(a)
-        assert volume == pytest.approx(np.linalg.det([b - a, c - a, d - a]), rel=1e-12)
+        assert volume == pytest.approx(np.linalg.det([b - a, c - a, d - a]), rel=1e-12, abs=0.0)
         found = np.array(weights(origin, c1, c2, c3, volume, tuple(x))) / volume
         exact = np.linalg.solve(np.vstack([nodes[tet].T, np.ones(4)]), [*x, 1.0])
         np.testing.assert_allclose(found, exact, rtol=1e-10, atol=1e-12)

@@ -156,7 +156,7 @@ def test_a_place_outside_is_nearest_to_a_cell_within_two_faces(random):
         away = np.abs(index - index[cell_of[tet]]).sum(axis=1)[cell_of]
         depth = np.array([folds._depth(arrays, t, tuple(x)) for t in range(len(cell_of))])
         expected = depth[away <= 2.0].max()
-        assert depth[folds.nearby(arrays, tet, tuple(x))] == pytest.approx(expected, rel=1e-12)
+        assert depth[folds.nearby(arrays, tet, tuple(x))] == pytest.approx(expected, rel=1e-12, abs=0.0)
         steps.add(away[np.where(away <= 2.0, depth, -np.inf).argmax()])
     assert steps >= {1.0, 2.0}
 

@@ -40,8 +40,8 @@ def test_tetrahedra_fill_the_mesh(kind):
     mesh = build_mesh(block(4, 0.3, kind))
     assert mesh.inverted == 0
     assert volumes(mesh).min() > 0.0
-    assert np.sum(volumes(mesh)) == pytest.approx(1.0, rel=1e-13)
-    assert np.sum(mesh.volumes) == pytest.approx(1.0, rel=1e-13)
+    assert np.sum(volumes(mesh)) == pytest.approx(1.0, rel=1e-13, abs=0.0)
+    assert np.sum(mesh.volumes) == pytest.approx(1.0, rel=1e-13, abs=0.0)
     assert np.array_equal(
         np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_start)), mesh.tets[:, 0] - mesh.n_points
     )
