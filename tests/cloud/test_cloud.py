@@ -220,7 +220,7 @@ class TestBookkeeping:
         """Inlined, the long kernels would take 40 s to compile."""
         cloud, separate = pipe_cloud(0.5), []
         cloud.make_ready()
-        monkeypatch.setattr("foamprb.cloud.cloud.link", lambda *given: separate.extend(given[2]) or print)
+        monkeypatch.setattr("foamprb.cloud.tracker.link", lambda *given: separate.extend(given[2]) or print)
         cloud.contact_normals(np.array([0]))
         assert {*LONG} <= {*separate}
 

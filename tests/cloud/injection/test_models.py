@@ -93,7 +93,7 @@ class TestCellZone:
         )
 
     def test_all_cells_are_a_zone_of_all(self, pipe_flow, monkeypatch):
-        monkeypatch.setattr("foamprb.flow.meshflow._AT_ONCE", 1000)
+        monkeypatch.setattr("foamprb.flow.meshflow.AT_ONCE", 1000)
         mesh = pipe_flow.mesh
         flow = with_zones(pipe_flow, {"all": np.arange(mesh.n_cells)})
         density = 5000.0 / mesh.volumes.sum()
