@@ -96,6 +96,16 @@ class Summary(NamedTuple):
     time: str
 
 
+def summary_of(flow: PartFlow) -> Summary:
+    """Return the summary of a part; all nodes call it together."""
+    halo, (time, u, _) = flow.halo, flow.at_nodes()
+    own, speeds = halo.part.own, np.einsum("ci,ci->c", *2 * (u[flow.mesh.n_points :],))
+    return Summary(
+        flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts,
+        int(own.sum()), len(own), max(halo.of_all(flow.fastest())), halo.total(speeds), time,
+    )  # fmt: skip
+
+
 class Part:
     """Part of a mesh, as the processes of a node share it.
 
@@ -151,17 +161,11 @@ class Part:
         flow = steady_flow(case, time, source)
         case.forget()
         assert isinstance(flow, PartFlow)
-        self.flow, halo = flow, flow.halo
+        self.flow = flow
         flow.move(self._publisher.move)
         trim()
         self._node.bcast(("done", (None,)))
-        u = flow.at_nodes()[1][flow.mesh.n_points :]
-        own = halo.part.own
-        return Summary(
-            flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts,
-            int(own.sum()), len(own), max(halo.of_all(flow.fastest())),
-            halo.total(np.einsum("ci,ci->c", u, u)), flow.at_nodes()[0],
-        )  # fmt: skip
+        return summary_of(flow)
 
     def share(self, *walls: Any) -> int:
         """Place the arrays of the flow, with some walls, in the memory of the node; return bytes shared.

@@ -127,6 +127,24 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random):
         assert left == conserve.unbalanced
 
 
+def test_a_path_out_of_the_layers_of_a_node_is_noted():
+    """In a row of cells of two nodes, of which the first has one layer of the second."""
+    poly = poly_of(build_mesh(shape := pipe(2, axial=12), pipe_patches(shape)))
+    mesh = assemble(poly, "mesh")
+
+    def work(team):
+        sub = part_of(poly, (mesh.centres[:, 0] > 0.5) == team.rank, team, layers=1 + RINGS)
+        u = np.zeros((sub.mesh.n_points + sub.mesh.n_cells, 3))
+        return PartFlow(Halo(sub, team), sub.mesh, u, np.zeros((len(u), 3, 3)))
+
+    flow, _ = together(2, work)
+    arrays = flow.arrays()
+    host, start = flow.locate(np.array([[0.48, 0.01, 0.02]]))[0], (0.48, 0.01, 0.02)
+    for end, patch, strayed in ((0.57, -1, 0), (0.1, -1, 0), (-0.1, 0, 0), (0.6, -2, 1)):
+        assert flow.kernels["walk"](arrays, host, start, (end, 0.01, 0.02))[2] == patch
+        assert arrays.strayed[0] == strayed
+
+
 def test_sums_depend_on_no_order(random):
     values = random.random(1000) ** 8
     parts = np.split(random.permutation(values), [10, 500])

@@ -1,0 +1,84 @@
+"""A flow of which nodes hold parts, as the first process uses it, against the whole flow."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from foam_writer import decompose, write_case
+from threads_team import together
+
+from foamprb.errors import InputError
+from foamprb.flow.read.decomposed import DecomposedCase
+from foamprb.flow.read.openfoam import steady_flow
+from foamprb.flow.read.parts import PartCase
+from foamprb.flow.read.source import FlowSource
+from foamprb.parallel.distributed import DistributedFlow, why_whole
+from foamprb.parallel.parts import summary_of
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory):
+    case = tmp_path_factory.mktemp("parts") / "case"
+    mesh = write_case(case, "mixed")
+    decompose(case, mesh, (2 * mesh.centres[:, 0]).astype(int), ("0", "1"))
+    return case
+
+
+@pytest.fixture(scope="module")
+def whole(case):
+    return steady_flow(DecomposedCase(case), "1", FlowSource())
+
+
+@pytest.fixture(scope="module")
+def flow(case):
+    """The flow of two nodes, whose orders are carried out one after the other."""
+
+    def read(team):
+        part = steady_flow(PartCase(case, "", team, 1), "1", FlowSource())
+        return part, summary_of(part)
+
+    found = together(2, read)
+
+    def order(name, *arguments):
+        assert name == "ask_part"
+        return [getattr(part, arguments[0])(*arguments[1:]) for part, _ in found]
+
+    return DistributedFlow(order, [summary for _, summary in found], 1)
+
+
+def test_hosts_and_samples_are_those_of_the_whole(flow, whole, random):
+    x = random.uniform(-0.1, 1.1, (200, 3))
+    hosts = flow.locate(x)
+    np.testing.assert_array_equal(hosts, whole.locate(x))
+    x, hosts = x[hosts >= 0], hosts[hosts >= 0]
+    for found, expected in zip(flow.sample(x, hosts, 0.0), whole.sample(x, hosts, 0.0), strict=True):
+        np.testing.assert_array_equal(found, expected)
+    np.testing.assert_array_equal(flow.cell_size(hosts), whole.cell_size(hosts))
+
+
+def test_patches_zones_and_nodes_are_those_of_the_whole(flow, whole):
+    assert (flow.patches, flow.width, flow.mesh[:2]) == (whole.patches, whole.width, (12, 27))
+    np.testing.assert_array_equal(flow.bounds, whole.bounds)
+    for found, expected in zip(flow.patch_faces("lid", 0.0), whole.patch_faces("lid", 0.0), strict=True):
+        np.testing.assert_array_equal(found, expected)
+    zone, expected = flow.cell_zone(None), whole.cell_zone(None)
+    np.testing.assert_array_equal(zone.volumes, expected.volumes)
+    np.testing.assert_array_equal(zone.vertices(zone.hosts), expected.vertices(expected.hosts))
+    for found, nodes in zip(flow.at_nodes()[1:], whole.at_nodes()[1:], strict=True):
+        np.testing.assert_array_equal(found, nodes)
+    with pytest.raises(InputError, match=r"patch lit is not in the mesh\. Did you mean 'lid'"):
+        flow.patch_faces("lit", 0.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "nodes", "reason"),
+    [
+        ({}, 2, "it is not decomposed"),
+        ({"decomposed": True}, 2, None),
+        ({"decomposed": True}, 3, "the case has 2 processor folders for 3 nodes"),
+        ({"decomposed": True, "turbulent": True}, 2, "a dispersionModel reads the turbulence"),
+        ({"decomposed": True, "sampled": ("p",)}, 2, "fieldSampling reads fields"),
+    ],
+)
+def test_the_reason_for_a_whole_mesh_is_given(changes, nodes, reason, case):
+    assert why_whole(case, "1", FlowSource(**changes), nodes) == reason
