@@ -2,7 +2,7 @@
 
 A run of particles in a pipe writes the results into a temporary folder, 1e5 particles at 51 times 2.2 GB.
 
-    PYTHONPATH=tools python tools/benchmarks/looking.py -n 100000 -times 51
+    python tools/benchmarks/looking.py -n 100000 -times 51
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ import tempfile
 from pathlib import Path
 
 import foamprb
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from benchmarks import pipe
 
 DT, BETWEEN = 2e-4, 5
