@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Literal, NamedTuple, Protocol, TypeAlias
+from typing import Annotated, Any, Literal, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,7 +82,7 @@ class Places(NamedTuple):
 
     x: Floats
     """(n, 3), m."""
-    hosts: NDArray[np.int32]
+    hosts: NDArray[Any]
     """(n,), tetrahedra that contain them; −1 outside the flow."""
     t: Floats
     """(n,), s."""
@@ -372,7 +372,7 @@ def _in_mesh(
     """
     low, high = np.maximum(box[0], flow.bounds[0]), np.minimum(box[1], flow.bounds[1])
     n = require_room(model.number, f"{what}: number {model.number}")
-    x, hosts, tried, found = np.empty((n, 3)), np.empty(n, dtype=np.int32), 0, 0
+    x, hosts, tried, found = np.empty((n, 3)), np.empty(n, dtype=np.int64), 0, 0
     while found < n:
         drawn = low + (high - low) * random.random((min(max(n - found, 1000), _AT_ONCE), 3))
         tried += len(drawn)
