@@ -452,7 +452,7 @@ def decomposed(case: Path, parts: int) -> None:
 def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_path, monkeypatch):
     """Bodies go through parts of all nodes; the run ends as on one process, on fewer nodes than it began."""
     monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
-    for name, value in (("endTime", 0.03), ("writeInterval", 0.005)):
+    for name, value in (("endTime", 0.015), ("writeInterval", 0.005)):
         edit(case, rf"{name}\s+\S+;", f"{name} {value};")
     edit(case, r".*fieldSampling.*", "")
     edit(case, r"sampleInterval 7;", "sampleInterval 70;")
@@ -466,7 +466,7 @@ def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_pa
         """
 hand_over = Worker._hand_over
 def hooked(self):
-    if rank == 1 and max(self.particles.t, default=0.0) > 0.012:
+    if rank == 1 and max(self.particles.t, default=0.0) > 0.0115:
         os.kill(os.getpid(), signal.SIGKILL)
     return hand_over(self)
 Worker._hand_over = hooked
@@ -480,6 +480,6 @@ Worker._hand_over = hooked
     for file in [*folder_of(alone).rglob("*.csv"), folder_of(alone) / "paths/tracks.vtp"]:
         name = file.relative_to(folder_of(alone))
         assert (folder_of(case) / name).read_bytes() == file.read_bytes(), name
-    ends = [read_checkpoint(folder_of(c) / "checkpoint/0.03.checkpoint").arrays for c in (case, alone)]
+    ends = [read_checkpoint(folder_of(c) / "checkpoint/0.015.checkpoint").arrays for c in (case, alone)]
     for name, array in ends[1].items():
         assert ends[0][name].tobytes() == array.tobytes(), name
