@@ -94,8 +94,8 @@ def test_pages_and_scripts_of_cases_use_public_names_only():
         found = set().union(
             *(used(ast.parse(b)) for b in re.findall(r"```python\n(.*?)```", text, re.DOTALL))
         )
-        # In sentences as well; words with a slash are files.
-        found |= set(re.findall(r"\bfoamprb(?:\.\w+)+", re.sub(r"\S*/\S*", "", text)))
+        # In sentences as well; words with a slash, or such an end, are files.
+        found |= set(re.findall(r"\bfoamprb(?:\.\w+)+", re.sub(r"\S*/\S*|\S+\.(sif|gz)\b", "", text)))
         names |= {(page.name, name) for name in found}
     for script in SCRIPTS:
         names |= {(script.name, name) for name in used(ast.parse(script.read_text()))}
