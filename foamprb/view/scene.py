@@ -122,6 +122,8 @@ class Scene:
         Dimensionless groups and the fluid, as text.
     painting
         Density of deposits on the walls, if there are many.
+    known_extremes
+        Least and largest value of the chosen array at all times, if the bodies have some times only.
     """
 
     title: str
@@ -141,6 +143,7 @@ class Scene:
     gravity: Floats = field(default_factory=lambda: np.zeros(3))
     groups: str = ""
     painting: Painting | None = None
+    known_extremes: tuple[float, float] | None = None
 
     @cached_property
     def limits(self) -> tuple[float, float]:
@@ -157,7 +160,7 @@ class Scene:
     @cached_property
     def extremes(self) -> tuple[float, float]:
         """Least and largest shown value of the chosen array."""
-        return extremes_of(self.bodies, *self.colour) or self.limits
+        return self.known_extremes or extremes_of(self.bodies, *self.colour) or self.limits
 
     @cached_property
     def edges(self) -> Floats:

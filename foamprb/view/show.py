@@ -306,9 +306,13 @@ def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
         scene = replace(
             make_scene(request, run, before, drawn=True), camera=scene.camera, enlargement=scene.enlargement
         )
-    if values is None:
+    if values is None or not len(values):
         return scene
-    return replace(scene, range=request.range or limits_of_values(values, request.percentiles))
+    return replace(
+        scene,
+        range=request.range or limits_of_values(values, request.percentiles),
+        known_extremes=(float(values.min()), float(values.max())),
+    )
 
 
 def _trailing(run: Run, frame: int, scene: Scene) -> list[int]:

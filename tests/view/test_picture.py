@@ -16,7 +16,7 @@ from foamprb.cli import main
 from foamprb.view.colours import DARK, LIGHT, rgb
 from foamprb.view.picture import _drawing, draw, mark, sphere_for, trails, window
 from foamprb.view.results import open_run
-from foamprb.view.show import Request, make_scene
+from foamprb.view.show import Request, make_scene, make_still
 
 drawn = pytest.mark.browser
 
@@ -81,6 +81,11 @@ class TestTrails:
         all_of_them = len(trails(scene, 1)[0])
         scene.bodies.x[1, 1] += 50.0
         assert len(trails(scene, 1)[0]) == all_of_them - 1
+
+
+def test_the_legend_of_a_picture_names_the_extremes_of_all_times(case):
+    run, request = open_run(case), Request(case, time=0.1)
+    assert make_still(request, run).extremes == pytest.approx(make_scene(request, run, range(5)).extremes)
 
 
 @drawn

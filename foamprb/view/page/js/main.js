@@ -176,7 +176,7 @@ function drawGallery() {
   $("gallery").hidden = number === 0;
   if (number === 0) return;
   const style = { ...textStyle(), raised: new Color().setRGB(...bytesOf(variable("--raised")).map((byte) => byte / 255)) };
-  $("gallery").setAttribute("aria-label", gallery.paint($("gallery"), renderer, i, frames, state.t, colourAt, eye.axes(), bodies.material, style));
+  $("gallery").setAttribute("aria-label", gallery.paint($("gallery"), renderer, i, frames, state.t, colouring(), eye.axes(), bodies.material, style));
 }
 
 function drawCompass() {
@@ -235,18 +235,21 @@ function isShown(i) {
   return (state.gone || inside(data.codes.status.meaning(state.t, i))) && passes(i);
 }
 
-// Place of a body in the colours at a time, 0 to 1; −1 if unknown.
-function colourAt(t, i) {
-  const codes = data.codes[state.name];
-  if (codes) return codes.code(t, i) / 255;
-  const value = data.fields[state.name].value(t, i, state.part);
-  return Number.isFinite(value) ? Math.max(0, Math.min(1, (value - state.low) / (state.high - state.low || 1))) : -1;
+// Function of a time and a body: its place in the colours, 0 to 1; −1 if unknown.
+function colouring() {
+  const codes = data.codes[state.name], field = data.fields[state.name], { part, low } = state, span = state.high - low || 1;
+  if (codes) return (t, i) => codes.code(t, i) / 255;
+  return (t, i) => {
+    const value = field.value(t, i, part);
+    return Number.isFinite(value) ? Math.max(0, Math.min(1, (value - low) / span)) : -1;
+  };
 }
 
 function show(t) {
   const before = state.t;
   state.t = t;
-  state.count = bodies.show(t, isShown, (i) => colourAt(t, i));
+  const colour = colouring();
+  state.count = bodies.show(t, isShown, (i) => colour(t, i));
   bodies.material.uniforms.chosen.value = state.chosen;
   showTrails();
   if (state.follow && state.chosen >= 0) {
@@ -295,7 +298,7 @@ function setDeposits() {
 // Fading trails of the shown bodies and of those that have just left, or whole paths up to now. The selected body
 // has its whole path.
 function showTrails() {
-  const wanted = $("trails").value, { t, chosen } = state, now = data.times[t];
+  const colour = colouring(), wanted = $("trails").value, { t, chosen } = state, now = data.times[t];
   let list = [];
   if (wanted === "fading" || wanted === "whole") for (let i = 0; i < data.n; i++) if (data.present(t, i) && passes(i)) list.push(i);
   const most = wanted === "fading" ? data.scene.mostTrails : Math.max(1, Math.floor(MOST_SEGMENTS / data.m));
@@ -304,9 +307,9 @@ function showTrails() {
     list = Array.from({ length: most }, (_, k) => list[Math.floor((k * list.length) / most)]);
   }
   const fading = wanted === "fading", start = data.times[0] - 1;
-  trails.draw(list, fading ? now - data.scene.trail : start, now, colourAt, fading);
+  trails.draw(list, fading ? now - data.scene.trail : start, now, colour, fading);
   trails.material.uniforms.opacity.value = fading ? 0.85 : Math.max(0.18, Math.min(0.6, 60 / list.length));
-  ownTrail.draw(wanted !== "none" && chosen >= 0 ? [chosen] : [], start, now, colourAt, false);
+  ownTrail.draw(wanted !== "none" && chosen >= 0 ? [chosen] : [], start, now, colour, false);
   dirty = true;
 }
 
