@@ -104,7 +104,7 @@ class Ranks:
         nodes = self.worker.windows.nodes
         if nodes == 1:
             return None
-        reason = why_whole(case, time, source, nodes) or whole
+        reason = whole or why_whole(case, time, source, nodes)
         if reason is not None:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             return None
