@@ -357,12 +357,13 @@ class SeriesFlow(MeshFlow):
         """Return the arrays for the kernels at the times loaded last; see :meth:`MeshFlow.arrays`."""
         nodes = self._fields.shape[1]
         places = [self._in_memory[self._index(level)] for level in self._levels]
+        times = np.array([self._time_of(level) for level in self._levels])
         return SeriesArrays(
             super().arrays(reach, touchable, sight, seen),
-            np.array([self._time_of(level) for level in self._levels]),
+            times,
             np.array(places, dtype=np.int64) * nodes,
             self._fields.reshape(-1, self._fields.shape[2]),
-            self._slack(self._time_of(self._levels[-1])),
+            self._slack(times.max(initial=self.times[0])),
             np.array(places, dtype=np.int64) * self._corrections.shape[1],
             self._corrections.reshape(-1, 4),
         )
