@@ -363,7 +363,7 @@ class SeriesFlow(MeshFlow):
             times,
             np.array(places, dtype=np.int64) * nodes,
             self._fields.reshape(-1, self._fields.shape[2]),
-            self._slack(times.max(initial=self.times[0])),
+            self._slack(float(times.max(initial=self.times[0]))),
             np.array(places, dtype=np.int64) * self._corrections.shape[1],
             self._corrections.reshape(-1, 4),
         )
