@@ -313,7 +313,7 @@ class SeriesFlow(MeshFlow):
         InputError
             The flow does not cover ``start`` to ``end``, or one of its times cannot be read.
         """
-        beyond = _ENDS * max(map(abs, self.times))
+        beyond = _ENDS * max(abs(self.times[0]), abs(self.times[-1]))
         if not (self.span[0] - beyond <= start and end <= self.span[1] + beyond):
             raise InputError(
                 f"the flow is known from {self.span[0]:.12g} s to {self.span[1]:.12g} s, "
@@ -449,8 +449,8 @@ class SeriesFlow(MeshFlow):
             :meth:`times_until` at this time of the flow at the start of the run.
         """
         now, past = self.times_until(t), bisect_right(then, t + self._slack(t)) - 1
-        missing = [time for time in then[max(past, 0) :] if time not in now]
-        added = [time for time in now if time not in then]
+        missing = sorted({*then[max(past, 0) :]} - {*now})
+        added = sorted({*now} - {*then})
         if missing:
             return f"the time {missing[0]:.12g} of the flow is missing"
         return f"the time {added[0]:.12g} was added to the flow" if added else ""

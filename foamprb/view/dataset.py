@@ -59,13 +59,11 @@ def lazy_dataset(
 
         def part(self, key: tuple[Any, ...]) -> NDArray[Any]:
             chosen = np.arange(len(times))[key[0]]
-            found = np.empty((np.size(chosen), *self.shape[1:]), self.dtype)
-            for row, index in enumerate(np.atleast_1d(chosen)):
-                found[row] = self.at(int(index))
-            found = found[0] if np.ndim(chosen) == 0 else found
-            rest = (slice(None),) * np.ndim(chosen)
-            found = found[(*rest, key[1])]
-            return np.asarray(found[(..., *key[2:])])
+            if np.size(chosen) == 0:
+                return np.empty((0, *self.shape[1:]), self.dtype)[:, key[1]][(..., *key[2:])]
+            # No time is kept whole: of many times few particles may be wanted.
+            rows = [self.at(int(index))[key[1]][(..., *key[2:])] for index in np.atleast_1d(chosen)]
+            return np.stack(rows) if np.ndim(chosen) else np.asarray(rows[0])
 
         def at(self, index: int) -> NDArray[Any]:
             cloud = read(index, (_ID,) if self.name in _POINTS else (_ID, self.name))

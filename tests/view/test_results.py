@@ -121,6 +121,9 @@ def test_dataset_reads_values_when_they_are_used(case, monkeypatch):
     then = run.snapshot(0.1)
     row = then["origId"].tolist().index(5)
     assert found[0, 1] == then["semiAxes"][row, 0]
+    both = data["semiAxes"].isel(time=slice(1, 3), particle=[1, 5], semiAxes_component=[0, 2]).values
+    assert both.shape == (2, 2, 2)
+    assert both[0, 1].tolist() == then["semiAxes"][row, [0, 2]].tolist()
     # Some bodies appear later.
     late = sorted({*range(9)} - {*run.snapshot(0.0)["origId"]})
     assert np.isnan(data.d.isel(time=0, particle=late).values).all()
