@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import time as clock
 from pathlib import Path
 
 import pytest
@@ -88,6 +90,20 @@ def test_the_last_time_is_complete_when_its_files_are(case):
     assert (flow.times[-1], flow.ended) == ("0.3", False)
     write(case / "0.4", "U", "p")
     flow.look()
+    flow.look()
+    assert (flow.times[-1], flow.ended) == ("0.4", True)
+
+
+def test_the_last_time_is_not_taken_while_its_files_are_new(case, monkeypatch):
+    """The solver may be writing a field of which it has flushed a whole line."""
+    monkeypatch.setattr(follow, "_QUIET", 2.0)
+    for time in ("0.1", "0.2", "0.3", "0.4"):
+        write(case / time, "U")
+    flow = followed(case)
+    assert (flow.times[-1], flow.ended) == ("0.3", False)
+    before = clock.time() - 10.0
+    for path in (case / "0.4/U", case / "0.4/uniform"):
+        os.utime(path, (before, before))
     flow.look()
     assert (flow.times[-1], flow.ended) == ("0.4", True)
 
