@@ -243,6 +243,15 @@ def test_names_are_no_formulas():
     assert "a$b_$^" in plots.shares({"a$b_$^": {"stuck": 3}}).svg
 
 
+def test_legends_have_a_place_of_their_own(monkeypatch):
+    """A search for a free place took seconds on a busy computer, and matplotlib warned of it."""
+    monkeypatch.delattr("matplotlib.legend.Legend._find_best_position")
+    x = np.arange(4.0)
+    assert "stuck" in plots.shares({"wall": {"stuck": 3}}).svg
+    assert "stuck" in plots.histogram({"stuck": x}, "t", "s").svg
+    assert "median" in plots.curves([("median", x, x)], ("t", "s"), ("D", "1")).svg
+
+
 def test_the_flow_of_a_large_mesh_is_not_reconstructed(case, tmp_path, monkeypatch):
     """The report shows walls, which need the mesh alone; only its picture has streamlines."""
     monkeypatch.setattr("foamprb.flow.read.openfoam.Reconstruction", None)

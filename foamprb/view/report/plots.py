@@ -84,6 +84,11 @@ class Plot(NamedTuple):
     """For a file, on white, 200 dots per inch."""
 
 
+def _legend(axes: Any) -> None:
+    """Draw the legend beside the axes: to look for a free place among many bars takes matplotlib seconds."""
+    axes.legend(fontsize=9, loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
 def _plot(draw: Callable[[Any, Any], None], height: float = 3.2) -> Plot:
     """Return the plot that a function draws on a figure and its axes; ``height`` in inches."""
     with load("matplotlib").rc_context(_STYLE):
@@ -150,7 +155,7 @@ def shares(counts: dict[str, dict[str, int]]) -> Plot:
         axes.grid(False, axis="y")
         axes.margins(x=0.1)
         axes.set(xlabel="particles", ylabel="")
-        axes.legend(fontsize=9)
+        _legend(axes)
 
     return _plot(draw, height=0.9 + 0.42 * len(patches))
 
@@ -175,7 +180,7 @@ def histogram(groups: dict[str, Floats], symbol: str, unit: str) -> Plot:
                 )  # fmt: skip
                 bottom += height
         axes.set(xlabel=_label(symbol, name), ylabel="particles")
-        axes.legend(fontsize=9)
+        _legend(axes)
 
     return _plot(draw)
 
@@ -209,7 +214,7 @@ def curves(
             axes.plot(along / fx, up / fy, linestyle=dashes[k % 6], color=NAMES[(0, 5, 2, 3, 1, 4)[k % 6]],
                       label=label)  # fmt: skip
         axes.set(xlabel=_label(x[0], nx), ylabel=_label(y[0], ny))
-        axes.legend(fontsize=9, ncols=2 if len(lines) > 3 else 1)
+        _legend(axes)
 
     return _plot(draw)
 
@@ -232,7 +237,7 @@ def by_origin(x: Floats, fates: NDArray[np.str_]) -> Plot:
         ratio = extent[first] / max(extent[second], 1e-300)
         axes.set_aspect("equal" if 0.2 < ratio < 5.0 else "auto")
         axes.set(xlabel=f"{'xyz'[first]} [{name}]", ylabel=f"{'xyz'[second]} [{name}]")
-        axes.legend(fontsize=9, loc="center left", bbox_to_anchor=(1.0, 0.5))
+        _legend(axes)
 
     return _plot(draw)
 
