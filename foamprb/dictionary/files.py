@@ -5,11 +5,15 @@ from __future__ import annotations
 import errno
 import gzip
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
+from typing import BinaryIO
 
 from foamprb.errors import InputError
 
-__all__ = ["existing", "has_both_forms", "read_bytes"]
+__all__ = ["existing", "has_both_forms", "opened", "read_bytes"]
 
 
 MOST_UNPACKED, MOST_RATIO = 256 << 20, 200
@@ -57,6 +61,19 @@ def read_bytes(path: Path, limit: int = -1) -> bytes:
             f"after gunzip {path.name}."
         )
     except (OSError, EOFError, zlib.error) as error:
+        raise InputError(f"{path}: cannot be read: {error}.") from None
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[BinaryIO]:
+    """Open a file to read some of its bytes, decompressed; see :func:`read_bytes`."""
+    if path.suffix == ".gz":
+        yield BytesIO(read_bytes(path))
+        return
+    try:
+        with path.open("rb") as stream:
+            yield stream
+    except OSError as error:
         raise InputError(f"{path}: cannot be read: {error}.") from None
 
 

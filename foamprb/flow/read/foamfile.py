@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from collections.abc import Container
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -11,16 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.compile.link import link
-from foamprb.dictionary.files import existing, read_bytes
+from foamprb.dictionary.files import existing, opened, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.lists import MOST_INDICES, int32, starts
 
 Labels: TypeAlias = NDArray[np.int64]
 
-_HEADER_BYTES = 4096
+HEADER_BYTES = 4096
+"""Number of bytes that hold the header of a file and the count of its first list."""
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _BLANK = re.compile(rb"(?:\s+|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
+_BLOCK = re.compile(_BLANK.pattern + rb"(\d+)\s*\(", re.DOTALL)
 _NOTE = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _WORD = re.compile(rb'"(?:[^"\\]|\\.)*"|[^\s(){};"]+')
 _COUNT = re.compile(rb"(?:List<\w+>\s*)?(\d+)")
@@ -58,7 +61,7 @@ class FoamFile:
         order = ">" if arch.startswith("MSB") else "<"
         self.label = np.dtype(f"{order}i{8 if 'label=64' in arch else 4}")
         self._scalar = np.dtype(f"{order}f{4 if 'scalar=32' in arch else 8}")
-        end = re.search(rb"FoamFile\s*\{.*?\}", self.data[:_HEADER_BYTES], re.DOTALL)
+        end = re.search(rb"FoamFile\s*\{.*?\}", self.data[:HEADER_BYTES], re.DOTALL)
         self.at = end.end() if end else 0
         self.skip()
 
@@ -294,24 +297,49 @@ def read_cell_zones(path: Path | FoamFile) -> dict[str, Labels]:
     return zones
 
 
-def read_blocks(path: Path) -> list[FoamFile]:
-    """Read a collated file, which holds a file of each processor, of which only the first has a header."""
-    whole, entries = FoamFile(path), header(path)
+def read_blocks(path: Path, chosen: Container[int], most: int = -1) -> tuple[list[FoamFile], int]:
+    """Read a collated file, which holds a file of each processor, of which only the first has a header.
+
+    Parameters
+    ----------
+    path
+        The file; parts that are not chosen are skipped.
+    chosen
+        Indices of the files to read.
+    most
+        Number of bytes to read of each; all by default.
+
+    Returns
+    -------
+    The chosen files, and the number of all.
+    """
     files: list[FoamFile] = []
-    while whole.at < len(whole.data):
-        n = whole.count()
-        begin = whole.data.find(b"(", whole.at) + 1
-        if begin == 0 or whole.data[begin + n : begin + n + 1] != b")":
-            raise whole.broken(f"the file of processor {len(files)}, {n} bytes,")
-        files.append(FoamFile(path, whole.data[begin : begin + n], entries))
-        whole.at = begin + n + 1
-        whole.skip()
-    return files
+    entries, number = header(path), 0
+    with opened(path) as stream:
+        at = FoamFile(path, stream.read(HEADER_BYTES), entries).at
+        while True:
+            stream.seek(at)
+            text = stream.read(HEADER_BYTES)
+            if _BLANK.fullmatch(text):
+                return files, number
+            found = _BLOCK.match(text)
+            n, begin = (int(found[1]), at + found.end()) if found else (0, at)
+            stream.seek(begin)
+            data = stream.read(n if most < 0 else min(n, most)) if number in chosen else b""
+            stream.seek(begin + n)
+            if found is None or stream.read(1) != b")":
+                raise InputError(
+                    f"{path}: byte {at}: the file of processor {number}, {n} bytes, expected; the file is "
+                    "broken or cut short."
+                )
+            if number in chosen:
+                files.append(FoamFile(path, data, entries))
+            at, number = begin + n + 1, number + 1
 
 
 def header(path: Path) -> dict[str, str]:
     """Return the entries of the FoamFile header, in a collated file of the first part; empty without one."""
-    text = _COMMENT.sub(" ", read_bytes(path, _HEADER_BYTES).decode("latin-1"))
+    text = _COMMENT.sub(" ", read_bytes(path, HEADER_BYTES).decode("latin-1"))
     found = re.findall(r"FoamFile\s*\{(.*?)\}", text, re.DOTALL)
     for match in found:
         entries = {

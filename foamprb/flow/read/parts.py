@@ -13,6 +13,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import Transform
 from foamprb.flow.mesh.fragment import Team, grow
+from foamprb.flow.mesh.lists import even_ends
 from foamprb.flow.mesh.submesh import CUT, RINGS, Halo, assemble_part, partners_of
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
 from foamprb.flow.read.case import MissingFieldError, mesh_files
@@ -57,8 +58,9 @@ class PartCase(DecomposedCase):
         super().__init__(root, region)
         self._team, self._depth = team, depth
         self._whole: CaseMesh | None = None
-        ends = np.linspace(0, self.processors.n, team.size + 1).astype(int)
-        self.processors.chosen = range(ends[team.rank], ends[team.rank + 1])
+        folder = self.mesh_folder(self._times[-1]).relative_to(self._first)
+        ends = even_ends(self.processors.cells(folder), team.size) if team.rank == 0 else None
+        self.processors.chosen = range(*team.spread(ends)[team.rank :][:2])
 
     def mesh(self, time: str) -> CaseMesh:
         """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse import csgraph
 
-from foamprb.dictionary.files import existing
+from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PolyMesh
@@ -25,7 +25,7 @@ from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts, take_lis
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
 from foamprb.flow.read.field import FoamField, PatchField
-from foamprb.flow.read.foamfile import FoamFile, Labels, read_blocks, read_cell_zones
+from foamprb.flow.read.foamfile import HEADER_BYTES, FoamFile, Labels, read_blocks, read_cell_zones
 from foamprb.flow.read.polymesh import checked_poly
 from foamprb.flow.read.times import listed
 
@@ -75,8 +75,11 @@ class Processors:
         ends = [(k, k) for k in sorted(single)] or [(k, last) for k, (last, _) in sorted(several.items())]
         self._held = [range(first, last + 1) for first, last in ends]
 
-    def files(self, relative: Path) -> list[FoamFile] | None:
-        """Return the file of each chosen processor; None if all are missing, InputError if some are."""
+    def files(self, relative: Path, most: int = -1) -> list[FoamFile] | None:
+        """Return the file of each chosen processor; None if all are missing, InputError if some are.
+
+        ``most`` limits the bytes that are read of each.
+        """
         held = [k for k, numbers in enumerate(self._held) if any(n in self.chosen for n in numbers)]
         paths = [existing(self.folders[k] / relative) for k in held]
         if not any(paths):
@@ -86,16 +89,33 @@ class Processors:
                 raise InputError(f"{self.folders[k] / relative}: no such file.")
         found = [path for path in paths if path is not None]
         if not self.collated:
-            return [FoamFile(path) for path in found]
+            return [FoamFile(path, read_bytes(path, most)) for path in found]
         files: list[FoamFile] = []
         for k, path in zip(held, found, strict=True):
-            blocks, numbers = read_blocks(path), self._held[k]
-            if len(blocks) != len(numbers):
+            numbers = self._held[k]
+            chosen = [i for i, number in enumerate(numbers) if number in self.chosen]
+            blocks, count = read_blocks(path, chosen, most)
+            if count != len(numbers):
                 raise InputError(
-                    f"{path}: parts of {len(blocks)} processors, not {len(numbers)}; the file is cut short."
+                    f"{path}: parts of {count} processors, not {len(numbers)}; the file is cut short."
                 )
-            files += [block for n, block in zip(numbers, blocks, strict=True) if n in self.chosen]
+            files += blocks
         return files
+
+    def cells(self, folder: Path) -> Labels:
+        """Return the number of cells of each chosen processor, from the beginnings of its addressing files.
+
+        Parameters
+        ----------
+        folder
+            The folder of the mesh in that of a processor.
+
+        Returns
+        -------
+        Ones without these files.
+        """
+        files = self.files(folder / _ADDRESSING[2], HEADER_BYTES)
+        return np.array([file.count() for file in files]) if files else np.ones(len(self.chosen), np.int64)
 
     def times(self) -> tuple[tuple[str, ...], str]:
         """Return the times that all folders have, and a note on others; InputError if they have none."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from foamprb.flow.read.foamfile import read_labels
 from foamprb.flow.read.openfoam import read_case, read_series, steady_flow, transient_flow
 from foamprb.flow.read.source import FlowSource
 
+MESH = Path("constant/polyMesh")
 TIMES = ("0", "0.5", "1e1")
 
 
@@ -58,6 +60,10 @@ def test_the_flow_is_that_of_the_whole_to_the_last_bit(written):
     assert parts.patches == whole.patches
     for name, a, b in zip(whole.arrays()._fields, whole.arrays(0.1), parts.arrays(0.1), strict=True):
         np.testing.assert_array_equal(a, b, err_msg=name)
+    counts = DecomposedCase(written).processors.cells(MESH)
+    assert counts.tolist() == [
+        len(read_labels(written / f"processor{k}" / MESH / "cellProcAddressing")) for k in range(3)
+    ]
     assert parts.notes == ("The flow was put together from 3 processor folders.", *whole.notes)
 
 
@@ -95,9 +101,15 @@ def test_collated_files_are_read(written, tmp_path):
         assert is_only_decomposed(case)
         np.testing.assert_array_equal(read_parts(case, 0.5).arrays().nodes, whole.arrays().nodes)
         assert main(["info", "-case", str(case)]) == 0
+        processors = DecomposedCase(case).processors
+        assert processors.cells(MESH).tolist() == DecomposedCase(written).processors.cells(MESH).tolist()
+        processors.chosen = range(1, 3)
+        for file, k in zip(processors.files(MESH / "owner"), (1, 2), strict=True):
+            path = written / f"processor{k}" / MESH / "owner"
+            np.testing.assert_array_equal(file.labels(), read_labels(path))
     cut = tmp_path / "one/processors3/constant/polyMesh/owner"
     cut.write_bytes(cut.read_bytes()[:-40])
-    with pytest.raises(InputError, match=r"owner: line .* the file of processor 2"):
+    with pytest.raises(InputError, match=r"owner: byte .* the file of processor 2"):
         read_parts(tmp_path / "one")
     shutil.rmtree(tmp_path / "two/processors3_0-1")
     with pytest.raises(InputError, match="processors3_2-2: there is no folder for processor 0"):

@@ -6,7 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-from foam_writer import decompose, write_case
+from foam_writer import decompose, header, write_case
 from threads_team import together
 
 from foamprb.errors import InputError
@@ -53,6 +53,16 @@ def test_nodes_read_the_flow_of_the_whole(written, random):
             np.testing.assert_array_equal(own, whole[rows])
         located += len(rows)
     assert located == len(points)
+
+
+def test_nodes_take_folders_by_their_cells(written, tmp_path):
+    case = tmp_path / "case"
+    shutil.copytree(written, case)
+    for k, n in enumerate((1, 1, 1, 9)):
+        path = case / f"processor{k}/constant/polyMesh/cellProcAddressing"
+        path.write_text(f"{header('labelList', path.name)}{n}\n(\n")
+    chosen = together(2, lambda team: PartCase(case, "", team, 1).processors.chosen)
+    assert chosen == [range(3), range(3, 4)]
 
 
 def test_parts_without_addressing_are_refused(written, tmp_path):
