@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import path_stokes_number, shape_stokes_number
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
-from foamprb.cloud.stability import instability
+from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
@@ -30,7 +30,10 @@ from foamprb.flow.base import Flow
 
 __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 
+Value = TypeVar("Value")
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
+PART = 1 << 16
+"""Particles in a part of :meth:`Stepper.in_order`."""
 _FIRST_CHECK = 4
 """Steps before the stability of ``paper`` is first checked; it is again whenever they have doubled."""
 _ROUND_OFF = 1e-6
@@ -188,8 +191,8 @@ class Cloud:
             if checks and self.step >= self._next_check:
                 # A shape beyond the limit oscillates, and is at times within it.
                 self._next_check = self.step + max(self.step, _FIRST_CHECK)
-                _, text = instability(p, self.medium_there.mu, self.dt, self.models.material)
-                self._warn_once(PAPER.name, text)
+                found = unstable(p, self.medium_there.mu, self.dt, self.models.material)
+                self._warn_once(PAPER.name, warning_of(*found, self.dt))
         failed = p.counts()[Status.FAILED] - before
         if failed:
             k = int(np.flatnonzero(p.status == Status.FAILED)[-1])
@@ -397,6 +400,43 @@ class Stepper:
     def gather(self) -> None:
         """Bring the arrays of the cloud and its rebounds up to date."""
 
+    def each(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """Return what a function finds of the particles where they are, of each process.
+
+        Parameters
+        ----------
+        function
+            Called with particles, the flow around them, the time (s), and the ``arguments``.
+        """
+        cloud = self.cloud
+        return [function(cloud.particles, cloud.flow, cloud.time, *arguments)]
+
+    firsts: tuple[int, ...] = (0,)
+    """Number of the first gathered particle of each process that has some."""
+
+    def at_homes(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """Return what a function finds of the gathered particles of each process.
+
+        Parameters
+        ----------
+        function
+            Called with particles of consecutive numbers, and the ``arguments``.
+        """
+        return [function(self.cloud.particles, *arguments)]
+
+    def in_order(
+        self, function: Callable[..., Value], *arguments: Any, own: tuple[Any, ...] = ()
+    ) -> Iterator[Value]:
+        """Yield what a function finds of all gathered particles, part by part in the order of their numbers.
+
+        Parameters
+        ----------
+        function
+            Called with particles of consecutive numbers, the ``arguments``, and those that only the first
+            process has.
+        """
+        yield from parts_in_order(self.cloud.particles, function, *arguments, *own)
+
     def counts(self) -> dict[Status, int]:
         """Return the number of particles of each status, gathered or not."""
         return self.cloud.particles.counts()
@@ -407,6 +447,12 @@ class Stepper:
         return cloud.tracker.advance(
             flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop
         )
+
+
+def parts_in_order(p: Particles, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+    """Yield what a function finds of particles, part by part; once without particles."""
+    for start in range(0, max(p.size, 1), PART):
+        yield function(p.take(slice(start, start + PART)), *arguments)
 
 
 def explain(reason: Reason | int, models: Models, limits: Limits) -> str:

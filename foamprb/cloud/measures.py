@@ -478,6 +478,18 @@ def measure(c: Context, further: Collection[str] = ()) -> dict[str, NDArray[Any]
     return {name: np.asarray(m.value(c)) for name, m in MEASURES.items() if name in further or not m.optional}
 
 
+def shapes(particles: Particles) -> tuple[Floats, Floats]:
+    """Return semi-axes (n, 3), m, and D (n,) of particles of any status."""
+    p = particles._replace(status=np.full_like(particles.status, Status.ACTIVE))
+    unknown = FlowSamples(np.full((p.size, 3), np.nan), np.full((p.size, 9), np.nan), None, {})
+    found = [
+        (MEASURES["semiAxes"].value(c), MEASURES["taylorDeformation"].value(c))
+        for c in contexts(p, unknown, math.nan, math.nan)
+    ]
+    axes, D = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return axes, D
+
+
 def flow_samples(
     particles: Particles, flow: Sampled, time: float, mu: float | VaryingViscosity = math.nan
 ) -> FlowSamples:

@@ -13,7 +13,7 @@ from foamprb.body.tensor import Tensor, add, cofactor, ddot, det, dot, principal
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile.link import link
 
-__all__ = ["instability", "longest_stable_steps"]
+__all__ = ["longest_stable_steps", "unstable", "warning_of"]
 
 Floats = NDArray[np.float64]
 _HALVINGS = 12
@@ -42,19 +42,22 @@ def longest_stable_steps(p: Particles, mu_f: float | Floats, dt: float, material
     return np.concatenate([np.empty(0), *parts])
 
 
-def instability(p: Particles, mu_f: float | Floats, dt: float, material: str) -> tuple[int, str]:
-    """Return the number of particles for whose shapes Δt is too long, and a sentence about them.
+def unstable(p: Particles, mu_f: float | Floats, dt: float, material: str) -> tuple[int, float]:
+    """Return the number of particles for whose shapes Δt is too long, and the shortest of their limits, s.
 
     The parameters are those of :func:`longest_stable_steps`.
     """
     limits = longest_stable_steps(p, mu_f, dt, material)
-    beyond = int(np.isfinite(limits).sum())
+    return int(np.isfinite(limits).sum()), float(limits.min(initial=np.inf))
+
+
+def warning_of(beyond: int, limit: float, dt: float) -> str:
+    """Return a sentence about the particles that :func:`unstable` counts; empty without any."""
     if beyond == 0:
-        return 0, ""
-    return beyond, (
-        f"deltaT is up to {dt / limits.min():.3g} times what the integrator paper is stable with for the "
-        f"shapes of {beyond} particles: their deformation is wrong; use deltaT < {limits.min():.3g} or "
-        "integrator rosenbrock."
+        return ""
+    return (
+        f"deltaT is up to {dt / limit:.3g} times what the integrator paper is stable with for the shapes of "
+        f"{beyond} particles: their deformation is wrong; use deltaT < {limit:.3g} or integrator rosenbrock."
     )
 
 

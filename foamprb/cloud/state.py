@@ -172,6 +172,10 @@ class Particles(NamedTuple):
         """Return the particles of some rows: copies, or views for a slice."""
         return Particles(*(array[rows] for array in self))
 
+    def copy(self) -> Particles:
+        """Return the same state in arrays of its own."""
+        return Particles(*(array.copy() for array in self))
+
     def copy_changing(
         self, into: Particles | None = None, names: Collection[str] | None = None, threads: int = 1
     ) -> Particles:

@@ -24,7 +24,7 @@ from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import viscosity_unknown as viscosity
-from foamprb.flow.base import Flow, Patch
+from foamprb.flow.base import Flow, Patch, Sampled
 
 __all__ = [
     "RATE_LAWS",
@@ -254,7 +254,7 @@ def viscosity_of(
     return found
 
 
-def medium_at(medium: Medium, flow: Flow, p: Particles, t: float) -> Medium:
+def medium_at(medium: Medium, flow: Sampled, p: Particles, t: float) -> Medium:
     """Return the medium with the viscosity at particles at time t, s: (n,), or the number if constant.
 
     Where the flow is unknown, it is the median.

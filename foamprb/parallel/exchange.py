@@ -39,6 +39,23 @@ def unpack(records: NDArray[Any]) -> tuple[Particles, Rows]:
     return Particles(*(records[name].copy() for name in Particles._fields)), records["id"].copy()
 
 
+def homes_of(n: int, size: int, whole: bool) -> NDArray[np.int64]:
+    """Return the number of the first particle whose home is each of several processes, and n, (size + 1,).
+
+    A process is the home of particles of consecutive numbers: it gathers their states, wherever they are.
+
+    Parameters
+    ----------
+    n, size
+        Number of particles and of processes.
+    whole
+        Whether the first process is the home of all.
+    """
+    if whole:
+        return np.array([0] + [n] * size, dtype=np.int64)
+    return np.arange(size + 1, dtype=np.int64) * n // size
+
+
 def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:
     """Who gives how many active particles to whom, so that all have as many; None if it does not pay.
 

@@ -15,19 +15,19 @@ from __future__ import annotations
 
 import logging
 import pickle
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from foamprb.cloud.cloud import Cloud, Stepper
+from foamprb.cloud.cloud import PART, Cloud, Stepper, Value, parts_in_order
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.flow.fields import Fields, columns_of
 from foamprb.flow.read.source import FlowSource
 from foamprb.parallel.distributed import LEAST_LAYERS, DistributedFlow, why_whole
-from foamprb.parallel.exchange import plan_exchange
+from foamprb.parallel.exchange import homes_of, plan_exchange
 from foamprb.parallel.shared_memory import Publisher
 from foamprb.parallel.worker import Answer, Worker, piece_file
 from foamprb.results.pvd import with_ending
@@ -147,23 +147,31 @@ class RankStepper(Stepper):
         The cloud, whose particles and flow are distributed.
     ranks
         The processes.
+    whole
+        Whether the first process gathers all particles. Otherwise each process is the home of as many, and
+        the cloud keeps those of the first.
     """
 
     _order = "advance"
 
-    def __init__(self, cloud: Cloud, ranks: Ranks) -> None:
+    def __init__(self, cloud: Cloud, ranks: Ranks, whole: bool = True) -> None:
         super().__init__(cloud)
-        self.ranks = ranks
+        self.ranks, size = ranks, cloud.particles.size
+        self._homes = homes_of(size, ranks.size, whole)
+        self.firsts = tuple(np.unique(self._homes[:-1][np.diff(self._homes) > 0]).tolist())
         self.published = Publisher(ranks.worker.windows, ranks.order)
         self._placed = b""
         self._gathered = True
         cloud.flow.move(self.published.move)
         ranks.order("prepare", loaded_libs(), pickle.dumps(cloud.tracker), cloud.threads)
-        self._distribute()
+        self._begin()
+        ranks.order("settle", self._homes, own=(cloud.particles,))
+        cloud.particles = ranks.worker.home
+        self._set_out()
         self._counts = [share.counts for share in ranks.order("share")]
         nodes = ranks.worker.windows.nodes
         log.info("\nSharing out %d particles among %d processes of %d thread%s on %d computer%s",
-                 cloud.particles.size, ranks.size, cloud.threads, "s"[: cloud.threads > 1], nodes,
+                 size, ranks.size, cloud.threads, "s"[: cloud.threads > 1], nodes,
                  "s"[: nodes > 1])  # fmt: skip
         log.info("    %-24s %.1f", "shared memory [MB]", self._shared_bytes / 1e6)
 
@@ -172,17 +180,39 @@ class RankStepper(Stepper):
         """Bytes shared on each computer."""
         return self.published.size
 
-    def _distribute(self) -> None:
-        """Send the particles and the flow to the processes."""
-        self.ranks.order("distribute", own=(self.cloud.particles,))
-        self._publish(self.cloud.flow_arrays())
+    def _begin(self) -> None:
+        """Prepare the flow while the cloud is whole."""
+        self._publish(self.cloud.make_ready())
+
+    def _set_out(self) -> None:
+        """Send the particles to the processes."""
+        self.ranks.order("set_out", [list(range(self.ranks.size))])
 
     def gather(self) -> None:
-        """Collect changed particles and rebounds from all processes."""
+        """Collect changed particles at their homes, and rebounds from all processes."""
         if not self._gathered:
             self.ranks.order("gather")
             self.cloud.tracker.rebounds += self.ranks.order("take_rebounds")
             self._gathered = True
+
+    def each(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """See :meth:`Stepper.each`."""
+        self._publish_present()
+        return self.ranks.order("each", function, self.cloud.time, *arguments)
+
+    def at_homes(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """See :meth:`Stepper.at_homes`."""
+        return self.ranks.order("at_home", function, None, slice(None), *arguments)
+
+    def in_order(
+        self, function: Callable[..., Value], *arguments: Any, own: tuple[Any, ...] = ()
+    ) -> Iterator[Value]:
+        """See :meth:`Stepper.in_order`."""
+        yield from parts_in_order(self.cloud.particles, function, *arguments, *own)
+        for rank, n in enumerate(np.diff(self._homes).tolist()):
+            for start in range(0, n if rank else 0, PART):
+                part = slice(start, start + PART)
+                yield self.ranks.order("at_home", function, rank, part, *arguments)[rank]
 
     def counts(self) -> dict[Status, int]:
         """Return the number of particles of each status, gathered or not."""
@@ -214,9 +244,7 @@ class RankStepper(Stepper):
         OSError
             If a file cannot be written.
         """
-        self.cloud.flow.load(time, time)
-        flow: Any = self.cloud.flow
-        self._publish(self.cloud.flow_arrays(), flow.fields(time, time) if columns_of(flow) else None)
+        self._publish_present()
         written = self.ranks.order("write", stem, time, names, further)
         pieces = [piece for piece in written if piece is not None]
         file = with_ending(stem, ".pvtp")
@@ -226,6 +254,13 @@ class RankStepper(Stepper):
             return file
 
         return list_pieces
+
+    def _publish_present(self) -> None:
+        """Make the flow and the sampled fields at the present time known to all processes."""
+        flow, time = self.cloud.flow, self.cloud.time
+        flow.load(time, time)
+        given: Any = flow
+        self._publish(self.cloud.flow_arrays(), given.fields(time, time) if columns_of(flow) else None)
 
     def piece_files(self, stem: Path) -> tuple[Path, ...]:
         """Return the files that :meth:`begin_pieces` may write."""
@@ -262,22 +297,24 @@ class PartStepper(RankStepper):
 
     _order = "advance_part"
 
-    def _distribute(self) -> None:
+    def _begin(self) -> None:
         cloud, ranks, flow = self.cloud, self.ranks, self._flow
-        cloud.flow_arrays()
+        cloud.make_ready()
         numbers = ranks.order("node_number")
         self._ranks_of = [[r for r, n in enumerate(numbers) if n == k] for k in range(max(numbers) + 1)]
         hosts = cloud.particles.host
-        rank_of = np.zeros(len(hosts), dtype=np.int32)
+        self._node_of = np.zeros(len(hosts), dtype=np.int32)
         for number, rows in enumerate(flow.owners(hosts)):
-            own = np.array(self._ranks_of[number], dtype=np.int32)
-            rank_of[rows] = own[rows % len(own)]
-        ranks.order("distribute_parts", self._ranks_of, own=(cloud.particles, rank_of))
+            self._node_of[rows] = number
         whole = cloud.tracker.whole
         # A body may go through one layer less than there are, so that it ends before the last.
         most = max(1, int((flow.depth - 1) / max(flow.rate * cloud.dt * whole, 1e-300)))
         self._few = whole * min(most, MOST_AT_ONCE)
         log.info("    %-24s %d", "steps between exchanges", self._few)
+
+    def _set_out(self) -> None:
+        self.ranks.order("set_out", self._ranks_of, own=(self._node_of,))
+        del self._node_of
 
     @property
     def _flow(self) -> DistributedFlow:
@@ -314,10 +351,16 @@ class PartStepper(RankStepper):
             self.ranks.order("exchange", whole)
 
 
-def stepper_of(cloud: Cloud, ranks: Ranks) -> RankStepper:
-    """Return the stepper for a cloud whose flow the nodes share as parts or as a whole."""
+def stepper_of(cloud: Cloud, ranks: Ranks, whole: bool) -> RankStepper:
+    """Return the stepper for a cloud whose flow the nodes share as parts or as a whole.
+
+    Parameters
+    ----------
+    cloud, ranks, whole
+        See :class:`RankStepper`.
+    """
     flow: Any = cloud.flow
-    return (PartStepper if isinstance(flow, DistributedFlow) else RankStepper)(cloud, ranks)
+    return (PartStepper if isinstance(flow, DistributedFlow) else RankStepper)(cloud, ranks, whole)
 
 
 MOST_AT_ONCE = 1000

@@ -7,7 +7,7 @@ import pickle
 import sys
 import time
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -30,10 +30,12 @@ from foamprb.parallel.shared_memory import Windows
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
 
+_AT_ONCE = 1 << 22
+"""Most particles that all processes send together; a process packs its part of them."""
 _LONGEST_PAUSE = 1e-3
 """Longest pause between two tests of a barrier, s."""
 _COLLECTIVE = (
-    *("make", "spread", "free", "distribute", "distribute_parts", "exchange", "gather"),
+    *("make", "spread", "free", "settle", "set_out", "exchange", "gather"),
     *("open_part",),
 )
 """Orders during which processes wait for each other; an error in one of them aborts all processes."""
@@ -99,8 +101,10 @@ class Worker:
         self._record = MPI.BYTE.Create_contiguous(RECORD.itemsize).Commit()
         self.make, self.spread, self.free = self.windows.make, self.windows.spread, self.windows.free
         self.particles, self.ids = empty(0), np.empty(0, dtype=np.int64)
-        self._whole: Particles | None = None
-        # True for particles whose state the first process may not have.
+        self.home = empty(0)
+        """Gathered states of particles of consecutive numbers."""
+        self._homes = np.zeros(self.comm.size + 1, dtype=np.int64)
+        # True for particles whose state their homes may not have.
         self._fresh = np.empty(0, dtype=bool)
         self._flow: Any = None
         self._sampled: Fields | None = None
@@ -132,24 +136,93 @@ class Worker:
         self._tracker: Tracker = pickle.loads(tracker)
         self._threads = threads
 
-    def distribute(self, whole: Particles | None = None) -> None:
-        """Receive a share from the first process, which has the whole: every N-th particle of N processes.
+    def settle(self, homes: NDArray[np.int64], whole: Particles | None = None) -> None:
+        """Receive the particles whose home this process is from the first one, which has the whole.
 
-        Injection models release particles roughly in the order of their numbers. The processes therefore have
-        similar numbers of active particles.
+        Parameters
+        ----------
+        homes
+            First numbers, see :func:`foamprb.parallel.exchange.homes_of`.
+        whole
+            All particles; on the first process only.
         """
-        size = self.comm.size
-        if self.rank == 0:
-            assert whole is not None
-            self._whole = whole
-            for rank in range(1, size):
-                ids = np.arange(rank, whole.size, size)
-                self.comm.Send([pack(whole, ids, ids), len(ids), self._record], rank)
-            self.ids = np.arange(0, whole.size, size)
-            self.particles = whole.take(self.ids)
-        else:
-            self.particles, self.ids = unpack(self._receive(0))
+        self._homes = homes
+        if self.rank > 0:
+            self.home, _ = unpack(self._receive(0))
+            return
+        assert whole is not None
+        for rank in range(1, self.comm.size):
+            ids = np.arange(homes[rank], homes[rank + 1])
+            self.comm.Send([pack(whole, ids, ids), len(ids), self._record], rank)
+        own = whole.take(slice(homes[1]))
+        self.home = whole if own.size == whole.size else own.copy()
+
+    def set_out(self, ranks_of: list[list[int]], node_of: NDArray[np.int32] | None = None) -> None:
+        """Send the particles from their homes to the processes that advance them.
+
+        Injection models release particles roughly in the order of their numbers. The processes of a node take
+        them in turn, and therefore have similar numbers of active particles.
+
+        Parameters
+        ----------
+        ranks_of
+            Processes of each node.
+        node_of
+            Node of each particle; on the first process only, None for a single one.
+        """
+        self._ranks_of = ranks_of
+        first, last = self._homes[self.rank : self.rank + 2]
+        ids = np.arange(first, last)
+        node = np.zeros(len(ids), dtype=np.int32)
+        if self._part is not None:
+            if self.rank == 0:
+                assert node_of is not None
+                for rank in range(1, self.comm.size):
+                    self.comm.Send(node_of[slice(*self._homes[rank : rank + 2])], rank)
+                node = node_of[: len(ids)]
+            else:
+                self.comm.Recv(node, 0)
+        rank_of = self._ranks_in(node, ids)
+        parts = [unpack(own) for own in self._trade(lambda rows: pack(self.home, rows, ids[rows]), rank_of)]
+        self.particles = concatenate([particles for particles, _ in parts])
+        self.ids = np.concatenate([numbers for _, numbers in parts])
+        if self._part is not None:
+            self.particles.host[:] = self._held.hosts_of(self.particles.host)
         self._fresh = self._unfinished(self.particles)
+
+    def _ranks_in(self, node: NDArray[np.int32], ids: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the process of a node for each particle, by its number."""
+        sizes = np.array([len(ranks) for ranks in self._ranks_of])
+        table = np.array([np.resize(ranks, sizes.max()) for ranks in self._ranks_of])
+        return np.asarray(table[node, ids % sizes[node]])
+
+    def _trade(
+        self, packed: Callable[[NDArray[np.int64]], NDArray[Any]], rank_of: NDArray[np.int64]
+    ) -> Iterator[NDArray[Any]]:
+        """Send records to processes, and yield what comes from all, not too many at a time.
+
+        Parameters
+        ----------
+        packed
+            Returns the records of some rows.
+        rank_of
+            Process to which each row goes.
+        """
+        most = max(1, _AT_ONCE // self.comm.size)
+        for k in range(max(1, self.comm.allreduce(-(-len(rank_of) // most), self._MPI.MAX))):
+            some = rank_of[k * most : (k + 1) * most]
+            rows = np.argsort(some, kind="stable")
+            sent = np.bincount(some, minlength=self.comm.size).astype(np.int64)
+            yield self._swap(packed(k * most + rows), sent)
+
+    def _swap(self, outgoing: NDArray[Any], sent: NDArray[np.int64]) -> NDArray[Any]:
+        """Send records, in the order of the processes; return those from all."""
+        received = np.empty_like(sent)
+        self.comm.Alltoall(sent, received)
+        incoming = np.empty(received.sum(), dtype=RECORD)
+        self.comm.Alltoallv([outgoing, (sent, _starts(sent)), self._record],
+                            [incoming, (received, _starts(received)), self._record])  # fmt: skip
+        return incoming
 
     def _unfinished(self, p: Particles) -> NDArray[np.bool_]:
         return np.isin(p.status, self._tracker.movable)
@@ -189,33 +262,6 @@ class Worker:
         assert self._part is not None
         return self._part
 
-    def distribute_parts(
-        self, ranks_of: list[list[int]], whole: Particles | None = None, rank_of: Ints | None = None
-    ) -> None:
-        """Receive the particles of this process from the first one, which has the whole.
-
-        Parameters
-        ----------
-        ranks_of
-            The processes of each node.
-        whole, rank_of
-            All particles, and the process of each; on the first process only.
-        """
-        self._ranks_of = ranks_of
-        if self.rank == 0:
-            assert whole is not None
-            assert rank_of is not None
-            self._whole = whole
-            for rank in range(1, self.comm.size):
-                ids = np.flatnonzero(rank_of == rank)
-                self.comm.Send([pack(whole, ids, ids), len(ids), self._record], rank)
-            self.ids = np.flatnonzero(rank_of == 0)
-            self.particles = whole.take(self.ids)
-        else:
-            self.particles, self.ids = unpack(self._receive(0))
-        self.particles.host[:] = self._held.hosts_of(self.particles.host)
-        self._fresh = self._unfinished(self.particles)
-
     def normals(self, numbers: NDArray[np.int64]) -> tuple[NDArray[np.int64], Floats]:
         """Return which of some particles this process has, and the normals of the walls where they ended."""
         rows = np.flatnonzero(np.isin(self.ids, numbers))
@@ -227,22 +273,17 @@ class Worker:
 
     def exchange(self, plan: NDArray[np.int64]) -> None:
         """Send active particles and receive others: ``plan[i, j]`` from process i to j."""
-        sent, received = plan[self.rank], plan[:, self.rank]
+        sent = plan[self.rank]
         active = np.flatnonzero(self.particles.status == Status.ACTIVE)
         # Evenly spread over the rows, so that costly particles are spread too.
         rows = active[np.arange(sent.sum()) * len(active) // max(sent.sum(), 1)]
-        self._swap(pack(self.particles, rows, self.ids[rows]), sent, received, rows)
+        incoming = self._swap(pack(self.particles, rows, self.ids[rows]), sent)
+        self._replace(rows, *unpack(incoming))
 
-    def _swap(
-        self, outgoing: NDArray[Any], sent: NDArray[np.int64], received: NDArray[np.int64], rows: Any
-    ) -> None:
-        """Send the particles of some rows, and append those of other processes."""
+    def _replace(self, rows: NDArray[np.int64], particles: Particles, ids: NDArray[np.int64]) -> None:
+        """Replace the particles of some rows by others."""
         gone = np.zeros(self.particles.size, dtype=bool)
         gone[rows] = True
-        incoming = np.empty(received.sum(), dtype=RECORD)
-        self.comm.Alltoallv([outgoing, (sent, _starts(sent)), self._record],
-                            [incoming, (received, _starts(received)), self._record])  # fmt: skip
-        particles, ids = unpack(incoming)
         self.particles = concatenate([self.particles.take(~gone), particles])
         self.ids = np.concatenate([self.ids[~gone], ids])
         self._fresh = np.concatenate([self._fresh[~gone], np.ones(len(ids), dtype=bool)])
@@ -285,38 +326,44 @@ class Worker:
         node = part.places.node[part.cells_of(p.host[rows])]
         away = node != part.number
         rows, node = rows[away], node[away]
-        # Of the processes of a node the numbers of particles decide.
-        sizes = np.array([len(ranks) for ranks in self._ranks_of])
-        table = np.array([np.resize(ranks, sizes.max()) for ranks in self._ranks_of])
-        rank = table[node, self.ids[rows] % sizes[node]]
-        order = np.argsort(rank, kind="stable")
-        rows, sent = rows[order], np.bincount(rank, minlength=self.comm.size).astype(np.int64)
-        received = np.empty_like(sent)
-        self.comm.Alltoall(sent, received)
-        outgoing = pack(p, rows, self.ids[rows])
-        outgoing["host"] = part.numbers_of(outgoing["host"])
-        arrived = slice(p.size - len(rows), None)
-        self._swap(outgoing, sent, received, rows)
-        self.particles.host[arrived] = part.hosts_of(self.particles.host[arrived])
+        rank_of = self._ranks_in(node, self.ids[rows])
+        arrived = [unpack(own) for own in self._trade(lambda some: self._packed(rows[some]), rank_of)]
+        particles = concatenate([own for own, _ in arrived])
+        particles.host[:] = part.hosts_of(particles.host)
+        self._replace(rows, particles, np.concatenate([ids for _, ids in arrived]))
+
+    def _packed(self, rows: NDArray[np.int64]) -> NDArray[Any]:
+        """Return records of particles with their hosts in the whole mesh."""
+        records = pack(self.particles, rows, self.ids[rows])
+        if self._part is not None:
+            records["host"] = self._part.numbers_of(records["host"])
+        return records
 
     def take_rebounds(self) -> NDArray[np.float64]:
         """Return the rebounds that happened in this process."""
         return self._tracker.take_rebounds()
 
     def gather(self) -> None:
-        """Send the particles that may have changed to the first process."""
-        rows = np.flatnonzero(self._fresh)
-        changed = pack(self.particles, rows, self.ids[rows])
-        if self._part is not None:
-            changed["host"] = self._part.numbers_of(changed["host"])
-        if self._whole is None:
-            self.comm.Send([changed, len(rows), self._record], 0)
-        else:
-            for rank in range(self.comm.size):
-                records = self._receive(rank) if rank else changed
-                for name, array in self._whole._asdict().items():
-                    array[records["id"]] = records[name]
+        """Send the particles that may have changed to their homes."""
+        rows, first = np.flatnonzero(self._fresh), self._homes[self.rank]
+        homes = np.searchsorted(self._homes[1:], self.ids[rows], side="right")
+        for records in self._trade(lambda some: self._packed(rows[some]), homes):
+            for name, array in self.home._asdict().items():
+                array[records["id"] - first] = records[name]
         self._fresh = self._unfinished(self.particles)
+
+    def each(self, function: Callable[..., Any], time: float, *arguments: Any) -> Any:
+        """Return what a function finds of the particles that this process advances."""
+        return function(self.particles, self._seen, time, *arguments)
+
+    def at_home(self, function: Callable[..., Any], rank: int | None, part: slice, *arguments: Any) -> Any:
+        """Return what a function finds of a part of the gathered particles, on one process or on all."""
+        return function(self.home.take(part), *arguments) if rank in (self.rank, None) else None
+
+    @property
+    def _seen(self) -> _SharedFlow:
+        """The flow around the particles."""
+        return _SharedFlow(self._tracker.kernels, self._flow, self._sampled)
 
     def write(
         self, folder: Path, time: float, names: Mapping[str, Sequence[str]], further: Sequence[str] = ()
@@ -338,9 +385,10 @@ class Worker:
         """
         if self.rank and not len(injected(self.particles)):
             return None
-        flow, mu = _SharedFlow(self._tracker.kernels, self._flow, self._sampled), self._tracker.mu
-        file = piece_file(folder, self.rank)
-        return file, write_snapshot(file, report(self.particles, flow, mu, time, names, further, self.ids))
+        file, mu = piece_file(folder, self.rank), self._tracker.mu
+        return file, write_snapshot(
+            file, report(self.particles, self._seen, mu, time, names, further, self.ids)
+        )
 
     def serve(self, signals: Sequence[int]) -> int:
         """Execute the orders of the first process until it dismisses all; return the exit status.

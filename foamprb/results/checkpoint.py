@@ -5,6 +5,10 @@ in numpy's ``.npy`` format, in the order of the header's ``arrays``. The checksu
 everything else. If all rows of an array are equal, as in many arrays of a cloud, the file contains one of
 them; the header's ``rows`` gives their number. The last two files stay on disk, so that a run can resume when
 one of them is damaged.
+
+Several processes write a checkpoint together: the first its file, and each other one further rows of some
+arrays, as a file ``<time>.checkpoint.<first row>`` of the same format. The header's ``parts`` gives these
+rows and the checksums.
 """
 
 from __future__ import annotations
@@ -14,7 +18,7 @@ import json
 import logging
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +31,7 @@ from foamprb.results.atomic import atomic_write, drop_cache
 
 log = logging.getLogger("foamprb")
 
-VERSION = 8
+VERSION = 9
 MOST_FILES = 2
 """Number of checkpoints that stay on disk."""
 
@@ -87,7 +91,7 @@ class Checkpoints:
             drop_cache(file)
         write_checkpoint(path, checkpoint)
         for file in list(self.files().values())[:-MOST_FILES]:
-            file.unlink(missing_ok=True)
+            _remove(file)
         return path
 
     def latest(self) -> Checkpoint | None:
@@ -122,11 +126,32 @@ class Checkpoints:
         """Remove the checkpoints of later times, s."""
         for time, file in self.files().items():
             if time > after:
-                file.unlink(missing_ok=True)
+                _remove(file)
 
 
-def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
-    """Write a checkpoint in one step.
+def parts_of(file: Path) -> list[Path]:
+    """Return the files with the further rows of a checkpoint."""
+    return sorted(file.parent.glob(f"{file.name}.*"))
+
+
+def part_file(file: Path, first: int) -> Path:
+    """Return the file with the rows of a checkpoint from one on."""
+    return file.with_name(f"{file.name}.{first}")
+
+
+def _remove(file: Path) -> None:
+    """Remove a checkpoint, its own file first, so that no file is one without its parts."""
+    file.unlink(missing_ok=True)
+    for part in parts_of(file):
+        part.unlink(missing_ok=True)
+
+
+def write_checkpoint(path: Path, checkpoint: Checkpoint) -> str:
+    """Write a checkpoint, or a part of one, in one step.
+
+    Returns
+    -------
+    The checksum.
 
     Raises
     ------
@@ -144,10 +169,11 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
         checksum = _checksum(file, first)
         file.seek(len(first))
         file.write(checksum)
+    return checksum.hex()
 
 
 def read_checkpoint(path: Path) -> Checkpoint:
-    """Read a checkpoint, after comparing its checksum with its bytes.
+    """Read a checkpoint with its parts, after comparing checksums with bytes.
 
     Raises
     ------
@@ -156,10 +182,33 @@ def read_checkpoint(path: Path) -> Checkpoint:
     InputError
         If it is undamaged, but has another version.
     """
+    whole, _ = _read(path)
+    parts = []
+    for first, expected in whole.header.get("parts", ()):
+        own = part_file(path, first)
+        try:
+            part, checksum = _read(own)
+        except FileNotFoundError:
+            raise DamagedError(f"{own.name} is missing") from None
+        except DamagedError as error:
+            raise DamagedError(f"in {own.name} {error}") from error
+        if checksum != expected:
+            raise DamagedError(f"{own.name} belongs to another checkpoint")
+        parts.append(part.arrays)
+    further = {
+        name: np.concatenate([whole.arrays[name], *(part[name] for part in parts)])
+        for name in (parts[0] if parts else ())
+    }
+    return replace(whole, arrays={**whole.arrays, **further})
+
+
+def _read(path: Path) -> tuple[Checkpoint, str]:
+    """Read one file; return also its checksum. See :func:`read_checkpoint`."""
     with path.open("rb") as file:
         first = file.readline(_LONGEST_FIRST)
         version = first.removeprefix(_FORMAT).strip().decode(errors="replace")
-        if file.read(_SUM_BYTES) != _checksum(file, first):
+        checksum = file.read(_SUM_BYTES)
+        if checksum != _checksum(file, first):
             other = first.startswith(_FORMAT) and version.isdigit() and version != str(VERSION)
             # Other versions may have other checksums.
             raise DamagedError(
@@ -176,7 +225,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
         arrays = {name: np.lib.format.read_array(file, allow_pickle=False) for name in header.pop("arrays")}
     for name, n in header.pop("rows").items():
         arrays[name] = np.repeat(arrays[name], n, axis=0)
-    return Checkpoint(header.pop("time"), header, arrays)
+    return Checkpoint(header.pop("time"), header, arrays), checksum.hex()
 
 
 def is_one_row(array: NDArray[Any]) -> bool:

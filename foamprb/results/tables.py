@@ -5,10 +5,10 @@ from __future__ import annotations
 import csv
 import importlib
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import orjson
@@ -22,6 +22,8 @@ Column = Sequence[object] | NDArray[Any]
 
 # Rows that are converted to text or from it together; their cells fit into the processor's cache.
 _CHUNK = 2048
+_AT_ONCE = 1 << 16
+"""Rows of a table whose text is in memory together."""
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 _QUOTE = '"'
 _SPECIAL = re.compile(r'[,"\r\n]')
@@ -32,6 +34,65 @@ def require_kind(kind: str) -> None:
     """Raise InputError if the library for a kind of tables is missing."""
     if kind == "parquet":
         _parquet("tables of Parquet")
+
+
+class Rows(NamedTuple):
+    """Rows of a table of some kind."""
+
+    names: tuple[str, ...]
+    values: bytes | dict[str, NDArray[Any]]
+    """Text, or columns."""
+
+
+def rows_of(columns: Mapping[str, Column], kind: str) -> Rows:
+    """Return rows of a table as :func:`write_rows` takes them.
+
+    Parameters
+    ----------
+    columns
+        See :func:`write_table`.
+    kind
+        Ending of the file: ``csv`` or ``parquet``.
+
+    Raises
+    ------
+    ValueError
+        If the columns differ in length, or one has more than one axis.
+    """
+    arrays = {name: as_column(name, column) for name, column in columns.items()}
+    lengths = {name: len(array) for name, array in arrays.items()}
+    if len(set(lengths.values())) > 1:
+        raise ValueError(f"Columns of a table differ in length: {lengths}.")
+    if kind == "parquet":
+        return Rows(tuple(arrays), {name: _plain(array) for name, array in arrays.items()})
+    text = []
+    for start in range(0, max(lengths.values(), default=0), _CHUNK):
+        cells = (_texts(array[start : start + _CHUNK]) for array in arrays.values())
+        text.append("".join(",".join(row) + "\n" for row in zip(*cells, strict=True)).encode())
+    return Rows(tuple(arrays), b"".join(text))
+
+
+def write_rows(path: Path, parts: Iterable[Rows], before: Callable[[Path], object] = lambda _: None) -> None:
+    """Write a table from its rows part by part; see :func:`write_table`.
+
+    Parameters
+    ----------
+    parts
+        From :func:`rows_of` for the kind of the file, at least one.
+    path, before
+        See :func:`write_table`.
+    """
+    if path.suffix == ".parquet":
+        _write_parquet(path, parts, before)
+        return
+    with atomic_write(path) as temporary:
+        with temporary.open("wb") as file:
+            for i, part in enumerate(parts):
+                if i == 0:
+                    file.write((",".join(map(_cell, part.names)) + "\n").encode())
+                assert isinstance(part.values, bytes)
+                file.write(part.values)
+        before(temporary)
 
 
 def write_table(
@@ -61,20 +122,13 @@ def write_table(
     OSError
         If the file cannot be written.
     """
-    arrays = {name: _as_column(name, column) for name, column in columns.items()}
-    lengths = {name: len(array) for name, array in arrays.items()}
-    if len(set(lengths.values())) > 1:
-        raise ValueError(f"Columns of a table differ in length: {lengths}.")
-    if path.suffix == ".parquet":
-        _write_parquet(path, arrays, before)
-        return
-    with atomic_write(path) as temporary:
-        with temporary.open("w", encoding="utf-8", newline="") as file:
-            file.write(",".join(map(_cell, arrays)) + "\n")
-            for start in range(0, max(lengths.values(), default=0), _CHUNK):
-                cells = (_texts(array[start : start + _CHUNK]) for array in arrays.values())
-                file.writelines(",".join(row) + "\n" for row in zip(*cells, strict=True))
-        before(temporary)
+    n = max((len(column) for column in columns.values()), default=0)
+    step = max(n, 1) if path.suffix == ".parquet" else _AT_ONCE
+    parts = (
+        rows_of({name: column[start : start + step] for name, column in columns.items()}, path.suffix[1:])
+        for start in range(0, max(n, 1), step)
+    )
+    write_rows(path, parts, before)
 
 
 def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any]]:
@@ -130,10 +184,12 @@ def _parquet(what: str) -> tuple[Any, Any]:
     return load("pyarrow", "parquet", f"{what} needs"), importlib.import_module("pyarrow.parquet")
 
 
-def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Callable[[Path], object]) -> None:
+def _write_parquet(path: Path, parts: Iterable[Rows], before: Callable[[Path], object]) -> None:
     """Write Parquet. Its bytes depend on nothing but the columns and the version of pyarrow."""
     arrow, parquet = _parquet(str(path))
-    plain = {name: _plain(array) for name, array in arrays.items()}
+    found: list[dict[str, NDArray[Any]]] = [part.values for part in parts if isinstance(part.values, dict)]
+    filled = [columns for columns in found if any(map(len, columns.values()))] or found[:1]
+    plain = {name: np.concatenate([columns[name] for columns in filled]) for name in filled[0]}
     table = arrow.table({name: arrow.array(array) for name, array in plain.items()})
     # Doubles of similar size compress better byte by byte.
     split = [name for name, array in plain.items() if array.dtype.kind == "f"]
@@ -181,7 +237,8 @@ def _typed(words: Sequence[str], stay: bool) -> NDArray[Any]:
     return np.array([word[1:] if _QUOTED.match(word) else word for word in words], dtype=str)
 
 
-def _as_column(name: str, column: Column) -> NDArray[Any]:
+def as_column(name: str, column: Column) -> NDArray[Any]:
+    """Return a column as an array; ValueError if it has more than one axis."""
     # Objects, so that numpy does not turn a mixed list into text or a list of long integers into floats.
     array = column if isinstance(column, np.ndarray) else np.array(column, dtype=object)
     if array.ndim != 1:

@@ -5,20 +5,23 @@ from __future__ import annotations
 import logging
 import math
 import time as clock
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from foamprb.cloud.cloud import explain
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Stepper, explain
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import SMALL_STOKES
-from foamprb.cloud.stability import instability
-from foamprb.cloud.state import Status
-from foamprb.flow.base import Caveat
+from foamprb.cloud.stability import unstable, warning_of
+from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.viscosity import medium_at
+from foamprb.flow.base import Caveat, Sampled
 from foamprb.results.folder import FAILURES
 from foamprb.run.checks import SMALL_REYNOLDS
 from foamprb.run.job import Job
@@ -112,7 +115,9 @@ class RunLog:
     def __init__(self, job: Job) -> None:
         self._job = job
         self._started, self._cpu = clock.perf_counter(), clock.process_time()
-        self._failed = self._failures()
+        p = job.cloud.particles
+        self._listed = set(p.number[p.status == Status.FAILED][:_MAX_LISTED_FAILURES].tolist())
+        """Numbers of failed particles that need no line; no more than lines."""
         self._unstable = 0
         self._slip = SlipRecord()
 
@@ -120,100 +125,98 @@ class RunLog:
         """Log the start of the time loop."""
         log.info("\nStarting time loop\n")
 
-    def write_time(self) -> None:
+    def write_time(self, stepper: Stepper) -> None:
         """Log the numbers of particles at a write time, and the failures since the time before."""
-        cloud = self._job.cloud
-        counts = cloud.particles.counts()
+        cloud, counts = self._job.cloud, stepper.counts()
         log.info("Time = %.12g\n", cloud.time)
         log.info("Cloud: %s", self._job.settings.name)
         log.info("    Current number of parcels       = %d", counts[Status.ACTIVE])
-        log.info("    injected                        = %d", cloud.particles.size - counts[Status.PENDING])
+        log.info("    injected                        = %d", sum(counts.values()) - counts[Status.PENDING])
         log.info("    stuck, escaped, failed          = %d, %d, %d",
                  counts[Status.STUCK], counts[Status.ESCAPED], counts[Status.FAILED])  # fmt: skip
         if cloud.models.has_fates:
             log.info("    ruptured, released              = %d, %d",
                      counts[Status.RUPTURED], counts[Status.RELEASED])  # fmt: skip
-        self._log_steps()
+        self._log_steps(stepper)
         self._log_clocks()
-        self._log_failures()
-        self._log_unstable()
-        self._log_slip()
+        self._log_failures(stepper)
+        self._log_unstable(stepper)
+        self._log_slip(stepper)
 
-    def end(self, finished: bool) -> None:
+    def end(self, stepper: Stepper, finished: bool) -> None:
         """Log the fates of the particles, the folder of the results, and End if the run has ``finished``."""
-        self._log_fates()
+        self._log_fates(stepper)
         log.info("\nResults in %s", self._job.folder.path)
         self._log_clocks()
         if finished:
             log.info("End")
 
-    def _log_steps(self) -> None:
+    def _log_steps(self, stepper: Stepper) -> None:
         """Log the number of time steps per tracking step."""
-        cloud = self._job.cloud
-        p = cloud.particles
-        moved = (p.status == Status.ACTIVE) & (p.substeps > 0.0)
-        if not moved.any():
+        moved, steps, most, short = zip(*stepper.each(_steps_of, self._job.cloud.dt), strict=True)
+        n = sum(moved)
+        if n == 0:
             return
-        n, short = p.substeps[moved], p.h[moved] < 0.1 * cloud.dt
-        log.info("    steps per tracking step         = %.3g in the mean, %.3g at most", n.mean(), n.max())
-        log.info("    with a step below deltaT/10     = %.3g %%", 100.0 * short.mean())
-
-    def _failures(self) -> NDArray[np.int64]:
-        """Return the numbers of the failed particles."""
-        return np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
+        log.info("    steps per tracking step         = %.3g in the mean, %.3g at most",
+                 sum(steps) / n, max(most))  # fmt: skip
+        log.info("    with a step below deltaT/10     = %.3g %%", 100.0 * sum(short) / n)
 
     def _log_clocks(self) -> None:
         cpu, wall = clock.process_time() - self._cpu, clock.perf_counter() - self._started
         log.info("ExecutionTime = %.2f s  ClockTime = %.2f s\n", cpu, wall)
 
-    def _log_failures(self) -> None:
+    def _log_failures(self, stepper: Stepper) -> None:
         """Log the particles that have failed since the last time, up to a number in all."""
-        cloud, failed = self._job.cloud, self._failures()
-        p = cloud.particles
-        room = max(0, _MAX_LISTED_FAILURES - len(self._failed))
-        for k in np.setdiff1d(failed, self._failed)[:room]:
+        cloud, room = self._job.cloud, _MAX_LISTED_FAILURES - len(self._listed)
+        if room <= 0 or stepper.counts()[Status.FAILED] == len(self._listed):
+            return
+        found = [row for rows in stepper.each(_failures_of, self._listed, room) for row in rows]
+        for number, t, x, reason in sorted(found)[:room]:
+            self._listed.add(number)
             log.warning("particle %d failed at t = %.6g s, position (%g %g %g): %s.",
-                        k, p.t[k], *p.x[k], explain(p.reason[k], cloud.models, cloud.limits))  # fmt: skip
-        self._failed = failed
+                        number, t, *x, explain(reason, cloud.models, cloud.limits))  # fmt: skip
 
-    def _log_unstable(self) -> None:
+    def _log_unstable(self, stepper: Stepper) -> None:
         """Log the number of particles for which Δt is too long, if it is larger than before."""
         cloud = self._job.cloud
         if cloud.models.integrator != PAPER.name:
             return
-        p = cloud.particles
-        beyond, sentence = instability(p, cloud.medium_there.mu, cloud.dt, cloud.models.material)
+        found = stepper.each(_unstable_of, cloud.medium, cloud.dt, cloud.models.material)
+        beyond, limit = sum(n for n, _ in found), min(limit for _, limit in found)
         if beyond > self._unstable:
             self._unstable = beyond
-            log.warning("%s", sentence)
+            log.warning("%s", warning_of(beyond, limit, cloud.dt))
 
-    def _log_slip(self) -> None:
+    def _log_slip(self, stepper: Stepper) -> None:
         """Record the slip of the particles, and warn of the first Reynolds number that is too large."""
         before = self._slip.worst.reynolds[0]
-        self._slip.add(self._job.cloud)
+        for record in stepper.each(SlipRecord.of, self._job.cloud.medium):
+            self._slip.add(record)
         worst = self._slip.worst.reynolds[0]
         if before <= SMALL_REYNOLDS < worst:
             log.warning(
                 "the Reynolds number of slip is up to %.3g: drag is that of Stokes flow, which is %.2g %% "
                 "too small for a sphere there.", worst, 100.0 * drag_excess(worst))  # fmt: skip
 
-    def _log_fates(self) -> None:
+    def _log_fates(self, stepper: Stepper) -> None:
         """Log the number of particles by fate and patch; the numbers sum to those injected."""
-        job = self._job
-        p = job.cloud.particles
-        counts = p.counts()
+        job, counts = self._job, stepper.counts()
+        models = job.cloud.models.surroundings
+        at_patches, *tallies = zip(
+            *stepper.each(_fates_of, len(job.patch_names), models, job.cloud.dt), strict=True
+        )
         log.info("Fate of the particles")
-        log.info("    %-24s %10d", "injected", p.size - counts[Status.PENDING])
+        log.info("    %-24s %10d", "injected", sum(counts.values()) - counts[Status.PENDING])
         for status in tuple(Status)[Status.ACTIVE :]:
             if status > Status.FAILED and not job.cloud.models.has_fates:
                 continue
             log.info("    %-24s %10d", status.name.lower(), counts[status])
             for index, name in enumerate(job.patch_names):
-                at = np.count_nonzero((p.status == status) & (p.patch == index))
+                at = sum(table[status, index] for table in at_patches)
                 if at:
                     log.info("        %-20s %10d", name, at)
-        for model in job.cloud.models.surroundings:
-            for line in model.summary(p, job.cloud.dt):
+        for model, of_all in zip(models, tallies, strict=True):
+            for line in model.summary([sum(numbers) for numbers in zip(*of_all, strict=True)]):
                 log.info("    %s", line)
         for line in self._slip.lines():
             log.info("    %s", line)
@@ -227,6 +230,40 @@ class RunLog:
                 counts[Status.FAILED],
                 job.folder.table(FAILURES, job.tables),
             )
+
+
+def _steps_of(p: Particles, _flow: Sampled, _t: float, dt: float) -> tuple[int, float, float, int]:
+    """Return how many particles moved, the sum and the most of their steps, and how many had short ones."""
+    moved = (p.status == Status.ACTIVE) & (p.substeps > 0.0)
+    n, short = p.substeps[moved], p.h[moved] < 0.1 * dt
+    return len(n), float(n.sum()), float(n.max(initial=0.0)), int(short.sum())
+
+
+def _failures_of(
+    p: Particles, _flow: Sampled, _t: float, known: Collection[int], most: int
+) -> list[tuple[int, float, list[float], int]]:
+    """Return number, time, position and reason of failed particles that are not known, the first few."""
+    rows = np.flatnonzero(p.status == Status.FAILED)
+    rows = rows[~np.isin(p.number[rows], list(known))]
+    rows = rows[np.argsort(p.number[rows])[:most]]
+    columns = (array[rows].tolist() for array in (p.number, p.t, p.x, p.reason))
+    return list(zip(*columns, strict=True))
+
+
+def _unstable_of(
+    p: Particles, flow: Sampled, t: float, medium: Medium, dt: float, material: str
+) -> tuple[int, float]:
+    return unstable(p, medium_at(medium, flow, p, t).mu, dt, material)
+
+
+def _fates_of(
+    p: Particles, _flow: Sampled, _t: float, patches: int, models: Sequence[Surrounding], dt: float
+) -> tuple[Any, ...]:
+    """Return the numbers of particles by status and patch, and what the models count of them."""
+    numbers = np.zeros((len(Status), patches + 1), dtype=np.int64)
+    # The last column takes the particles that are on no patch.
+    np.add.at(numbers, (p.status, p.patch), 1)
+    return numbers, *(model.tally(p, dt) for model in models)
 
 
 @contextmanager

@@ -73,14 +73,20 @@ def execute(
             return cloud.particles.counts()
         following = job.following
         log = RunLog(job)
-        stepper = Stepper(cloud) if ranks is None else stepper_of(cloud, ranks)
-        schedule = _Schedule(stepper)
         if following is not None and not following.wait(cloud, stop):
             raise RunStopped(f"stopped before the first step{following.reason}.")
         results.write_start()
+        # Cloud functions see the whole cloud.
+        whole = bool(job.functions.functions)
+        stepper = Stepper(cloud) if ranks is None else stepper_of(cloud, ranks, whole)
+        schedule = _Schedule(stepper)
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
-            while cloud.step < job.steps and (cloud.step == 0 or _moving(stepper)) and not _failing(job):
+            while (
+                cloud.step < job.steps
+                and (cloud.step == 0 or _moving(stepper))
+                and not _failing(job, stepper)
+            ):
                 before = cloud.step
                 if not _advance_to_write(job, results, schedule, stop, show):
                     results.save(stepper)
@@ -90,17 +96,17 @@ def execute(
                     # The solver has ended meanwhile.
                     break
                 results.write(stepper)
-                log.write_time()
+                log.write_time(stepper)
                 if following is not None:
                     following.release(results.earliest_restart)
         if following is not None:
             following.report_end(job.settings.solution.endTime)
         results.end(stepper)
-        failing = _failing(job)
-        log.end(finished=not failing)
+        failing = _failing(job, stepper)
+        log.end(stepper, finished=not failing)
     if failing:
         raise RunStopped(f"{failing} The results until then are in {job.folder.path}.")
-    return cloud.particles.counts()
+    return stepper.counts()
 
 
 def execute_until_signal(job: Job, start_from: StartFrom | None = None, ranks: Ranks | None = None) -> None:
@@ -127,11 +133,10 @@ def execute_until_signal(job: Job, start_from: StartFrom | None = None, ranks: R
             raise RunInterrupted(str(stopped), signals[0]) from stopped
 
 
-def _failing(job: Job) -> str:
+def _failing(job: Job, stepper: Stepper) -> str:
     """Return a sentence if too many particles have failed; empty if not."""
-    p, most = job.cloud.particles, job.settings.solution.maxFailedFraction
-    counts = p.counts()
-    injected = p.size - counts[Status.PENDING]
+    counts, most = stepper.counts(), job.settings.solution.maxFailedFraction
+    injected = sum(counts.values()) - counts[Status.PENDING]
     if counts[Status.FAILED] <= most * injected:
         return ""
     return (

@@ -26,7 +26,7 @@ from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 from foamprb.flow.series import SeriesFlow
-from foamprb.results.checkpoint import Checkpoint, Checkpoints
+from foamprb.results.checkpoint import Checkpoint, Checkpoints, part_file, write_checkpoint
 from foamprb.results.folder import FATES, ResultsFolder
 from foamprb.results.manifest import Checksum, checksum
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd, with_ending
@@ -76,6 +76,7 @@ def checkpoint_of(
     entries: Sequence[SnapshotFile],
     sums: Mapping[str, Checksum],
     marks: Fingerprint,
+    parts: Sequence[tuple[int, str]] = (),
 ) -> Checkpoint:
     """Return the checkpoint of a run.
 
@@ -91,6 +92,8 @@ def checkpoint_of(
         Sizes and checksums of their files, from :func:`checksums`.
     marks
         The run's :func:`fingerprint`.
+    parts
+        What :func:`write_part` has returned for further particles.
     """
     header = {
         "foamprb": version("foamprb"),
@@ -101,10 +104,40 @@ def checkpoint_of(
         "sums": sums,
         "fingerprint": marks,
         "times": _times_until(cloud.flow, cloud.time),
+        "parts": list(parts),
     }
-    arrays = {f"{_CLOUD}{name}": array for name, array in cloud.particles._asdict().items()}
+    arrays = _arrays_of(cloud.particles)
     arrays |= {f"{_FUNCTIONS}{name}": array for name, array in functions.items()}
     return Checkpoint(cloud.time, header, arrays)
+
+
+def write_part(p: Particles, file: Path, time: float) -> tuple[int, str] | None:
+    """Write consecutive particles as a part of a checkpoint, if they are not its first.
+
+    Parameters
+    ----------
+    p, time
+        The particles and their time, s.
+    file
+        The checkpoint.
+
+    Returns
+    -------
+    The number of the first of them, and a checksum; None if nothing was written.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    first = int(p.number[0]) if p.size else 0
+    if first == 0:
+        return None
+    return first, write_checkpoint(part_file(file, first), Checkpoint(time, {}, _arrays_of(p)))
+
+
+def _arrays_of(p: Particles) -> dict[str, NDArray[Any]]:
+    return {f"{_CLOUD}{name}": array for name, array in p._asdict().items()}
 
 
 def checksums(

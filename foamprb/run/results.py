@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import logging
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
@@ -14,9 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot, Stepper, explain
-from foamprb.cloud.measures import FlowSamples, flow_samples, released
+from foamprb.cloud.limits import Limits
+from foamprb.cloud.measures import FlowSamples, flow_samples, released, shapes
 from foamprb.cloud.report import report
 from foamprb.cloud.state import REASONS, Particles, Reason, Status
+from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Sampled
@@ -25,11 +27,11 @@ from foamprb.memory import OutOfMemory, ran_out
 from foamprb.parallel.ranks import RankStepper
 from foamprb.results.atomic import only_writer, remove_unfinished
 from foamprb.results.background import Writer
-from foamprb.results.checkpoint import Checkpoint, Checkpoints
+from foamprb.results.checkpoint import Checkpoint, Checkpoints, part_file, parts_of
 from foamprb.results.folder import FAILURES, FATES, KINDS
 from foamprb.results.manifest import Checksum, Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
-from foamprb.results.tables import Column, write_table
+from foamprb.results.tables import Column, Rows, as_column, rows_of, write_rows
 from foamprb.results.vtk import Parts
 from foamprb.run.description import renew_record, write_record
 from foamprb.run.job import Job
@@ -42,6 +44,7 @@ from foamprb.run.restart import (
     require_choice,
     restore,
     snapshots_until,
+    write_part,
 )  # fmt: skip
 from foamprb.settings.solution import StartFrom
 
@@ -201,9 +204,10 @@ class Results:
         stem = self._series.next(cloud.time)
         ranks = stepper if isinstance(stepper, RankStepper) else None
         files = ranks.piece_files(stem) if ranks else (with_ending(stem, ".vtp"),)
-        self._manifest.expect([*tables, self._job.folder.pvd, *files, *self._checkpoint_files()])
+        self._manifest.expect([*tables, self._job.folder.pvd, *files, *self._checkpoint_files(stepper)])
         write_cloud = self._begin_pieces(ranks, stem) if ranks else self._begin_cloud(snapshot)
-        self._writer.begin(partial(self._end_write, write_cloud, snapshot, memory))
+        parts = self._write_parts(stepper)
+        self._writer.begin(partial(self._end_write, write_cloud, snapshot, memory, parts))
 
     def save(self, stepper: Stepper) -> None:
         """Write only a checkpoint, for a run that is stopped between two write times.
@@ -214,8 +218,8 @@ class Results:
             If it cannot be written.
         """
         cloud = self._gathered(stepper)
-        self._manifest.expect(self._checkpoint_files())
-        self._write_checkpoint(cloud, self._job.functions.state())
+        self._manifest.expect(self._checkpoint_files(stepper))
+        self._write_checkpoint(cloud, self._job.functions.state(), self._write_parts(stepper))
 
     def end(self, stepper: Stepper) -> None:
         """Write ``fates``, a row per particle, and ``failed`` if a particle failed.
@@ -229,18 +233,24 @@ class Results:
         """
         stepper.gather()
         self._require_place()
-        failed = np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
+        cloud = self._job.cloud
+        failed = stepper.counts()[Status.FAILED] > 0
 
         def finish(fates: Path) -> None:
             self._writer.finish()
-            self._manifest.expect([self._fates, self._failures] if len(failed) else [self._fates])
-            if len(failed):
-                _write_failures(self._failures, self._job, failed)
+            self._manifest.expect([self._fates, self._failures] if failed else [self._fates])
+            if failed:
+                write_rows(
+                    self._failures,
+                    stepper.in_order(_failures_of, cloud.models, cloud.limits, self._job.tables),
+                )
             others = {file for file in self._manifest.files - {self._fates} if file.suffix[1:] in KINDS}
             others |= {self._job.folder.record, self._job.folder.pvd}
             self._manifest.seal({file: file for file in others if file.is_file()} | {self._fates: fates})
 
-        _write_fates(self._fates, self._job, finish)
+        further = self._job.functions.fates()
+        rows = stepper.in_order(_fates_of, self._job.patch_names, self._job.tables, own=(further,))
+        write_rows(self._fates, rows, finish)
         self._remove_links()
 
     def _gathered(self, stepper: Stepper) -> Cloud:
@@ -271,20 +281,36 @@ class Results:
         return lambda: self._series.add(time, list_pieces())
 
     def _end_write(
-        self, write_cloud: Callable[[], object], snapshot: Snapshot, memory: Mapping[str, NDArray[Any]]
+        self,
+        write_cloud: Callable[[], object],
+        snapshot: Snapshot,
+        memory: Mapping[str, NDArray[Any]],
+        parts: Sequence[tuple[int, str]],
     ) -> None:
         self._require_place()
         write_cloud()
-        self._write_checkpoint(snapshot, memory)
+        self._write_checkpoint(snapshot, memory, parts)
 
-    def _write_checkpoint(self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]]) -> None:
+    def _write_parts(self, stepper: Stepper) -> list[tuple[int, str]]:
+        """Let all processes write their parts of the checkpoint; return the parts of the others."""
+        time = stepper.cloud.time
+        written = stepper.at_homes(write_part, self._checkpoints.file(time), time)
+        return [part for part in written if part is not None]
+
+    def _write_checkpoint(
+        self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]], parts: Sequence[tuple[int, str]]
+    ) -> None:
         entries = self._series.entries
         self._sums = checksums(self._job.folder.path, entries, self._sums)
-        self._checkpoints.write(checkpoint_of(cloud, memory, entries, self._sums, self._fingerprint))
+        self._checkpoints.write(checkpoint_of(cloud, memory, entries, self._sums, self._fingerprint, parts))
 
-    def _checkpoint_files(self) -> tuple[Path, ...]:
-        """Return the checkpoints on disk, and that of the current time."""
-        return (*self._checkpoints.files().values(), self._checkpoints.file(self._job.cloud.time))
+    def _checkpoint_files(self, stepper: Stepper | None = None) -> list[Path]:
+        """Return the files of checkpoints: those on disk, and with a stepper those of the present time."""
+        found = [f for file in self._checkpoints.files().values() for f in (file, *parts_of(file))]
+        if stepper is not None:
+            file = self._checkpoints.file(stepper.cloud.time)
+            found += [file, *(part_file(file, first) for first in stepper.firsts[1:])]
+        return found
 
     def _write_functions(self) -> list[Path]:
         """Let the cloud functions write; return the files that changed in their folders."""
@@ -383,7 +409,7 @@ class Results:
             self._job.folder.pvd,
             *snapshots,
             *tables,
-            *self._checkpoints.files().values(),
+            *self._checkpoint_files(),
         }
         manifest.remove(sorted(manifest.files - kept))
         self._manifest = Manifest(job.folder.path, (file for file in kept if file.exists()))
@@ -406,34 +432,36 @@ def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
     return found
 
 
-def _write_fates(path: Path, job: Job, before: Callable[[Path], object]) -> None:
-    p = job.cloud.particles
+def _fates_of(
+    p: Particles, patch_names: Sequence[str], kind: str, further: Mapping[str, Column] | None = None
+) -> Rows:
+    """Return rows of ``fates``; ``further`` are columns of all particles."""
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last name belongs to the code −1.
-    patches = np.array((*job.patch_names, ""), dtype=object)
-    axes, D = job.observed.measure(np.arange(p.size), "semiAxes", "taylorDeformation")
-    write_table(
-        path,
+    patches = np.array((*patch_names, ""), dtype=object)
+    axes, D = shapes(p)
+    further = {name: as_column(name, column)[p.number] for name, column in (further or {}).items()}
+    return rows_of(
         {
-            "id": np.arange(p.size), "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
+            "id": p.number, "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
             "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
             "fate": fates[p.status], "patch": patches[p.patch],
-            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **job.functions.fates(),
+            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **further,
         },
-        before,
+        kind,
     )  # fmt: skip
 
 
-def _write_failures(path: Path, job: Job, failed: NDArray[np.int64]) -> None:
-    p = job.cloud.particles
-    x = p.x[failed]
+def _failures_of(p: Particles, models: Models, limits: Limits, kind: str) -> Rows:
+    """Return the rows of ``failed``."""
+    p = p.take(np.flatnonzero(p.status == Status.FAILED))
     columns: dict[str, Column] = {
-        "id": failed,
-        "t": p.t[failed],
-        "x": x[:, 0],
-        "y": x[:, 1],
-        "z": x[:, 2],
-        "reason": [explain(r, job.cloud.models, job.cloud.limits) for r in p.reason[failed]],
+        "id": p.number,
+        "t": p.t,
+        "x": p.x[:, 0],
+        "y": p.x[:, 1],
+        "z": p.x[:, 2],
+        "reason": [explain(r, models, limits) for r in p.reason],
     }
-    write_table(path, columns)
+    return rows_of(columns, kind)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.viscosity import shear_rate
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.block import Medium
 from foamprb.cloud.measures import carrier_velocity
-from foamprb.cloud.state import Status
+from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.viscosity import medium_at
+from foamprb.flow.base import Sampled
 
 __all__ = ["Slip", "SlipRecord", "drag_excess"]
 
@@ -35,10 +36,9 @@ def drag_excess(reynolds: float) -> float:
     return float(0.15 * reynolds**0.687)
 
 
-def _slip(cloud: Cloud, rows: NDArray[np.int64]) -> Slip:
-    p = cloud.particles.take(rows)
-    medium = medium_at(cloud.medium, cloud.flow, p, cloud.time)
-    u, l = cloud.flow.sample(p.x, p.host, cloud.time)
+def _slip(p: Particles, flow: Sampled, time: float, medium: Medium) -> Slip:
+    medium = medium_at(medium, flow, p, time)
+    u, l = flow.sample(p.x, p.host, time)
     speed = np.linalg.norm(p.v - carrier_velocity(p, u), axis=1)
     rate = np.asarray(shear_rate(tuple(l.reshape(-1, 9).T)))  # type: ignore[arg-type]
     return Slip(speed * 2.0 * p.R * medium.rho / medium.mu, rate * 2.0 * p.rho * p.R**2 / (9.0 * medium.mu))
@@ -51,16 +51,23 @@ class SlipRecord:
         self._counts = np.zeros((len(Slip._fields), len(_EDGES) + 1), dtype=np.int64)
         self.worst = Slip(*np.zeros((2, 1)))
 
-    def add(self, cloud: Cloud) -> None:
-        """Add the active particles of a cloud at its time."""
-        active = np.flatnonzero(cloud.particles.status == Status.ACTIVE)
+    def add(self, other: SlipRecord) -> None:
+        """Add another record."""
+        self._counts += other._counts
+        self.worst = Slip(*(np.maximum(a, b) for a, b in zip(self.worst, other.worst, strict=True)))
+
+    @classmethod
+    def of(cls, p: Particles, flow: Sampled, time: float, medium: Medium) -> Self:
+        """Return the record of the active particles of a cloud at its time, s."""
+        record, active = cls(), np.flatnonzero(p.status == Status.ACTIVE)
         for start in range(0, len(active), _CHUNK):
-            slip = _slip(cloud, active[start : start + _CHUNK])
+            slip = _slip(p.take(active[start : start + _CHUNK]), flow, time, medium)
             for k, values in enumerate(slip):
                 with np.errstate(divide="ignore"):
                     classes = np.searchsorted(_EDGES, np.log10(values))
-                self._counts[k] += np.bincount(classes, minlength=len(_EDGES) + 1)
-                self.worst[k][0] = max(self.worst[k][0], np.nanmax(values))
+                record._counts[k] += np.bincount(classes, minlength=len(_EDGES) + 1)
+                record.worst[k][0] = max(record.worst[k][0], np.nanmax(values))
+        return record
 
     def lines(self) -> list[str]:
         """Return lines with median, 99 % quantile and largest value of each number; none without samples."""

@@ -182,7 +182,7 @@ def test_a_particle_that_no_wall_is_near_goes_as_without_the_model():
 def test_steps_close_to_a_wall_are_counted():
     p = carried(particles([1.5, 3.0]), 7, model=WallLift())
     assert p.close.tolist() == [7, 0]
-    lines = WallLift().summary(p, 0.02 / RATE)
+    lines = WallLift().summary(WallLift().tally(p, 0.02 / RATE))
     assert "50.00%, of 1 particles" in lines[0]
 
 

@@ -18,7 +18,7 @@ import pytest
 import pyvista
 from foam_writer import header
 from paths import ROOT
-from pipe_case import edit, fates, short_case, time_folder, with_eddies
+from pipe_case import edit, short_case, time_folder, with_eddies
 from transient_case import write_transient_case
 
 from foamprb.cli import main
@@ -134,11 +134,11 @@ def clouds(case: Path) -> list[tuple[float, dict[str, np.ndarray]]]:
 
 
 def content(file: Path) -> tuple[dict[str, Any], dict[str, bytes]] | bytes:
-    """Content of a file; of a checkpoint without checksums of snapshots, as each process has its files."""
+    """Content of a file; of a checkpoint without checksums of files, as each process has its own."""
     if file.suffix != ".checkpoint":
         return file.read_bytes()
     checkpoint = read_checkpoint(file)
-    header = {name: value for name, value in checkpoint.header.items() if name != "sums"}
+    header = {name: value for name, value in checkpoint.header.items() if name not in ("sums", "parts")}
     return header, {name: array.tobytes() for name, array in checkpoint.arrays.items()}
 
 
@@ -425,11 +425,19 @@ def test_rebounds_are_noted_by_all_processes(tmp_path):
 
 
 def test_eddies_are_the_same_on_several_processes(tmp_path):
+    """Without cloud functions each process gathers and saves a part of the particles."""
     case = with_eddies(tmp_path)
-    assert main(["run", "-case", str(case)]) == 0
-    expected = fates(case)
-    finish(3, case, "-overwrite")
-    assert fates(case) == expected
+    alone = Path(shutil.copytree(case, tmp_path / "alone"))
+    assert main(["run", "-case", str(alone)]) == 0
+    kill = after_hook(tmp_path, at_write("os.kill(os.getpid(), signal.SIGKILL)", 1))
+    assert run(3, case, script=kill).returncode != 0
+    saved = {file.name for file in (folder_of(case) / "checkpoint").iterdir()}
+    assert saved == {f"{t}.checkpoint{part}" for t in ("0.001", "0.002") for part in ("", ".103", ".206")}
+    # A part that is cut gives way to the checkpoint before.
+    part = folder_of(case) / "checkpoint/0.002.checkpoint.103"
+    part.write_bytes(part.read_bytes()[:-1])
+    assert "Continuing from the checkpoint at t = 0.001 s" in finish(2, case, "-resume")
+    assert_same(case, alone, functions=False)
 
 
 def decomposed(case: Path, parts: int) -> None:

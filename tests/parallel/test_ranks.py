@@ -14,7 +14,7 @@ from pipe_case import copy_of_pipe, message
 
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
-from foamprb.parallel.exchange import pack, plan_exchange, unpack
+from foamprb.parallel.exchange import homes_of, pack, plan_exchange, unpack
 
 
 @given(st.lists(st.integers(0, 40 * LANES), min_size=2, max_size=9))
@@ -32,6 +32,15 @@ def test_an_exchange_leaves_all_with_as_many(active):
     # Nobody gives and takes, so nothing travels in vain.
     assert not ((plan.sum(axis=1) > 0) & (plan.sum(axis=0) > 0)).any()
     assert max(blocks) > 1.1 * math.ceil(after.max() / LANES)
+
+
+@given(st.integers(0, 100), st.integers(1, 9), st.booleans())
+def test_every_particle_has_one_home(n, size, whole):
+    homes = homes_of(n, size, whole)
+    assert (homes[0], homes[-1], len(homes)) == (0, n, size + 1)
+    counts = np.diff(homes)
+    assert counts.min() >= 0
+    assert counts[0] == n if whole else counts.max() - counts.min() <= 1
 
 
 def test_records_hold_every_bit_of_a_particle(random):

@@ -11,6 +11,7 @@ from foamprb.results.checkpoint import (
     Checkpoint,
     Checkpoints,
     DamagedError,
+    part_file,
     read_checkpoint,
     write_checkpoint,
 )
@@ -106,6 +107,50 @@ def test_a_version_with_another_checksum_is_named(tmp_path: Path, whole: bytes) 
         (tmp_path / "a").write_bytes(changed)
         with pytest.raises(DamagedError, match=message):
             read_checkpoint(tmp_path / "a")
+
+
+def in_parts(folder: Path, time: float = 0.1) -> tuple[Checkpoints, Path, Checkpoint]:
+    """Write a checkpoint of whose first array two further processes have rows; return also the whole."""
+    store, whole = Checkpoints(folder), checkpoint(time)
+    file = store.file(time)
+    rows = {first: {"x": whole.arrays["x"][first : first + 2]} for first in (1, 3)}
+    parts = [(n, write_checkpoint(part_file(file, n), Checkpoint(time, {}, own))) for n, own in rows.items()]
+    own = {**whole.arrays, "x": whole.arrays["x"][:1]}
+    store.write(Checkpoint(time, {**whole.header, "parts": parts}, own))
+    return store, file, whole
+
+
+def test_parts_are_put_together(tmp_path: Path) -> None:
+    _, file, whole = in_parts(tmp_path)
+    found = read_checkpoint(file).arrays
+    assert list(found) == list(whole.arrays)
+    for name, array in whole.arrays.items():
+        assert found[name].tobytes() == array.tobytes()
+
+
+def test_a_damaged_missing_or_foreign_part_damages_the_whole(tmp_path: Path) -> None:
+    _, file, whole = in_parts(tmp_path)
+    part = part_file(file, 3)
+    content = part.read_bytes()
+    other = Checkpoint(0.1, {}, {"x": whole.arrays["x"][:2]})
+    for change, why in (
+        (lambda: part.write_bytes(content[:-1]), r"in 0\.1\.checkpoint\.3 its contents do not match"),
+        (lambda: write_checkpoint(part, other), r"0\.1\.checkpoint\.3 belongs to another checkpoint"),
+        (part.unlink, r"0\.1\.checkpoint\.3 is missing"),
+    ):
+        change()
+        with pytest.raises(DamagedError, match=why):
+            read_checkpoint(file)
+
+
+def test_parts_go_with_their_checkpoint(tmp_path: Path) -> None:
+    """Those of 2 s are not those of 2.5 s."""
+    for time in (2.5, 2.0, 3.0):
+        store, _, _ = in_parts(tmp_path, time)
+    names = {f"{time}.checkpoint{part}" for time in ("2.5", "3") for part in ("", ".1", ".3")}
+    assert {file.name for file in tmp_path.iterdir()} == names
+    store.truncate(after=0.0)
+    assert not list(tmp_path.iterdir())
 
 
 def test_the_last_two_are_kept(tmp_path: Path) -> None:

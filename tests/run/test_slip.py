@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import logging
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from foamprb import Medium, analytic, spheres
+from foamprb.cloud.cloud import Stepper
 from foamprb.run.log import RunLog
 from foamprb.run.slip import SlipRecord, drag_excess
 
@@ -17,18 +19,23 @@ RATE, D, RHO = 100.0, 1e-4, 2500.0
 
 
 def sliding(speeds):
-    """Active particles on the line where the fluid of a simple shear is at rest, with these velocities."""
+    """Stepper of active particles where the fluid of a simple shear is at rest, with these velocities."""
     p = spheres(np.zeros((len(speeds), 3)), d=D, rho=RHO, mu=10.0)
     p.v[:, 0], p.status[:], p.host[:] = speeds, 1, 0
-    return SimpleNamespace(particles=p, medium=WATER, flow=analytic.shear(RATE), time=0.0)
+    cloud: Any = SimpleNamespace(particles=p, medium=WATER, flow=analytic.shear(RATE), time=0.0)
+    return Stepper(cloud)
+
+
+def record_of(stepper):
+    return stepper.each(SlipRecord.of, WATER)[0]
 
 
 def test_quantiles_and_worst_of_both_numbers():
     record = SlipRecord()
     assert record.lines() == []
     # 0.1 m/s of 1e-4 m in water are a Reynolds number of 10.
-    record.add(sliding(np.full(990, 1e-4)))
-    record.add(sliding(np.full(10, 0.1)))
+    record.add(record_of(sliding(np.full(990, 1e-4))))
+    record.add(record_of(sliding(np.full(10, 0.1))))
     assert record.worst.reynolds[0] == pytest.approx(10.0)
     assert record.worst.stokes[0] == pytest.approx(RATE * RHO * D**2 / (18.0 * WATER.mu))
     reynolds, stokes = record.lines()
@@ -37,10 +44,9 @@ def test_quantiles_and_worst_of_both_numbers():
 
 
 def test_the_velocity_of_its_eddy_is_no_slip_of_a_particle():
-    record, cloud = SlipRecord(), sliding([0.1])
-    cloud.particles.eddy[:, 0] = 0.09
-    record.add(cloud)
-    assert record.worst.reynolds[0] == pytest.approx(1.0)
+    stepper = sliding([0.1])
+    stepper.cloud.particles.eddy[:, 0] = 0.09
+    assert record_of(stepper).worst.reynolds[0] == pytest.approx(1.0)
 
 
 def test_drag_of_a_sphere_exceeds_that_of_stokes():
@@ -48,13 +54,13 @@ def test_drag_of_a_sphere_exceeds_that_of_stokes():
 
 
 def test_a_large_reynolds_number_is_warned_of_once(caplog):
-    cloud = sliding([1e-4])
-    log = RunLog(SimpleNamespace(cloud=cloud))
+    stepper = sliding([1e-4])
+    log = RunLog(SimpleNamespace(cloud=stepper.cloud))
     with caplog.at_level(logging.WARNING, "foamprb"):
-        log._log_slip()
+        log._log_slip(stepper)
         assert not caplog.records
-        cloud.particles.v[:, 0] = 0.01
-        log._log_slip()
-        log._log_slip()
+        stepper.cloud.particles.v[:, 0] = 0.01
+        log._log_slip(stepper)
+        log._log_slip(stepper)
     (record,) = caplog.records
     assert "slip is up to 1: drag is that of Stokes flow, which is 15 % too small" in record.message

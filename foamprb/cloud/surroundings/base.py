@@ -116,8 +116,12 @@ class Surrounding:
         """Return a warning that Δt (s) is too long for the model; empty if not. See :meth:`warnings`."""
         return ""
 
-    def summary(self, p: Particles, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """Return lines for the log after a run with steps Δt (s)."""
+    def tally(self, p: Particles, dt: float) -> Sequence[float]:  # noqa: ARG002
+        """Return numbers for :meth:`summary`, whose sums over all particles count, after steps Δt (s)."""
+        return ()
+
+    def summary(self, total: Sequence[float]) -> Sequence[str]:  # noqa: ARG002
+        """Return lines for the log after a run from the sums of :meth:`tally`."""
         return ()
 
     def __str__(self) -> str:

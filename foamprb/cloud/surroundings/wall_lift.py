@@ -551,11 +551,16 @@ class WallLift(Surrounding):
         )
         return [*lines, f"{'beyond cutOff':24s} {beyond}"]
 
-    def summary(self, p: Particles, dt: float) -> Sequence[str]:
-        """Return the share of steps close to a wall."""
+    def tally(self, p: Particles, dt: float) -> Sequence[float]:
+        """Return the numbers of steps close to a wall and of all, and of particles that were close."""
         steps = (p.t - p.t0)[p.status != Status.PENDING].sum() / dt
-        close, some = p.close.sum() / max(steps, 1.0), np.count_nonzero(p.close)
-        return [f"{f'steps within {CLOSE:g} radii of walls':36s} {close:.2%}, of {some} particles"]
+        return float(p.close.sum()), float(steps), float(np.count_nonzero(p.close))
+
+    def summary(self, total: Sequence[float]) -> Sequence[str]:
+        """Return the share of steps close to a wall."""
+        close, steps, some = total
+        share = close / max(steps, 1.0)
+        return [f"{f'steps within {CLOSE:g} radii of walls':36s} {share:.2%}, of {some:.0f} particles"]
 
     def check(self, patches: Sequence[Patch]) -> None:
         """Raise InputError if a pattern matches no patch."""
