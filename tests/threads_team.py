@@ -6,26 +6,21 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from foamprb.flow.mesh.fragment import Team
 
-class ThreadTeam:
-    """One of several nodes; see :class:`foamprb.flow.mesh.fragment.Team`."""
+
+class ThreadTeam(Team):
+    """One of several nodes."""
 
     def __init__(self, rank: int, size: int, desk: list[Any], barrier: threading.Barrier) -> None:
         self.rank, self.size, self._desk, self._barrier = rank, size, desk, barrier
 
-    def exchange(self, parcels):
+    def swap(self, parcels):
         self._desk[self.rank] = list(parcels)
         self._barrier.wait()
         found = [self._desk[k][self.rank] for k in range(self.size)]
         self._barrier.wait()
         return found
-
-    def collect(self, value):
-        found = self.exchange([value] * self.size)
-        return found if self.rank == 0 else []
-
-    def spread(self, value):
-        return self.exchange([value] * self.size)[0]
 
 
 def together(size: int, work: Callable[[ThreadTeam], Any]) -> list[Any]:

@@ -1,9 +1,9 @@
-"""Steady flow on the cells that a node of a parallel run holds."""
+"""Flow on the cells that a node of a parallel run holds."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces
+from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.folds import FOLDED
 from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
@@ -20,11 +21,12 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import BEYOND, Halo
 from foamprb.flow.mesh.tree import build_tree, pairs_near
 from foamprb.flow.meshflow import AT_ONCE, LISTS, MeshFlow, end_triangles, shortest_extent
+from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
 
 
 class PartFlow(MeshFlow):
-    """Flow on a part of a mesh: the own cells of a node, and the layers around them.
+    """Steady flow on a part of a mesh: the own cells of a node, and the layers around them.
 
     A path that leaves the layers sets ``strayed`` of the arrays. All nodes call the constructor and
     :meth:`arrays` together. Hosts of own cells have numbers in the whole mesh, see :meth:`numbers_of`.
@@ -46,7 +48,7 @@ class PartFlow(MeshFlow):
         own = halo.part.own
         counts = halo.gather(halo.part.cells[own], np.diff(mesh.cell_start)[own])
         whole = starts(counts[0]).astype(np.int64) if counts else None
-        self._first = halo.scatter(halo.part.cells, None if whole is None else whole[:-1])
+        self._first_tet = halo.scatter(halo.part.cells, None if whole is None else whole[:-1])
         """(n_cells,) first tetrahedron of each cell in the whole mesh."""
         totals = halo.of_all((int(own.sum()), int(halo.part.points.max(initial=-1)) + 1))
         n_cells, n_points = sum(n for n, _ in totals), max(n for _, n in totals)
@@ -168,14 +170,18 @@ class PartFlow(MeshFlow):
                 moved: dict[str, Any] = {name: place(getattr(self._arrays, name))}
                 self._arrays = self._arrays._replace(**moved)
                 if name in held:
-                    self.mesh = replace(self.mesh, **moved)
-                    self.halo.part = replace(self.halo.part, mesh=self.mesh)
+                    # Readers of further times hold the same mesh.
+                    setattr(self.mesh, name, moved[name])
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """See :meth:`MeshFlow.at_nodes`."""
         time, u, l = super().at_nodes()
         n = self.mesh.n_points + self.mesh.n_cells
         return time, u[:n], l[:n]
+
+    def in_space(self, *walls: Any) -> MeshArrays:
+        """Return the mesh for the kernels, with the fields of a steady flow; see :meth:`MeshFlow.arrays`."""
+        return MeshFlow.arrays(self, *walls)
 
     def forget_walls(self) -> None:
         """Free the lists of walls that :meth:`arrays` returned last."""
@@ -184,14 +190,14 @@ class PartFlow(MeshFlow):
     def numbers_of(self, hosts: NDArray[Any]) -> Labels:
         """Return the numbers of tetrahedra in the whole mesh, (n,); −1 stays −1."""
         cells = self.cell_of(np.maximum(hosts, 0).astype(np.int32))
-        numbers = self._first[cells] + hosts - self.mesh.cell_start[cells]
+        numbers = self._first_tet[cells] + hosts - self.mesh.cell_start[cells]
         return np.where(hosts < 0, -1, numbers)
 
     def own_hosts(self, numbers: Labels) -> tuple[Index, Ints]:
         """Return which of some tetrahedra of the whole mesh belong to own cells, and their indices here."""
-        cells = np.searchsorted(self._first, numbers, side="right") - 1
+        cells = np.searchsorted(self._first_tet, numbers, side="right") - 1
         held = np.maximum(cells, 0)
-        offset = numbers - self._first[held]
+        offset = numbers - self._first_tet[held]
         start = self.mesh.cell_start
         here = (numbers >= 0) & (cells >= 0) & (offset < np.diff(start)[held]) & self.halo.part.own[held]
         rows = np.flatnonzero(here)
@@ -244,15 +250,20 @@ class PartFlow(MeshFlow):
         chosen = np.union1d(np.flatnonzero(numbers % stride == 0), ends)
         return numbers[chosen], u[rows[chosen]], l[rows[chosen]]
 
-    def fastest(self) -> float:
-        """Return the largest number of own cells that the fluid passes in a time, 1/s.
+    @property
+    def rate(self) -> float:
+        """Largest number of own cells that the fluid passes in a time, 1/s."""
+        return self._rate_of(self.at_nodes()[1])
 
-        It is the flux through the largest face, as seen from its velocity, over the volume.
+    def _rate_of(self, u: Floats) -> float:
+        """Return the largest flux through a face over the volume, of own cells, 1/s.
+
+        The velocity in a cell is that at its centre, in the last rows of ``u`` (n, 3).
         """
         mesh, part = self.mesh, self.halo.part
         of_cells = mesh.cell_face_start, mesh.cell_faces
         faces = Faces(mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour, *of_cells)
-        areas, u = measured(mesh.points, faces)[1], self.at_nodes()[1][mesh.n_points :]
+        areas, u = measured(mesh.points, faces)[1], u[mesh.n_points :]
         most = np.zeros(mesh.n_cells)
         for cells in (mesh.owner, mesh.neighbour):
             passed = np.abs(np.einsum("fi,fi->f", areas[: len(cells)], u[cells]))
@@ -261,7 +272,7 @@ class PartFlow(MeshFlow):
 
     def places_in_whole(self) -> tuple[Ints, Labels, Ints]:
         """Return nodes and first tetrahedra of the cells in the whole mesh, and the first ones here."""
-        return self.halo.part.node, self._first, self.mesh.cell_start
+        return self.halo.part.node, self._first_tet, self.mesh.cell_start
 
     def own_patch_faces(self, name: str, t: float) -> tuple[Labels, PatchFaces]:
         """Return the triangles of a patch at own cells with the numbers of their faces and of their hosts."""
@@ -272,6 +283,52 @@ class PartFlow(MeshFlow):
         own = PatchFaces(v.vertices[mine], v.areas[mine], v.normals[mine], v.velocity[mine], v.hosts[mine])
         numbers: Any = self.numbers_of(own.hosts)
         return self._faces_of(mesh, at[mine]), own._replace(hosts=numbers)
+
+
+class PartSeries(PartFlow, SeriesFlow):
+    """Flow that changes in time on a part of a mesh; all nodes load times together.
+
+    Parameters
+    ----------
+    halo
+        The part, and the other nodes.
+    mesh, times
+        See :class:`SeriesFlow`.
+    keep, options
+        See :class:`SeriesFlow`.
+    """
+
+    def __init__(
+        self, halo: Halo, mesh: Mesh, times: Sequence[float], *given: Any, keep: int = 0, **options: Any
+    ) -> None:
+        super().__init__(halo, mesh, times, *given, keep=min(halo.of_all(keep)), **options)
+        self._rates: dict[int, float] = {}
+        self._place: Callable[..., NDArray[Any]] = lambda array, _: array
+
+    @property
+    def rate(self) -> float:
+        """See :class:`PartFlow`; at the loaded times, and so between them."""
+        return max(self._rates[self._index(level)] for level in self._levels)
+
+    def move(self, place: Callable[..., NDArray[Any]]) -> None:
+        """See :meth:`MeshFlow.move`; ``place`` has the array of before that is no longer used, too."""
+        super().move(place)
+        self._place = place
+
+    def _grown(self, array: NDArray[Any], n: int) -> NDArray[Any]:
+        return self._place(super()._grown(array, n), array)
+
+    def _fetch(self, index: int) -> None:
+        super()._fetch(index)
+        if index not in self._rates:
+            self._rates[index] = self._rate_of(self._fields[self._in_memory[index], :, :3])
+
+    def _take(self, index: int) -> tuple[Any, ...]:
+        """Read the fields at a time; nodes exchange values meanwhile."""
+        return self._read(index)
+
+    def _prefetch(self, index: int) -> Any:
+        """No-op: an exchange of values beside others would mix them up."""
 
 
 def _ends(halo: Halo) -> tuple[Index, Index]:

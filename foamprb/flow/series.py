@@ -6,8 +6,6 @@ mesh does not move.
 
 from __future__ import annotations
 
-import math
-from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -27,6 +25,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with, with_velocity
+from foamprb.flow.timeline import Timeline
 from foamprb.flow.viscosity import blend_scalar
 from foamprb.flow.walk import (
     FAILED,
@@ -46,17 +45,8 @@ from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walk import walk_on as walk_on_mesh
 from foamprb.flow.walls import gap as gap_mesh
 
-_SLACK = 1e-11
-"""Share of a time by which another may differ and still be the same. It does not depend on other times of the
-flow: results are then the same, bit for bit, while a solver writes more of them."""
-_ENDS = 1e-9
-"""Share of the first or last time by which a step may go beyond it: names of times are rounded."""
-_OF_PERIOD = 1e-6
-"""Share of the period within which a time ends it."""
 _OF_VELOCITY, _OF_TURBULENCE, _OF_VISCOSITY = 12, 8, 4
 """Columns of u and ∇u, of the turbulence after them, and of the viscosity at the end."""
-_LONGEST_END = 2.0
-"""How many times longer than any other interval the last one of a period may be."""
 
 
 class SeriesArrays(NamedTuple):
@@ -76,6 +66,29 @@ class SeriesArrays(NamedTuple):
     """(n,) row of ``correction`` at which the tetrahedra of each time begin."""
     correction: NDArray[np.float32]
     """(rows, 4) as that of :class:`MeshArrays`, time by time; no rows for none."""
+
+
+class Loaded(NamedTuple):
+    """Fields at the loaded times."""
+
+    times: Floats
+    """(n,) rising, s."""
+    rows: NDArray[np.int64]
+    """(n,) 64-bit, row of the following arrays with the fields of each time."""
+    slack: float
+    """See :class:`SeriesArrays`."""
+    fields: Floats
+    """(n or more, n_nodes, columns); see :class:`SeriesArrays`."""
+    correction: NDArray[np.float32]
+    """(n or more, n_tets, 4)."""
+
+    def on(self, mesh: MeshArrays) -> SeriesArrays:
+        """Return the arrays for the kernels."""
+        (_, nodes, columns), tets = self.fields.shape, self.correction.shape[1]
+        fields, correction = self.fields.reshape(-1, columns), self.correction.reshape(-1, 4)
+        return SeriesArrays(
+            mesh, self.times, self.rows * nodes, fields, self.slack, self.rows * tets, correction
+        )
 
 
 def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
@@ -204,7 +217,7 @@ def cell_volume(flow: SeriesArrays, host: int) -> float:
     return cell_volume_mesh(flow.mesh, host)
 
 
-class SeriesFlow(MeshFlow):
+class SeriesFlow(Timeline, MeshFlow):
     """Flow given by u and ∇u at the nodes of a mesh at several times, linear between them.
 
     Parameters
@@ -272,16 +285,11 @@ class SeriesFlow(MeshFlow):
         sampled: Sequence[FieldColumns] = (),
         names: list[str] | None = None,
     ) -> None:
-        self.times = tuple(times) if period is None else _one_period(times, period)
-        if np.any(np.diff(self.times) <= 0.0):
-            raise InputError(f"the times {', '.join(f'{t:g}' for t in self.times)} do not rise.")
         nodes = mesh.n_points + mesh.n_cells
         super().__init__(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
-        self.period = period
+        self._set_times(times, period)
         self._read, self._keep = read, keep
-        self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self._names = names if names is not None else []
-        self.span = (self.times[0], self.times[-1] if period is None else math.inf)
         self._turbulent = turbulent
         self.field_columns = tuple(sampled)
         self.field_table: NDArray[np.float64] = np.empty((0, nodes, width(sampled)))
@@ -313,25 +321,15 @@ class SeriesFlow(MeshFlow):
         InputError
             The flow does not cover ``start`` to ``end``, or one of its times cannot be read.
         """
-        beyond = _ENDS * max(abs(self.times[0]), abs(self.times[-1]))
-        if not (self.span[0] - beyond <= start and end <= self.span[1] + beyond):
-            raise InputError(
-                f"the flow is known from {self.span[0]:.12g} s to {self.span[1]:.12g} s, "
-                f"not from {start:.12g} s to {end:.12g} s"
-            )
-        first, last = self._level_before(start), self._level_after(end)
-        if last == first:
-            # At a given time both intervals are exact, but round-off requires always the same one.
-            first, last = (first - 1, last) if self._is_level(first - 1) else (first, last + 1)
-        self._levels = range(first, last + 1)
+        self._levels = self._levels_for(start, end)
         wanted = [self._index(level) for level in self._levels]
         self._make_room(wanted)
         for index in wanted:
             self._fetch(index)
-        following = self._index(last + 1)
-        if self._is_level(last + 1) and following not in self._in_memory:
-            self._prefetch(following)
-        return self._time_of(last)
+        following = self._levels[-1] + 1
+        if self._is_level(following) and self._index(following) not in self._in_memory:
+            self._prefetch(self._index(following))
+        return self._time_of(self._levels[-1])
 
     def extend(self, names: Sequence[str], usable: int) -> None:
         """Add the times that a solver has written meanwhile.
@@ -355,18 +353,14 @@ class SeriesFlow(MeshFlow):
         seen: Sequence[int] = (),
     ) -> SeriesArrays:
         """Return the arrays for the kernels at the times loaded last; see :meth:`MeshFlow.arrays`."""
-        nodes = self._fields.shape[1]
-        places = [self._in_memory[self._index(level)] for level in self._levels]
+        return self.loaded().on(super().arrays(reach, touchable, sight, seen))
+
+    def loaded(self) -> Loaded:
+        """Return the fields at the times loaded last."""
+        rows = [self._in_memory[self._index(level)] for level in self._levels]
         times = np.array([self._time_of(level) for level in self._levels])
-        return SeriesArrays(
-            super().arrays(reach, touchable, sight, seen),
-            times,
-            np.array(places, dtype=np.int64) * nodes,
-            self._fields.reshape(-1, self._fields.shape[2]),
-            self._slack(float(times.max(initial=self.times[0]))),
-            np.array(places, dtype=np.int64) * self._corrections.shape[1],
-            self._corrections.reshape(-1, 4),
-        )
+        slack = self._slack(float(times.max(initial=self.times[0])))
+        return Loaded(times, np.array(rows, dtype=np.int64), slack, self._fields, self._corrections)
 
     def _first(self) -> Floats:
         """Return the fields (n_nodes, 12 or 20) at the first time."""
@@ -426,90 +420,30 @@ class SeriesFlow(MeshFlow):
         self.load(t, t)
         return sample_with(sample, self.arrays(), points, hosts, t)
 
-    def times_within(self, start: float, end: float) -> Sequence[float]:
-        """Return the times of the flow between ``start`` and ``end``, s, those of each period."""
-        levels = range(self._level_before(start), self._level_after(end) + 1)
-        times = [self._time_of(level) for level in levels]
-        return [t for t in times if start + self._slack(start) < t < end - self._slack(end)]
-
-    def times_until(self, t: float) -> tuple[float, ...]:
-        """Return the times of a flow without period up to the first one from t on, s."""
-        return self.times[: self._level_after(t) + 1]
-
-    def change_until(self, t: float, then: Sequence[float]) -> str:
-        """Return how the times up to t differ from earlier ones; empty if a run may continue at t.
-
-        Times before the interval of t may be missing: they are not read again.
-
-        Parameters
-        ----------
-        t
-            Time, s.
-        then
-            :meth:`times_until` at this time of the flow at the start of the run.
-        """
-        now, past = self.times_until(t), bisect_right(then, t + self._slack(t)) - 1
-        missing = sorted({*then[max(past, 0) :]} - {*now})
-        added = sorted({*now} - {*then})
-        if missing:
-            return f"the time {missing[0]:.12g} of the flow is missing"
-        return f"the time {added[0]:.12g} was added to the flow" if added else ""
-
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Return the triangles of a patch at time t, s; see :meth:`MeshFlow.patch_faces` and :meth:`load`."""
         return with_velocity(super().patch_faces(name, t), self, t)
 
-    def _slack(self, t: float) -> float:
-        """Return the difference below which another time is the same as t, s."""
-        return _SLACK * max(abs(t), abs(self.times[0]))
-
-    # A level counts the times on from period to period; the index is that of its time in the first period.
-
-    def _index(self, level: int) -> int:
-        return level if self.period is None else level % len(self.times)
-
-    def _time_of(self, level: int) -> float:
-        if self.period is None:
-            return self.times[level]
-        cycle, index = divmod(level, len(self.times))
-        return self.times[index] + cycle * self.period
-
-    def _is_level(self, level: int) -> bool:
-        return level >= 0 and (self.period is not None or level < len(self.times))
-
-    def _level_before(self, t: float) -> int:
-        """Return the last level up to t."""
-        cycle, rest = self._cycle(t)
-        return max(0, cycle * len(self.times) + bisect_right(self._ends, rest + self._slack(t)) - 1)
-
-    def _level_after(self, t: float) -> int:
-        """Return the first level from t on."""
-        cycle, rest = self._cycle(t)
-        level = min(bisect_left(self._ends, rest - self._slack(t)), len(self._ends) - 1)
-        return cycle * len(self.times) + level
-
-    def _cycle(self, t: float) -> tuple[int, float]:
-        """Return the count of periods before t, and the corresponding time of the first period."""
-        if self.period is None:
-            return 0, t
-        cycle = math.floor((t - self.times[0]) / self.period)
-        return cycle, t - cycle * self.period
-
     def _make_room(self, wanted: Sequence[int]) -> None:
         capacity = max(len(set(wanted)), min(self._keep, len(self.times)))
         if capacity > len(self._fields):
-            self._fields = _grown(self._fields, capacity)
-            self._corrections = _grown(self._corrections, capacity)
-            self.field_table = _grown(self.field_table, capacity)
+            self._fields = self._grown(self._fields, capacity)
+            self._corrections = self._grown(self._corrections, capacity)
+            self.field_table = self._grown(self.field_table, capacity)
         for index in wanted:
             if index in self._in_memory:
                 self._in_memory[index] = self._in_memory.pop(index)
 
+    def _grown(self, array: NDArray[Any], n: int) -> NDArray[Any]:
+        """Return a copy of an array with n rows; further ones are not set."""
+        grown = np.empty((n, *array.shape[1:]), dtype=array.dtype)
+        grown[: len(array)] = array
+        return grown
+
     def _fetch(self, index: int) -> None:
         if index in self._in_memory:
             return
-        future, self._prefetched = self._prefetch(index), None
-        u, l, *more = future.result()
+        u, l, *more = self._take(index)
         if len(self._in_memory) < len(self._fields):
             place = len(self._in_memory)
         else:
@@ -524,47 +458,20 @@ class SeriesFlow(MeshFlow):
             self._fields[place, :, _OF_VELOCITY:] = np.concatenate(more, axis=1)
         self._in_memory[index] = place
 
+    def _take(self, index: int) -> tuple[Any, ...]:
+        """Return the fields at a time, which may have been prefetched."""
+        future, self._prefetched = self._prefetch(index), None
+        return future.result()
+
     def _prefetch(self, index: int) -> Future[tuple[Any, ...]]:
         if self._prefetched is None or self._prefetched[0] != index:
             self._prefetched = index, self._reader.submit(self._read, index)
         return self._prefetched[1]
 
 
-def _grown(array: NDArray[Any], n: int) -> NDArray[Any]:
-    """Return a copy of an array with n rows; further ones are not set."""
-    grown = np.empty((n, *array.shape[1:]), dtype=array.dtype)
-    grown[: len(array)] = array
-    return grown
-
-
 def _width(turbulent: bool, viscous: bool) -> int:
     """Return the number of columns of the fields."""
     return _OF_VELOCITY + _OF_TURBULENCE * turbulent + _OF_VISCOSITY * viscous
-
-
-def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
-    """Return the times of the first period; raise InputError if they do not fill it."""
-    first = _period_from(times, 0, period)
-    if first:
-        return first
-    others = [times[k] for k in range(1, len(times)) if _period_from(times, k, period)]
-    # Best is one that ends at a time.
-    others.sort(key=lambda start: min(abs(t - start - period) for t in times) <= _OF_PERIOD * period)
-    remedy = (
-        f"-time {others[-1]:g}:{others[-1] + period:g} selects such times" if others else "correct the period"
-    )
-    raise InputError(
-        f"the times from {times[0]:g} to {times[-1]:g} s do not fill the period of {period:g} s from "
-        f"{times[0]:g} to {times[0] + period:g} s: {remedy}."
-    )
-
-
-def _period_from(times: Sequence[float], k: int, period: float) -> tuple[float, ...]:
-    """Return the times of a period from the k-th on; none if they do not fill it."""
-    end = times[k] + period
-    found = tuple(t for t in times[k:] if t < end - _OF_PERIOD * period)
-    steps = np.diff([*found, end])
-    return found if len(found) > 1 and steps[-1] <= _LONGEST_END * steps[:-1].max() else ()
 
 
 _MOST_IN_MEMORY = 1 << 28
@@ -583,6 +490,7 @@ def series_of(
     conservative: bool = False,
     viscous: bool = False,
     sampled: Sequence[FieldColumns] = (),
+    make: Callable[..., SeriesFlow] = SeriesFlow,
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
 
@@ -598,6 +506,8 @@ def series_of(
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
     period, notes, zones, turbulent, conservative, viscous, sampled
         See :class:`SeriesFlow`.
+    make
+        Class of the flow.
 
     Raises
     ------
@@ -611,19 +521,9 @@ def series_of(
     keep = _MOST_IN_MEMORY // size if period is not None else 0
     times = [float(name) for name in names]
     try:
-        return SeriesFlow(
-            mesh,
-            times,
-            lambda i: read(names[i]),
-            period,
-            [*notes, note],
-            keep,
-            zones,
-            turbulent,
-            conservative,
-            viscous,
-            sampled,
-            names,
-        )
+        return make(
+            mesh, times, lambda i: read(names[i]), period, [*notes, note], keep=keep, zones=zones,
+            turbulent=turbulent, conservative=conservative, viscous=viscous, sampled=sampled, names=names,
+        )  # fmt: skip
     except InputError as error:
         raise InputError(f"{source}: {error}") from None

@@ -18,7 +18,9 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import find_file
 from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
 from foamprb.flow.read.density import keeps_volume
-from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.source import FlowSource, FlowTimes
+from foamprb.flow.series import SeriesFlow
+from foamprb.flow.timeline import Timeline
 from foamprb.parallel.parts import Summary
 
 log = logging.getLogger("foamprb")
@@ -37,7 +39,7 @@ class WholeCounts(NamedTuple):
     tets: range
 
 
-def why_whole(case: Path, time: float | str, source: FlowSource, nodes: int) -> str | None:
+def why_whole(case: Path, times: FlowTimes, source: FlowSource, nodes: int) -> str | None:
     """Return why each node must hold the whole mesh of a case; None if each can hold a part."""
     if source.file is not None:
         return "a mesh file is read"
@@ -46,7 +48,8 @@ def why_whole(case: Path, time: float | str, source: FlowSource, nodes: int) -> 
     opened = DecomposedCase(case, source.region)
     if opened.processors.n < nodes:
         return f"the case has {opened.processors.n} processor folders for {nodes} nodes"
-    if not keeps_volume(case, source.region, opened.folder(opened.select_time(time))):
+    names = opened.select_times(times.several) if times.transient else [opened.select_time(times.steady)]
+    if not all(keeps_volume(case, source.region, opened.folder(name)) for name in names):
         return "its density may vary"
     if source.turbulent:
         return "a dispersionModel reads the turbulence"
@@ -75,6 +78,7 @@ class DistributedFlow:
     """
 
     kernels = MeshFlow.kernels
+    nothing: Callable[[], Any] = staticmethod(MeshFlow.nothing)
     lists_walls = True
     span = (-math.inf, math.inf)
     field_columns = ()
@@ -92,6 +96,7 @@ class DistributedFlow:
             first.notes,
         )
         self.rate = first.rate
+        """See :attr:`foamprb.flow.partflow.PartFlow.rate`."""
         self.mesh = WholeCounts(first.counts[0], first.counts[1], range(first.counts[2]))
         self._shared: tuple[Any, ...] | None = None
         self.shared_bytes = 0
@@ -117,7 +122,7 @@ class DistributedFlow:
             self._shared = None
             self.shared_bytes = sum(self._order("share_part", *walls))
             self._shared = walls
-        return MeshFlow.nothing()
+        return self.nothing()
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """No-op: the nodes have moved their arrays."""
@@ -203,3 +208,39 @@ class DistributedFlow:
         """Return sizes of the mesh and of the velocities by name, the same for any number of nodes."""
         first = self.summaries[0]
         return {"distributed": np.array([*first.counts, first.size, first.width, *np.ravel(first.bounds)])}
+
+
+class DistributedSeries(Timeline, DistributedFlow):
+    """Flow that changes in time, see :class:`DistributedFlow`; all nodes load times together.
+
+    ``rate`` is that at the loaded times, to which the number of steps between two exchanges is adapted.
+    """
+
+    kernels = SeriesFlow.kernels
+    nothing = staticmethod(SeriesFlow.nothing)
+
+    def __init__(
+        self, order: Callable[..., list[Any]], summaries: Sequence[Summary | None], depth: int
+    ) -> None:
+        super().__init__(order, summaries, depth)
+        first = self.summaries[0]
+        self._set_times(first.times, first.period)
+
+    def load(self, start: float, end: float) -> float:
+        """Let all nodes load times; see :meth:`foamprb.flow.series.SeriesFlow.load`."""
+        found = [own for own in self._order("load_part", start, end) if own is not None]
+        self.rate = max(rate for _, rate in found)
+        return float(found[0][0])
+
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """See :meth:`DistributedFlow.traits` and :meth:`foamprb.flow.series.SeriesFlow.traits`."""
+        times = self.times[: 1 if self.period is None else None]
+        return {**super().traits(), "times": times, "period": self.period or 0.0}
+
+
+def distributed_flow(
+    order: Callable[..., list[Any]], summaries: Sequence[Summary | None], depth: int
+) -> DistributedFlow:
+    """Return the flow of which all nodes hold parts; see :class:`DistributedFlow`."""
+    several = any(summary is not None and summary.times for summary in summaries)
+    return (DistributedSeries if several else DistributedFlow)(order, summaries, depth)

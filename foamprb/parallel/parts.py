@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import pickle
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,18 +12,21 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import MeshArrays
-from foamprb.flow.mesh.fragment import Labels
+from foamprb.flow.mesh.fragment import Labels, Team
 from foamprb.flow.mesh.lists import Index
-from foamprb.flow.partflow import PartFlow
-from foamprb.flow.read.openfoam import steady_flow
+from foamprb.flow.partflow import PartFlow, PartSeries
+from foamprb.flow.read.openfoam import flow_of
 from foamprb.flow.read.parts import PartCase
-from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.source import FlowSource, FlowTimes
+from foamprb.flow.series import Loaded
 from foamprb.memory import trim
-from foamprb.parallel.shared_memory import Publisher, Windows
+from foamprb.parallel.shared_memory import Publisher, Windows, wait_for_all
+
+T = TypeVar("T")
 
 
-class MpiTeam:
-    """Nodes, by their first processes; see :class:`foamprb.flow.mesh.fragment.Team`.
+class MpiTeam(Team):
+    """Nodes, by their first processes.
 
     Parameters
     ----------
@@ -34,28 +36,17 @@ class MpiTeam:
 
     def __init__(self, comm: Any) -> None:
         self._comm = comm
-        self.rank: int = comm.rank
-        self.size: int = comm.size
+        self.rank = comm.rank
+        self.size = comm.size
 
-    def exchange(self, parcels: Sequence[Any]) -> list[Any]:
-        """Send parcel i to node i; return the parcel from each node."""
+    def swap(self, parcels: Sequence[Any]) -> list[Any]:
+        """See :meth:`Team.swap`."""
         found = list(parcels)
         # Pair by pair, as the lengths of one collective message are 32-bit integers.
         for k in range(1, self.size):
             to, source = (self.rank + k) % self.size, (self.rank - k) % self.size
             found[source] = self._comm.sendrecv(parcels[to], to, source=source)
         return found
-
-    def collect(self, value: Any) -> list[Any]:
-        """Return the values of all nodes on node 0, and an empty list on the others."""
-        if self.rank > 0:
-            self._comm.send(value, 0)
-            return []
-        return [value, *(self._comm.recv(source=k) for k in range(1, self.size))]
-
-    def spread(self, value: Any) -> Any:
-        """Return the value of node 0."""
-        return self._comm.bcast(value)
 
 
 class PlacesInWhole(NamedTuple):
@@ -94,6 +85,10 @@ class Summary(NamedTuple):
     size: float
     """Sum of squares of the velocities at the cells, m²/s²."""
     time: str
+    """Name of the first time."""
+    times: tuple[float, ...]
+    """Times of a flow that changes, s; none of a steady one."""
+    period: float | None
 
 
 def summary_of(flow: PartFlow) -> Summary:
@@ -102,7 +97,8 @@ def summary_of(flow: PartFlow) -> Summary:
     own, speeds = halo.part.own, np.einsum("ci,ci->c", *2 * (u[flow.mesh.n_points :],))
     return Summary(
         flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts,
-        int(own.sum()), len(own), max(halo.of_all(flow.fastest())), halo.total(speeds), time,
+        int(own.sum()), len(own), max(halo.of_all(flow.rate)), halo.total(speeds), time,
+        *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
     )  # fmt: skip
 
 
@@ -127,6 +123,9 @@ class Part:
         """On the first process of a node."""
         self.number: int = windows.node.bcast(self._team.rank if self._team else None)
         """Number of this node."""
+        self._loaded: Loaded | None = None
+        self.torn = False
+        """True while the processes of the node might not agree on what comes next."""
 
     def close(self) -> None:
         """Free the shared memory."""
@@ -135,7 +134,7 @@ class Part:
 
     def refuse_strays(self) -> None:
         """Raise InputError if a path has left the cells of this node since the last call."""
-        strayed = self.arrays.strayed
+        strayed = self.mesh.strayed
         if strayed[0]:
             strayed[0] = 0
             raise InputError(
@@ -149,23 +148,25 @@ class Part:
         """Bytes shared on this node."""
         return sum(array.nbytes for array in self.shared.arrays.values())
 
+    @property
+    def arrays(self) -> Any:
+        """Return the arrays for the kernels; see :meth:`foamprb.flow.base.Flow.arrays`."""
+        return self.mesh if self._loaded is None else self._loaded.on(self.mesh)
+
     def open(
-        self, root: Path, region: str, time: float | str, source: FlowSource, depth: int
+        self, root: Path, region: str, times: FlowTimes, source: FlowSource, depth: int
     ) -> Summary | None:
         """Read the flow; return a summary on the first process of the node."""
-        if not self._leads:
-            self._follow()
-            return None
-        assert self._team is not None
-        case = PartCase(root, region, self._team, depth)
-        flow = steady_flow(case, time, source)
-        case.forget()
-        assert isinstance(flow, PartFlow)
-        self.flow = flow
-        flow.move(self._publisher.move)
-        trim()
-        self._node.bcast(("done", (None,)))
-        return summary_of(flow)
+
+        def read(team: MpiTeam) -> Summary:
+            flow = flow_of(PartCase(root, region, team, depth), times, source)
+            assert isinstance(flow, PartFlow)
+            self.flow = flow
+            flow.move(self._publisher.move)
+            trim()
+            return summary_of(flow)
+
+        return self._lead(read)
 
     def share(self, *walls: Any) -> int:
         """Place the arrays of the flow, with some walls, in the memory of the node; return bytes shared.
@@ -175,40 +176,80 @@ class Part:
         InputError
             The lists of walls would be too long.
         """
-        if self._leads:
+
+        def place(_: MpiTeam) -> Any:
             assert self.flow is not None
-            try:
-                arrays = self.flow.arrays(*walls)
-            except InputError as error:
-                self._node.bcast(("failed", (error,)))
-                raise
             places = PlacesInWhole(*self.flow.places_in_whole())
-            placed = pickle.dumps(self._publisher.replace(Shared(arrays, places)))
+            placed = self._publisher.replace(Shared(self.flow.in_space(*walls), places))
             self.flow.forget_walls()
-            self._node.bcast(("done", (placed,)))
-        else:
-            placed = self._follow()
-        self.arrays, self.places = self.shared.find(pickle.loads(placed))
+            return placed
+
+        self.mesh, self.places = self.shared.find(self._tell(self._lead(place)))
         return self.size
 
-    def _order(self, name: str, *arguments: Any) -> None:
-        """Let all processes of the node call a method of their windows."""
-        self._node.bcast((name, arguments))
-        getattr(self.shared, name)(*arguments)
+    def load(self, start: float, end: float) -> tuple[float, float] | None:
+        """Load a flow that changes; see :meth:`foamprb.flow.base.Flow.load`.
 
-    def _follow(self) -> Any:
-        """Carry out orders of the first process of the node until it ends them; return the result."""
-        while True:
-            name, arguments = self._node.bcast(None)
-            if name == "done":
-                return arguments[0]
-            if name == "failed":
-                raise arguments[0]
-            getattr(self.shared, name)(*arguments)
+        Returns
+        -------
+        The end of the loaded interval, and the rate of this part, on the first process of the node.
+        """
+
+        def load(_: MpiTeam) -> tuple[tuple[float, float], Any]:
+            assert isinstance(self.flow, PartSeries)
+            until = self.flow.load(start, end)
+            return (until, self.flow.rate), self._publisher.renew(self.flow.loaded())
+
+        found, placed = self._tell(self._lead(load))
+        self._loaded = self.shared.find(placed)
+        return found if self._leads else None
 
     def ask(self, name: str, *arguments: Any) -> Any:
         """Return the result of a method of the flow on the first process of the node, else None."""
-        return getattr(self.flow, name)(*arguments) if self._leads else None
+        return self._lead(lambda _: getattr(self.flow, name)(*arguments))
+
+    def _lead(self, work: Callable[[MpiTeam], T]) -> T | None:
+        """Return the result of some work of the first processes of all nodes, else None.
+
+        The other processes carry out the orders of theirs. All raise the error of one.
+        """
+        if self._team is None:
+            self._follow()
+            return None
+        try:
+            with self._team.united():
+                found = work(self._team)
+        except Exception as error:
+            if not self.torn:
+                self._tell((None, (error,)))
+            raise
+        self._tell((None, (None,)))
+        return found
+
+    def _order(self, name: str, *arguments: Any) -> None:
+        """Let all processes of the node call a method of their windows."""
+        self._tell((name, arguments))
+        self._execute(name, arguments)
+
+    def _follow(self) -> None:
+        """Carry out orders of the first process of the node until it ends them, perhaps by an error."""
+        while True:
+            name, arguments = self._tell()
+            if name is None:
+                if arguments[0] is not None:
+                    raise arguments[0]
+                return
+            self._execute(name, arguments)
+
+    def _execute(self, name: str, arguments: tuple[Any, ...]) -> None:
+        self.torn = True
+        getattr(self.shared, name)(*arguments)
+        self.torn = False
+
+    def _tell(self, message: Any = None) -> Any:
+        """Return the message of the first process of the node."""
+        wait_for_all(self._node)
+        return self._node.bcast(message)
 
     def numbers_of(self, hosts: NDArray[Any]) -> Labels:
         """Return the numbers of tetrahedra in the whole mesh, (n,); −1 stays −1."""
@@ -223,5 +264,5 @@ class Part:
 
     def cells_of(self, hosts: NDArray[Any]) -> Index:
         """Return the cells of tetrahedra, (n,); any cell for −1."""
-        cells: Index = self.arrays.tets[np.maximum(hosts, 0), 0].astype(np.intp) - self.arrays.n_points
+        cells: Index = self.mesh.tets[np.maximum(hosts, 0), 0].astype(np.intp) - self.mesh.n_points
         return cells

@@ -25,8 +25,8 @@ from foamprb.cloud.cloud import PART, Cloud, Stepper, Value, parts_in_order
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.flow.fields import Fields, columns_of
-from foamprb.flow.read.source import FlowSource
-from foamprb.parallel.distributed import LEAST_LAYERS, DistributedFlow, why_whole
+from foamprb.flow.read.source import FlowSource, FlowTimes
+from foamprb.parallel.distributed import LEAST_LAYERS, DistributedFlow, distributed_flow, why_whole
 from foamprb.parallel.exchange import homes_of, plan_exchange
 from foamprb.parallel.shared_memory import Publisher
 from foamprb.parallel.worker import Answer, Worker, piece_file
@@ -84,14 +84,14 @@ class Ranks:
         return [answer.value for answer in answers]
 
     def open_flow(
-        self, case: Path, time: float | str, source: FlowSource, step: float, whole: str | None
+        self, case: Path, times: FlowTimes, source: FlowSource, step: float, whole: str | None
     ) -> DistributedFlow | None:
         """Return the flow of a decomposed case with a part on each of several nodes.
 
         Parameters
         ----------
-        case, time, source
-            The case; the time of a steady flow; the names of its fields.
+        case, times, source
+            The case; the times of the flow; the names of its fields.
         step
             Time between two points where particles can change nodes, s.
         whole
@@ -104,15 +104,15 @@ class Ranks:
         nodes = self.worker.windows.nodes
         if nodes == 1:
             return None
-        reason = whole or why_whole(case, time, source, nodes)
+        reason = whole or why_whole(case, times, source, nodes)
         if reason is not None:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             return None
         depth, layers = 0, LEAST_LAYERS
         while depth < layers:
             depth = layers
-            summaries = self.order("open_part", case, source.region, time, source, depth)
-            flow = DistributedFlow(self.order, summaries, depth)
+            summaries = self.order("open_part", case, source.region, times, source, depth)
+            flow = distributed_flow(self.order, summaries, depth)
             layers = max(depth, flow.layers_for(step))
         for number, summary in enumerate(flow.summaries):
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,
@@ -306,15 +306,19 @@ class PartStepper(RankStepper):
         self._node_of = np.zeros(len(hosts), dtype=np.int32)
         for number, rows in enumerate(flow.owners(hosts)):
             self._node_of[rows] = number
-        whole = cloud.tracker.whole
-        # A body may go through one layer less than there are, so that it ends before the last.
-        most = max(1, int((flow.depth - 1) / max(flow.rate * cloud.dt * whole, 1e-300)))
-        self._few = whole * min(most, MOST_AT_ONCE)
         log.info("    %-24s %d", "steps between exchanges", self._few)
 
     def _set_out(self) -> None:
         self.ranks.order("set_out", self._ranks_of, own=(self._node_of,))
         del self._node_of
+
+    @property
+    def _few(self) -> int:
+        """Number of steps between two exchanges in the flow that is loaded."""
+        flow, whole = self._flow, self.cloud.tracker.whole
+        # A body may go through one layer less than there are, so that it ends before the last.
+        most = max(1, int((flow.depth - 1) / max(flow.rate * self.cloud.dt * whole, 1e-300)))
+        return whole * min(most, MOST_AT_ONCE)
 
     @property
     def _flow(self) -> DistributedFlow:
@@ -331,11 +335,11 @@ class PartStepper(RankStepper):
 
     def _carry(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:  # noqa: ARG002
         """Advance all shares by few steps at a time, and hand particles over after each call."""
-        step, last, outcome = self.cloud.step, self.cloud.step + steps, Outcome()
+        step, last, few, outcome = self.cloud.step, self.cloud.step + steps, self._few, Outcome()
         while step < last and outcome.finished:
             self._balance()
             # Calls end at multiples, as strides of several tracking steps do.
-            end = min(last, (step // self._few + 1) * self._few)
+            end = min(last, (step // few + 1) * few)
             outcome += self._advance(step, end - step, stop)
             step = end
         return outcome

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -16,6 +17,8 @@ Array = NDArray[Any]
 
 NODE_RANKS = "FOAMPRB_NODE_RANKS"
 """Environment variable with the number of processes that make a node, instead of those of a computer."""
+_LONGEST_PAUSE = 1e-3
+"""Longest pause between two tests of a barrier, s."""
 _SMALLEST = 1 << 16
 """Bytes from which an array is worth a window."""
 _MOST_AT_ONCE = 1 << 30
@@ -122,8 +125,14 @@ class Publisher:
         """Bytes shared on each computer."""
         return sum(array.nbytes for array in self._windows.arrays.values())
 
-    def move(self, array: Array) -> Array:
-        """Put an array that will not change into shared memory for good."""
+    def move(self, array: Array, old: Array | None = None) -> Array:
+        """Put an array into shared memory for good, in place of an ``old`` one.
+
+        If it changes, :meth:`renew` lets the others see it.
+        """
+        before = None if old is None else self._own.pop(_where(old), None)
+        if before is not None:
+            self._order("free", before)
         if not _is_large(array):
             return array
         key = self._fill_new(array)
@@ -153,6 +162,18 @@ class Publisher:
         for key in before:
             self._order("free", key)
         return placed
+
+    def renew(self, tree: Any) -> Any:
+        """Return a tuple with a :class:`Place` for each array that was moved and may have changed."""
+
+        def place(leaf: Any) -> Any:
+            key = self._own.get(_where(leaf)) if _is_large(leaf) else None
+            if key is None:
+                return leaf
+            self._order("spread", key)
+            return Place(key)
+
+        return _map(tree, place)
 
     def publish(self, tree: Any) -> Any:
         """Make the arrays in a tuple known to all processes; those of the call before are forgotten.
@@ -200,6 +221,14 @@ class Publisher:
         self._windows.arrays[key][...] = array
         self._order("spread", key)
         return key
+
+
+def wait_for_all(comm: Any) -> None:
+    """Wait for all processes with short pauses; MPI itself would keep the processor busy."""
+    request, pause = comm.Ibarrier(), 1e-6
+    while not request.Test():
+        time.sleep(pause)
+        pause = min(2.0 * pause, _LONGEST_PAUSE)
 
 
 def _is_large(leaf: Any) -> bool:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import pickle
 import sys
-import time
 import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -22,22 +21,17 @@ from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields
-from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.parallel.exchange import RECORD, pack, unpack
 from foamprb.parallel.parts import Part, Summary
-from foamprb.parallel.shared_memory import Windows
+from foamprb.parallel.shared_memory import Windows, wait_for_all
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
 
 _AT_ONCE = 1 << 22
 """Most particles that all processes send together; a process packs its part of them."""
-_LONGEST_PAUSE = 1e-3
-"""Longest pause between two tests of a barrier, s."""
-_COLLECTIVE = (
-    *("make", "spread", "free", "settle", "set_out", "exchange", "gather"),
-    *("open_part",),
-)
+_COLLECTIVE = ("make", "spread", "free", "settle", "set_out", "exchange", "gather")
 """Orders during which processes wait for each other; an error in one of them aborts all processes."""
 
 
@@ -121,7 +115,8 @@ class Worker:
             return Answer(getattr(self, name)(*arguments), None, list(signals))
         except Exception as error:
             where = f"rank {self.rank}: "
-            if name in _COLLECTIVE or self._amid_exchange:
+            torn = self._amid_exchange or (self._part is not None and self._part.torn)
+            if name in _COLLECTIVE or torn:
                 print(
                     f"--> foamprb Error : {where}{type(error).__name__}: {error}", file=sys.stderr, flush=True
                 )
@@ -233,7 +228,7 @@ class Worker:
         return ShareState(counts)
 
     def open_part(
-        self, root: Path, region: str, time: float | str, source: FlowSource, depth: int
+        self, root: Path, region: str, times: FlowTimes, source: FlowSource, depth: int
     ) -> Summary | None:
         """Read the flow on the cells of this node; return a summary on its first process."""
         if self._part is not None:
@@ -241,13 +236,19 @@ class Worker:
             self._part = None
             gc.collect()
         self._part = Part(self._MPI, self.windows)
-        return self._part.open(root, region, time, source, depth)
+        return self._part.open(root, region, times, source, depth)
 
     def share_part(self, *walls: Any) -> int:
         """Place the arrays of the node's flow, with some walls, in its memory; return bytes shared once."""
         size = self._held.share(*walls)
         self._flow = self._held.arrays
         return size if self.windows.node.rank == 0 else 0
+
+    def load_part(self, start: float, end: float) -> tuple[float, float] | None:
+        """Load a flow that changes; see :meth:`Part.load`."""
+        found = self._held.load(start, end)
+        self._flow = self._held.arrays
+        return found
 
     def node_number(self) -> int:
         """Return the number of the node of this process."""
@@ -409,11 +410,8 @@ class Worker:
             self.comm.gather(answer)
 
     def wait_for_all(self) -> None:
-        """Wait for all processes with short pauses; MPI itself would keep the processor busy."""
-        request, pause = self.comm.Ibarrier(), 1e-6
-        while not request.Test():
-            time.sleep(pause)
-            pause = min(2.0 * pause, _LONGEST_PAUSE)
+        """See :func:`foamprb.parallel.shared_memory.wait_for_all`."""
+        wait_for_all(self.comm)
 
     def finalise(self) -> None:
         """Free the shared memory, and finalise MPI."""

@@ -46,7 +46,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.flows import check_region, read_flow, read_transient_flow, rotations_of
-from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.parallel.ranks import Ranks
@@ -208,8 +208,8 @@ def prepare(
         if flow is None and ranks is not None:
             solution = settings.solution
             step = solution.deltaT * stretch_of(solution.stride)
-            at = "latestTime" if time is None else time
-            parts: Any = ranks.open_flow(case, at, source, step, _why_whole(settings))
+            times = FlowTimes(time, solution.transient, solution.period)
+            parts: Any = ranks.open_flow(case, times, source, step, _why_whole(settings))
             flow = parts
         if flow is None:
             flow = _read_flow(settings, time, source)
@@ -236,8 +236,6 @@ def prepare(
 
 def _why_whole(settings: Settings) -> str | None:
     """Return why the settings need the whole mesh on each computer; None if they do not."""
-    if settings.solution.transient:
-        return "the flow is transient"
     for name, function in settings.functions.items():
         if function.needs_mesh:
             return f"the cloudFunction {name} maps particles to cells"

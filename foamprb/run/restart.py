@@ -25,7 +25,7 @@ from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
-from foamprb.flow.series import SeriesFlow
+from foamprb.flow.timeline import Timeline
 from foamprb.results.checkpoint import Checkpoint, Checkpoints, part_file, write_checkpoint
 from foamprb.results.folder import FATES, ResultsFolder
 from foamprb.results.manifest import Checksum, checksum
@@ -200,7 +200,7 @@ def refuse_other_times(checkpoint: Checkpoint, flow: Flow, where: str) -> None:
         Flow of the cloud that continues from it.
     """
     then = checkpoint.header.get("times")
-    change = flow.change_until(checkpoint.time, then) if then and isinstance(flow, SeriesFlow) else ""
+    change = flow.change_until(checkpoint.time, then) if then and isinstance(flow, Timeline) else ""
     if change:
         raise InputError(
             f"{where}: {change}. Restore the times of the run, or start over: -overwrite, or startFrom "
@@ -210,7 +210,7 @@ def refuse_other_times(checkpoint: Checkpoint, flow: Flow, where: str) -> None:
 
 def _times_until(flow: Flow, t: float) -> tuple[float, ...]:
     """Return the times that a run has gone through at time t, s; none if the flow repeats itself."""
-    return flow.times_until(t) if isinstance(flow, SeriesFlow) and flow.period is None else ()
+    return flow.times_until(t) if isinstance(flow, Timeline) and flow.period is None else ()
 
 
 def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, where: str) -> None:

@@ -21,7 +21,8 @@ from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_f
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import select_times
-from foamprb.flow.series import SeriesFlow, _one_period, series_of
+from foamprb.flow.series import SeriesFlow, series_of
+from foamprb.flow.timeline import one_period
 
 WATER = Medium(1e-3, 1e3, (0.0, 0.0, 0.0))
 INTEGRATORS = ("paper", "rosenbrock", "stokes")
@@ -422,17 +423,17 @@ def test_what_the_mesh_does_is_the_same_as_in_a_steady_flow(mesh, random):
 def test_a_period_ends_where_the_first_time_comes_again(scale):
     """Times from there on are left out, a millionth of the period before it as well."""
     times = scale * np.array([0.5, 1.0, 1.5, 2.0])
-    assert _one_period((*times, 2.5 * scale, 3.0 * scale), 2.0 * scale) == tuple(times)
-    assert _one_period((*times, scale * (2.5 - 1e-6)), 2.0 * scale) == tuple(times)
-    assert _one_period((*times, scale * 2.499), 2.0 * scale) == (*times, scale * 2.499)
+    assert one_period((*times, 2.5 * scale, 3.0 * scale), 2.0 * scale) == tuple(times)
+    assert one_period((*times, scale * (2.5 - 1e-6)), 2.0 * scale) == tuple(times)
+    assert one_period((*times, scale * 2.499), 2.0 * scale) == (*times, scale * 2.499)
     # The last interval may be twice as long as the longest of the others.
-    assert _one_period(tuple(times[:3]), 2.0 * scale) == tuple(times[:3])
+    assert one_period(tuple(times[:3]), 2.0 * scale) == tuple(times[:3])
     for few, period in ((times[:3], 2.1), (times[:1], 0.5), (times, 0.4)):
         end = scale * (0.5 + period)
         with pytest.raises(
             InputError, match=rf"the period of {scale * period:g} s from {few[0]:g} to {end:g} s"
         ):
-            _one_period(tuple(few), period * scale)
+            one_period(tuple(few), period * scale)
 
 
 def test_a_flow_is_known_between_its_times(mesh):

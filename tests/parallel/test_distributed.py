@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from foam_writer import decompose, write_case
 from threads_team import together
+from transient_case import scaled
 
 from foamprb.errors import InputError
 from foamprb.flow.read.decomposed import DecomposedCase
-from foamprb.flow.read.openfoam import steady_flow
+from foamprb.flow.read.openfoam import flow_of, steady_flow
 from foamprb.flow.read.parts import PartCase
-from foamprb.flow.read.source import FlowSource
-from foamprb.parallel.distributed import DistributedFlow, why_whole
+from foamprb.flow.read.source import FlowSource, FlowTimes
+from foamprb.parallel.distributed import distributed_flow, why_whole
 from foamprb.parallel.parts import summary_of
 
 
@@ -21,6 +22,8 @@ def case(tmp_path_factory):
     case = tmp_path_factory.mktemp("parts") / "case"
     mesh = write_case(case, "mixed")
     decompose(case, mesh, (2 * mesh.centres[:, 0]).astype(int), ("0", "1"))
+    for file in case.glob("processor*/0/U"):
+        file.write_text(scaled(file.read_text(), -0.5))
     return case
 
 
@@ -29,21 +32,27 @@ def whole(case):
     return steady_flow(DecomposedCase(case), "1", FlowSource())
 
 
-@pytest.fixture(scope="module")
-def flow(case):
-    """The flow of two nodes, whose orders are carried out one after the other."""
+def distributed(case, times):
+    """The flow of two nodes, which carry out orders together."""
 
     def read(team):
-        part = steady_flow(PartCase(case, "", team, 1), "1", FlowSource())
+        part = flow_of(PartCase(case, "", team, 1), times, FlowSource())
         return part, summary_of(part)
 
     found = together(2, read)
 
     def order(name, *arguments):
+        if name == "load_part":
+            return together(2, lambda team: ((part := found[team.rank][0]).load(*arguments), part.rate))
         assert name == "ask_part"
-        return [getattr(part, arguments[0])(*arguments[1:]) for part, _ in found]
+        return together(2, lambda team: getattr(found[team.rank][0], arguments[0])(*arguments[1:]))
 
-    return DistributedFlow(order, [summary for _, summary in found], 1)
+    return distributed_flow(order, [summary for _, summary in found], 1)
+
+
+@pytest.fixture(scope="module")
+def flow(case):
+    return distributed(case, FlowTimes("1"))
 
 
 def test_hosts_and_samples_are_those_of_the_whole(flow, whole, random):
@@ -70,6 +79,39 @@ def test_patches_zones_and_nodes_are_those_of_the_whole(flow, whole):
         flow.patch_faces("lit", 0.0)
 
 
+@pytest.mark.parametrize("period", [None, 2.0])
+def test_a_flow_in_time_is_that_of_the_whole(period, case, random):
+    times = FlowTimes(None, True, period)
+    whole, flow = flow_of(DecomposedCase(case), times, FlowSource()), distributed(case, times)
+    assert (flow.span, flow.kernels, flow.notes) == (whole.span, whole.kernels, whole.notes)
+    x = random.uniform(0.0, 1.0, (100, 3))
+    hosts = flow.locate(x)
+    for t in (0.0, 0.6, 1.0, 2.3)[: 4 if period else 3]:
+        for found, expected in zip(flow.sample(x, hosts, t), whole.sample(x, hosts, t), strict=True):
+            np.testing.assert_array_equal(found, expected)
+    for found, expected in zip(flow.patch_faces("lid", 0.4), whole.patch_faces("lid", 0.4), strict=True):
+        np.testing.assert_array_equal(found, expected)
+    assert flow.load(0.2, 0.4) == 1.0
+    # The faster one of the loaded times counts.
+    assert flow.rate == distributed(case, FlowTimes("1")).rate
+    assert flow.times_within(-1.0, 9.0)[:2] == [0.0, 1.0]
+
+
+def test_an_error_on_one_node_is_raised_on_all():
+    def read(team):
+        with team.united():
+            if team.rank == 1:
+                raise InputError("a file of node 1")
+            team.exchange([0, 0])
+
+    def work(team):
+        with pytest.raises(InputError, match="a file of node 1"):
+            read(team)
+        return team.exchange([team.rank, team.rank])
+
+    assert together(2, work) == [[0, 1], [0, 1]]
+
+
 @pytest.mark.parametrize(
     ("changes", "nodes", "reason"),
     [
@@ -81,4 +123,4 @@ def test_patches_zones_and_nodes_are_those_of_the_whole(flow, whole):
     ],
 )
 def test_the_reason_for_a_whole_mesh_is_given(changes, nodes, reason, case):
-    assert why_whole(case, "1", FlowSource(**changes), nodes) == reason
+    assert why_whole(case, FlowTimes("1"), FlowSource(**changes), nodes) == reason

@@ -6,32 +6,80 @@ nodes that own these. Nobody holds the whole mesh.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple, Protocol
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from traceback import format_exc
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, take_lists
 
 Labels = NDArray[np.int64]
 
 
-class Team(Protocol):
+class Team:
     """Nodes that hold a mesh together; all call the same methods in the same order."""
 
     rank: int
     size: int
+    _failure: Exception | None = None
+    """Error that all nodes raise."""
+
+    def swap(self, parcels: Sequence[Any]) -> list[Any]:
+        """Send parcel i to node i; return the parcel from each node."""
+        raise NotImplementedError
 
     def exchange(self, parcels: Sequence[Any]) -> list[Any]:
-        """Send parcel i to node i; return the parcel from each node."""
+        """Send parcel i to node i; return the parcel from each node.
+
+        Raises
+        ------
+        InputError, RunStopped, OSError, RankError
+            A node has failed amid :meth:`united`.
+        """
+        found = self.swap(parcels)
+        for parcel in found:
+            if isinstance(parcel, _Failure):
+                self._failure = parcel.error
+                raise parcel.error
+        return found
 
     def collect(self, value: Any) -> list[Any]:
         """Return the values of all nodes on node 0, and an empty list on the others."""
+        found = self.exchange([value] + (self.size - 1) * [None])
+        return found if self.rank == 0 else []
 
     def spread(self, value: Any) -> Any:
         """Return the value of node 0."""
+        return self.exchange(self.size * [value if self.rank == 0 else None])[0]
+
+    @contextmanager
+    def united(self) -> Iterator[None]:
+        """Raise an error of one node on all of them.
+
+        The node that fails sends the error instead of the next parcels, so that all agree on what comes next.
+        An error that is caught amid the context must be raised by a context within.
+        """
+        self._failure = None
+        try:
+            yield
+        except Exception as error:
+            if error is self._failure:
+                raise
+            known = isinstance(error, InputError | RunStopped | OSError | RankError)
+            text = f"node {self.rank}: {type(error).__name__}: {error}"
+            self.exchange(self.size * [_Failure(error if known else RankError(text, format_exc()))])
+        self.exchange(self.size * [None])
+
+
+class _Failure(NamedTuple):
+    """Sent in place of a parcel by a node that has failed."""
+
+    error: Exception
 
 
 class Fragment(NamedTuple):

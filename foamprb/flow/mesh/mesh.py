@@ -37,7 +37,7 @@ CELL_BYTES = 3000.0
 """Approximate memory per cell while a flow is read; a third of it is kept."""
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Mesh:
     """Cells, faces and tetrahedra; lengths in metres.
 

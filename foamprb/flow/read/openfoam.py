@@ -20,7 +20,7 @@ from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.mesh.submesh import Halo
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.partflow import PartFlow
+from foamprb.flow.partflow import PartFlow, PartSeries
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
 from foamprb.flow.read.boundary_values import boundary_values
 from foamprb.flow.read.case import (
@@ -49,12 +49,12 @@ from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, K
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
 from foamprb.flow.read.sampled import kinds_of, read_sampled
-from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.viscosity import read_viscosity_field
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
-from foamprb.flow.series import series_of
+from foamprb.flow.series import SeriesFlow, series_of
 
 PRECISION_NOTE = (
     "Coordinates have passed through single precision in VTK's OpenFOAM reader: a relative error of up to "
@@ -210,6 +210,13 @@ def read_series(
     return transient_flow(Case(Path(case), region), times, period, source)
 
 
+def flow_of(case: Case, times: FlowTimes, source: FlowSource) -> MeshFlow:
+    """Read the flow of a case; see :func:`steady_flow` and :func:`transient_flow`."""
+    if times.transient:
+        return transient_flow(case, times.several, times.period, source)
+    return steady_flow(case, times.steady, source)
+
+
 def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     """Read the flow of a case at one time; see :func:`read_case` and :class:`FlowSource`."""
     name = case.select_time(time)
@@ -265,8 +272,9 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     whole = case.mesh(names[0])
     first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
-    flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)
-    reconstruct, conserve = Reconstruction(whole.mesh), Conservation(whole.mesh)
+    flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity, case.halo)
+    reconstruct = Reconstruction(whole.mesh, halo=case.halo)
+    conserve = Conservation(whole.mesh, halo=case.halo)
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, reconstruct)
@@ -290,6 +298,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     return series_of(
         case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
+        make=SeriesFlow if case.halo is None else partial(PartSeries, case.halo),
     )  # fmt: skip
 
 

@@ -110,21 +110,19 @@ class PartCase(DecomposedCase):
         self._whole, self._files = CaseMesh(mesh, patches, tuple(notes_of_types(patches))), files
         return self._whole
 
-    def forget(self) -> None:
-        """Free the mesh that was read."""
-        self._whole = None
-
     def field(self, time: str, name: str, kind: Kind) -> FoamField:
         """Read a field at a time; see :meth:`~foamprb.flow.read.openfoam.Case.field`."""
-        files = self.processors.files(Path(time) / self.region / name)
-        if files is None:
-            raise MissingFieldError(f"{self.folder(time) / name}: no such file.")
         self.mesh(time)
         assert self.halo is not None
-        fields = [
-            checked(read_field(file, kind, self.root), part)
-            for file, part in zip(files, self._parts, strict=True)
-        ]
+        # Some fields may be missing, or of another kind.
+        with self._team.united():
+            files = self.processors.files(Path(time) / self.region / name)
+            if files is None:
+                raise MissingFieldError(f"{self.folder(time) / name}: no such file.")
+            fields = [
+                checked(read_field(file, kind, self.root), part)
+                for file, part in zip(files, self._parts, strict=True)
+            ]
         numbers = self.halo.part.cells
         cells = np.zeros((len(numbers), fields[0].cells.shape[1]))
         for part, field in zip(self._parts, fields, strict=True):

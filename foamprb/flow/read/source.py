@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from foamprb.flow.read.fluid import ViscosityField
 
@@ -17,6 +18,26 @@ class Division:
     """Integer array on the surface cells of the file; each value is a patch."""
     feature_angle: float | None = None
     """Angle in degrees: patches end at edges where the boundary turns by more."""
+
+
+class FlowTimes(NamedTuple):
+    """Times of a flow to read."""
+
+    selection: float | str | None = None
+    """A time of a steady flow, by default the latest; times of a transient one, by default all."""
+    transient: bool = False
+    period: float | None = None
+    """Duration after which a transient flow repeats itself, s."""
+
+    @property
+    def steady(self) -> float | str:
+        """Return the time of a steady flow."""
+        return "latestTime" if self.selection is None else self.selection
+
+    @property
+    def several(self) -> str | None:
+        """Return the selection of the times of a transient flow."""
+        return None if self.selection is None else str(self.selection)
 
 
 @dataclass(frozen=True)
