@@ -116,9 +116,10 @@ class PartCase(DecomposedCase):
         assert self.halo is not None
         # Some fields may be missing, or of another kind.
         with self._team.united():
-            files = self.processors.files(Path(time) / self.region / name)
+            file, processors = Path(time) / self.region / name, self.processors
+            files = processors.files(file)
             if files is None:
-                raise MissingFieldError(f"{self.folder(time) / name}: no such file.")
+                raise MissingFieldError(f"{processors.folders[processors.held[0]] / file}: no such file.")
             fields = [
                 checked(read_field(file, kind, self.root), part)
                 for file, part in zip(files, self._parts, strict=True)

@@ -24,6 +24,7 @@ from foamprb.flow.mesh.fragment import Fragment
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts, take_lists
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
+from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.field import FoamField, PatchField
 from foamprb.flow.read.foamfile import HEADER_BYTES, FoamFile, Labels, read_blocks, read_cell_zones
 from foamprb.flow.read.polymesh import checked_poly
@@ -75,12 +76,17 @@ class Processors:
         ends = [(k, k) for k in sorted(single)] or [(k, last) for k, (last, _) in sorted(several.items())]
         self._held = [range(first, last + 1) for first, last in ends]
 
+    @property
+    def held(self) -> list[int]:
+        """Return the folders of the chosen processors, by their indices."""
+        return [k for k, numbers in enumerate(self._held) if any(n in self.chosen for n in numbers)]
+
     def files(self, relative: Path, most: int = -1) -> list[FoamFile] | None:
         """Return the file of each chosen processor; None if all are missing, InputError if some are.
 
         ``most`` limits the bytes that are read of each.
         """
-        held = [k for k, numbers in enumerate(self._held) if any(n in self.chosen for n in numbers)]
+        held = self.held
         paths = [existing(self.folders[k] / relative) for k in held]
         if not any(paths):
             return None
@@ -457,6 +463,7 @@ def checked(field: FoamField, part: Address) -> FoamField:
     """Return the field of a part if it fits the part's mesh; InputError otherwise."""
     if len(field.cells) not in (1, len(part.cells)):
         raise InputError(f"{field.path}: {len(field.cells)} cells, but the mesh there has {len(part.cells)}.")
+    require_numbers(field.cells, field.path, "value", "at cell")
     for patch, at in zip(part.patches, part.of_patches.tolist(), strict=True):
         if at < 0:
             continue

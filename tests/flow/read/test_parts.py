@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 
 import numpy as np
@@ -11,6 +12,7 @@ from threads_team import together
 
 from foamprb.errors import InputError
 from foamprb.flow.read.decomposed import DecomposedCase
+from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.openfoam import steady_flow
 from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource
@@ -72,3 +74,31 @@ def test_parts_without_addressing_are_refused(written, tmp_path):
         path.unlink()
     with pytest.raises(InputError, match=r"without files \*ProcAddressing a mesh cannot be distributed"):
         read(case, 2)
+
+
+FAULTS = {
+    "missing": (lambda _: None, r"processor3/1/U: no such file\."),
+    "cut": (lambda text: text[:700], r"processor3/1/U, line \d+: 'a' has no closing"),
+    "not finite": (
+        lambda text: re.sub(r"\n\(\S+ ", "\n(nan ", text, count=1),
+        r"processor3/1/U: 1 of \d+ values are not finite .* at cell 0",
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_of_one_field_is_reported_by_all_nodes(fault, written, tmp_path):
+    damage, message = FAULTS[fault]
+    case = tmp_path / "case"
+    shutil.copytree(written, case)
+    file = case / "processor3/1/U"
+    text = damage(file.read_text())
+    file.unlink() if text is None else file.write_text(text)
+
+    def work(team):
+        opened = PartCase(case, "", team, 1)
+        with pytest.raises(InputError, match=message):
+            opened.field("1", "U", VELOCITY_FIELD)
+        return True
+
+    assert together(2, work) == [True, True]
