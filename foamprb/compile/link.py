@@ -18,6 +18,7 @@ import platform
 import sys
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -139,11 +140,13 @@ def is_compiled(dispatcher: Any) -> bool:
     return bool(dispatcher.signatures) or bool(_stores.get(id(dispatcher)))
 
 
-class _Linkage(NamedTuple):
-    """Arguments of :func:`link` that hold for all functions."""
+@dataclass(frozen=True)
+class _Linkage:
+    """Arguments of :func:`link` that hold for all functions, and the functions that are linked already."""
 
     bindings: dict[str, Any]
     separate: frozenset[Callable[..., Any]]
+    done: dict[tuple[Callable[..., Any], Role], _Part] = field(default_factory=dict)
 
 
 class _Part(NamedTuple):
@@ -163,11 +166,18 @@ _stores: dict[int, Store | None] = {}
 
 
 def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
+    """Return a function linked after its callees, once however many callers it has."""
+    if (function, role) not in linkage.done:
+        linkage.done[function, role] = _link_once(function, linkage, role)
+    return linkage.done[function, role]
+
+
+def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     """Return a function compiled after its callees; each is compiled once per process."""
     if function is select:
         return _link_select()
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
-    scope = dict(function.__globals__)
+    names: dict[str, Any] = {}
     own = f"{_compiler()} {role} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
     digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
@@ -175,19 +185,20 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     is_traced = hasattr(function, TRACED)
     digest.update(f"{captured!r} {is_traced}".encode())
     for name in sorted(_global_names(function.__code__)):
-        value = linkage.bindings.get(name, scope.get(name))
+        value = linkage.bindings.get(name, function.__globals__.get(name))
         if _is_linked(value):
             part = _link(value, linkage, "separate" if value in linkage.separate else "inlined")
-            scope[name] = part.dispatcher
+            names[name] = part.dispatcher
             digest.update(f"{name}={part.key};".encode())
         elif isinstance(value, int | float | tuple):
-            scope[name] = _offsets(value) if _are_offsets(value) else _constant(value)
+            names[name] = _offsets(value) if _are_offsets(value) else _constant(value)
             digest.update(f"{name}={value!r};".encode())
         elif isinstance(value, type) and issubclass(value, tuple):
             digest.update(f"{name}={getattr(value, '_fields', '')};".encode())
     key = digest.hexdigest()[:24]
     if key not in _parts:
         cells = tuple(CellType(_constant(value)) for value in captured)
+        scope = {**function.__globals__, **names}
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, cells)
         # Code is linked by name, and another process may have bound another model to the same name.
         clone.__qualname__ = f"{function.__qualname__}_{key}"
@@ -289,6 +300,7 @@ def _global_names(code: CodeType) -> frozenset[str]:
     return own.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
 
 
+@cache
 def _fingerprint(code: CodeType) -> bytes:
     """Return bytes that change with the code and not with its place in a file."""
     parts = [code.co_code, repr(code.co_names).encode(), repr(code.co_varnames).encode()]
