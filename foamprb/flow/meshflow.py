@@ -20,6 +20,7 @@ from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
 from foamprb.flow.mesh.lists import share
 from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.submesh import alone, total_of
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with, viscosity_with
@@ -65,16 +66,17 @@ def end_triangles(mesh: Mesh) -> NDArray[np.intp]:
     return np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
 
 
-def shortest_extent(corners: Floats) -> float:
+def shortest_extent(corners: Floats, of_all: Callable[[Any], list[Any]] = alone) -> float:
     """Return the shortest extent of a flow along axes on which it ends, m.
 
-    ``corners`` (n, 3, 3) are those of the triangles where it ends.
+    ``corners`` (n, 3, 3) are those of the triangles where it ends; ``of_all`` returns a value of each node.
     """
-    if len(corners) == 0:
-        return float(np.inf)
-    areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])).sum(axis=0)
-    extents = corners.max(axis=(0, 1)) - corners.min(axis=(0, 1))
-    return float(extents[areas > _FACING * areas.sum()].min())
+    areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    totals = np.array([total_of(areas[:, axis], of_all) for axis in range(3)])
+    points = corners.reshape(-1, 3)
+    ends = of_all((points.max(axis=0, initial=-np.inf), points.min(axis=0, initial=np.inf)))
+    extents = np.max([high for high, _ in ends], axis=0) - np.min([low for _, low in ends], axis=0)
+    return float(extents[totals > _FACING * totals.sum()].min(initial=np.inf))
 
 
 def _folds(
@@ -174,7 +176,7 @@ class MeshFlow:
                 "far from convex there, and paths through them take longer.",
             )
         self.bounds, self.width = self._extents(mesh)
-        tree = build_tree(cell_boxes(mesh))
+        tree = self._tree(mesh)
         nodes, columns = np.empty((len(u), 16)), (mesh.nodes, u, l.reshape(-1, 9), free_nodes(mesh)[:, None])
         share(
             len(u),
@@ -214,6 +216,10 @@ class MeshFlow:
     def _inverted(self, mesh: Mesh) -> tuple[int, int]:
         """Return the number of inverted tetrahedra, and of all."""
         return mesh.inverted, len(mesh.tets)
+
+    def _tree(self, mesh: Mesh) -> Tree:
+        """Return the tree over the cells."""
+        return build_tree(cell_boxes(mesh))
 
     def _everywhere(self, rows: Floats) -> Floats:
         """Return rows of all parts of the mesh; here there is one."""
@@ -260,10 +266,10 @@ class MeshFlow:
         self, reach: float, touchable: Sequence[int], sight: float, seen: Sequence[int]
     ) -> MeshArrays:
         """Return the arrays with the walls that bodies touch and see, and their images at coupled patches."""
-        mesh, arrays = self.mesh, self._arrays
         names, walls, images = self._walls(
             [*touchable, *seen], max(reach if touchable else 0.0, sight if seen else 0.0)
         )
+        mesh, arrays = self.mesh, self._arrays
         if images is not None:
             n, nodes, triangles = len(images.patches), len(arrays.nodes), len(arrays.triangles)
             beyond = np.zeros((3 * n, 16))

@@ -15,14 +15,17 @@ from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.folds import FOLDED
 from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
-from foamprb.flow.mesh.lists import Index, starts
+from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import BEYOND, Halo
-from foamprb.flow.mesh.tree import build_tree, pairs_near
+from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.meshflow import AT_ONCE, LISTS, MeshFlow, end_triangles, shortest_extent
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
+
+_ASIDE = 0.1
+"""Distance up to which walls of other nodes are held at the start, over the diagonal of a node's cells."""
 
 
 class PartFlow(MeshFlow):
@@ -75,9 +78,17 @@ class PartFlow(MeshFlow):
         bounds = np.min([low for low, _ in ends], axis=0), np.max([high for _, high in ends], axis=0)
         rows = self._own_triangles(mesh)
         rows = rows[np.isin(rows, end_triangles(mesh))]
-        # Triangles in the order of the whole mesh: sums of their areas depend on it.
-        corners = _in_order(self.halo, self._faces_of(mesh, rows), mesh.points[mesh.triangles[rows]])[0]
-        return bounds, shortest_extent(corners)
+        return bounds, shortest_extent(mesh.points[mesh.triangles[rows]], self.halo.of_all)
+
+    def _tree(self, mesh: Mesh) -> Tree:
+        part, boxes = self.halo.part, cell_boxes(mesh)
+        usable = np.flatnonzero(part.layer <= part.depth).astype(np.int32)
+        tree = build_tree(boxes[usable])
+        self._usable_box = tree.boxes[1].copy()
+        ends = self.halo.of_all((boxes[part.own, :3].min(axis=0), boxes[part.own, 3:].max(axis=0)))
+        tree.boxes[1, :3] = np.min([low for low, _ in ends], axis=0)
+        tree.boxes[1, 3:] = np.max([high for _, high in ends], axis=0)
+        return tree._replace(leaves=np.where(tree.leaves < 0, np.int32(-1), usable[tree.leaves]))
 
     def _own_triangles(self, mesh: Mesh) -> Index:
         """Return the boundary triangles of own cells."""
@@ -90,43 +101,65 @@ class PartFlow(MeshFlow):
 
     def _close(self, rows: Index, lost: Index) -> None:
         """End paths behind some tetrahedra, and at the triangles of coupled patches that lead nowhere."""
-        mesh, arrays, part = self.mesh, self._arrays, self.halo.part
+        mesh, arrays = self.mesh, self._arrays
         n, triangles = len(arrays.triangles), mesh.tets[rows, 1:]
         arrays.neighbours[rows, 0] = -1 - np.arange(n, n + len(rows), dtype=np.int32)
         patches = np.concatenate([arrays.triangle_patch, np.full(len(rows), BEYOND, dtype=np.int32)])
         patches[lost] = BEYOND
         normals = inward_normals(mesh.points, triangles, np.ones((len(rows), 3)))
-        boxes, usable = cell_boxes(mesh), np.flatnonzero(part.layer <= part.depth).astype(np.int32)
-        tree = build_tree(boxes[usable])
-        ends = self.halo.of_all((boxes[part.own, :3].min(axis=0), boxes[part.own, 3:].max(axis=0)))
-        tree.boxes[1, :3] = np.min([low for low, _ in ends], axis=0)
-        tree.boxes[1, 3:] = np.max([high for _, high in ends], axis=0)
-        # The walls of all nodes follow, in the order of the whole mesh.
-        rows_here = self._own_triangles(mesh)
-        faces = self._faces_of(mesh, rows_here)
-        self._all_walls = walls = Walls(*_in_order(self.halo, faces, *walls_at(mesh, rows_here)))
-        self._first_wall, count, nodes = n + len(rows), len(walls.patches), len(arrays.nodes)
-        corners = np.zeros((3 * count, 16))
-        corners[:, :3] = walls.corners.reshape(-1, 3)
-        of_walls = np.arange(nodes, nodes + 3 * count, dtype=np.int32).reshape(-1, 3)
         self._arrays = arrays._replace(
-            nodes=np.concatenate([arrays.nodes, corners]),
-            triangles=np.concatenate([arrays.triangles, triangles, of_walls]),
-            triangle_patch=np.concatenate([patches, walls.patches]),
-            triangle_normals=np.concatenate([arrays.triangle_normals, normals, walls.normals]),
+            triangles=np.concatenate([arrays.triangles, triangles]),
+            triangle_patch=patches,
+            triangle_normals=np.concatenate([arrays.triangle_normals, normals]),
             triangle_tet=np.concatenate([arrays.triangle_tet, rows.astype(np.int32)]),
             across=np.concatenate([arrays.across, np.zeros((len(rows), 2), dtype=np.int32)]),
-            tree_boxes=tree.boxes,
-            tree_cells=np.where(tree.leaves < 0, np.int32(-1), usable[tree.leaves]),
         )
-        self._refuse_far_folds(boxes)
+        self._n_ends = n + len(rows)
+        box = self._usable_box
+        self._hold_walls(min(self.halo.of_all(_ASIDE * float(np.linalg.norm(box[3:] - box[:3])))))
+        self._refuse_far_folds()
 
-    def _refuse_far_folds(self, boxes: Floats) -> None:
+    def _hold_walls(self, reach: float) -> None:
+        """Add the walls of all nodes within a distance (m) of usable cells, in the order of the whole mesh.
+
+        With coupled patches, beyond which walls have images, all walls are added.
+        """
+        mesh, arrays, n, halo = self.mesh, self._arrays, self._n_ends, self.halo
+        rows = self._own_triangles(mesh)
+        walls, faces = walls_at(mesh, rows), self._faces_of(mesh, rows)
+        low, high = walls.corners.min(axis=1), walls.corners.max(axis=1)
+        self._reach = np.inf if any(patch.neighbour for patch in self.patches) else reach
+        parcels = []
+        for box in halo.of_all(self._usable_box):
+            near = np.all((high >= box[:3] - self._reach) & (low <= box[3:] + self._reach), axis=1)
+            parcels.append((faces[near], walls.take(near)))
+        found = halo.team.exchange(parcels)
+        order = np.argsort(np.concatenate([numbers for numbers, _ in found]), kind="stable")
+        self._all_walls = walls = Walls(
+            *(np.concatenate(arrays)[order] for arrays in zip(*(own for _, own in found), strict=True))
+        )
+        count, nodes, n_nodes = len(order), arrays.nodes, mesh.n_points + mesh.n_cells
+        if len(nodes) == n_nodes:
+            # In place at the start, when a second copy would be the peak of memory.
+            nodes.resize((n_nodes + 3 * count, 16), refcheck=False)
+        else:
+            nodes = np.concatenate([nodes[:n_nodes], np.zeros((3 * count, 16))])
+        nodes[n_nodes:, :3] = walls.corners.reshape(-1, 3)
+        of_walls = np.arange(n_nodes, n_nodes + 3 * count, dtype=np.int32).reshape(-1, 3)
+        self._arrays = arrays._replace(
+            nodes=nodes,
+            triangles=np.concatenate([arrays.triangles[:n], of_walls]),
+            triangle_patch=np.concatenate([arrays.triangle_patch[:n], walls.patches]),
+            triangle_normals=np.concatenate([arrays.triangle_normals[:n], walls.normals]),
+        )
+
+    def _refuse_far_folds(self) -> None:
         """Raise InputError if boundary triangles that are not here lie in the box of a folded cell."""
         mesh, part = self.mesh, self.halo.part
         folded = np.flatnonzero((self._arrays.folds == FOLDED) & (part.layer <= part.depth))
         if not self.halo.any(len(folded) > 0):
             return
+        boxes = cell_boxes(mesh)
         rows = self._own_triangles(mesh)
         corners = mesh.points[mesh.triangles[rows]]
         targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
@@ -142,8 +175,10 @@ class PartFlow(MeshFlow):
 
     def _walls(self, patches: Sequence[int], reach: float) -> tuple[Ints, Walls, Walls | None]:
         """See :meth:`MeshFlow._walls`; the walls of all nodes, in the order of the whole mesh."""
+        if reach > self._reach:
+            self._hold_walls(2.0 * reach)
         some = np.flatnonzero(np.isin(self._all_walls.patches, patches))
-        walls, names = self._all_walls.take(some), (self._first_wall + some).astype(np.int32)
+        walls, names = self._all_walls.take(some), (self._n_ends + some).astype(np.int32)
         if not any(patch.neighbour for patch in self.patches):
             return names, walls, None
         return names, walls, images_of_walls(self.mesh, walls, reach, self._coupled_boxes())
@@ -334,10 +369,10 @@ class PartSeries(PartFlow, SeriesFlow):
 def _ends(halo: Halo) -> tuple[Index, Index]:
     """Return the tetrahedra behind which the usable layers end, and triangles of coupled patches that do."""
     part, mesh = halo.part, halo.part.mesh
-    inside = part.layer <= part.depth
-    cells, beyond = mesh.tets[:, 0] - mesh.n_points, mesh.neighbours[:, 0]
-    over = np.flatnonzero((beyond >= 0) & inside[cells])
-    rows = over[~inside[cells[beyond[over]]]]
+    inside, last = part.layer <= part.depth, np.flatnonzero(part.layer == part.depth)
+    rows = ragged(mesh.cell_start[last], np.diff(mesh.cell_start)[last])
+    beyond = mesh.neighbours[rows, 0]
+    rows = rows[(beyond >= 0) & ~inside[mesh.tets[beyond, 0] - mesh.n_points]]
     coupled = [patch.neighbour != "" for patch in mesh.patches]
     partner = np.full(len(mesh.boundary_centres), -1)
     for coupling in mesh.couplings:

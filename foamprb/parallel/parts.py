@@ -19,7 +19,7 @@ from foamprb.flow.read.openfoam import flow_of
 from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.series import Loaded
-from foamprb.memory import trim
+from foamprb.memory import returned_at_once
 from foamprb.parallel.shared_memory import Publisher, Windows, wait_for_all
 
 T = TypeVar("T")
@@ -131,6 +131,7 @@ class Part:
         """Free the shared memory."""
         for key in sorted(self.shared.arrays):
             self.shared.free(key)
+        self.flow = None
 
     def refuse_strays(self) -> None:
         """Raise InputError if a path has left the cells of this node since the last call."""
@@ -163,7 +164,6 @@ class Part:
             assert isinstance(flow, PartFlow)
             self.flow = flow
             flow.move(self._publisher.move)
-            trim()
             return summary_of(flow)
 
         return self._lead(read)
@@ -217,7 +217,7 @@ class Part:
             self._follow()
             return None
         try:
-            with self._team.united():
+            with self._team.united(), returned_at_once():
                 found = work(self._team)
         except Exception as error:
             if not self.torn:

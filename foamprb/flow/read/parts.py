@@ -94,6 +94,8 @@ class PartCase(DecomposedCase):
         n_internal = 1 + max(team.exchange([most] * team.size)) - int(self._ranges[-1])
         fragments = [fragment_of(piece, part) for piece, part in zip(pieces, parts, strict=True)]
         del pieces
+        # What fields need of them.
+        self._parts = parts = [part._replace(points=nothing, turned=nothing) for part in parts]
         surfaces, ranges = patches_of_mesh(self._patches), self._ranges.astype(np.intp)
         partners = partners_of(surfaces, ranges)
         grown = [grow(fragments, team, self._depth + RINGS, partners, n_internal)]

@@ -145,6 +145,30 @@ def test_a_path_out_of_the_layers_of_a_node_is_noted():
         assert arrays.strayed[0] == strayed
 
 
+def test_a_node_holds_the_walls_near_its_cells(random):
+    """More of them when bodies reach farther, for which gaps are those of the whole mesh."""
+    poly = poly_of(build_mesh(shape := pipe(2, axial=24), pipe_patches(shape)))
+    mesh = assemble(poly, "mesh")
+    points = random.uniform(0.05, 0.15, (20, 3)) * [1.0, 0.1, 0.1]
+
+    def work(team):
+        sub = part_of(poly, (mesh.centres[:, 0] > 0.5) == team.rank, team, layers=1 + RINGS)
+        u = np.zeros((sub.mesh.n_points + sub.mesh.n_cells, 3))
+        flow = PartFlow(Halo(sub, team), sub.mesh, u, np.zeros((len(u), 3, 3)))
+        ends = []
+        for reach in (0.01, 0.3):
+            arrays = flow.arrays(reach, [0])
+            ends.append(arrays.nodes[len(u) :, 0].max())
+        return flow, ends
+
+    flow, ends = together(2, work)[0]
+    assert ends[0] < 0.9 < ends[1] == 1.0
+    u = np.zeros((len(mesh.nodes), 3))
+    whole = MeshFlow(mesh, u, np.zeros((len(u), 3, 3)))
+    found, expected = (gaps_at(f.arrays(0.3, [0]), points, f.locate(points), 0.05) for f in (flow, whole))
+    np.testing.assert_array_equal(found, expected)
+
+
 def test_sums_depend_on_no_order(random):
     values = random.random(1000) ** 8
     parts = np.split(random.permutation(values), [10, 500])
