@@ -52,7 +52,8 @@ def go_on(cloud, functions, folder, writes):
             until = functions.next_sample(target)
             cloud.advance(until - cloud.step)
             cloud.step = until
-            functions.sample()
+            functions.sample(functions.due)
+        functions.sample(functions.functions)
         functions.write(folder)
 
 

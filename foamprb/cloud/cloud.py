@@ -397,8 +397,8 @@ class Stepper:
             elif not outcome.crowded or stop():
                 return
 
-    def gather(self) -> None:
-        """Bring the arrays of the cloud and its rebounds up to date."""
+    def gather(self, numbers: NDArray[np.int64] | None = None) -> None:
+        """Bring the arrays of the cloud, or the particles of some numbers, and the rebounds up to date."""
 
     def each(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
         """Return what a function finds of the particles where they are, of each process.

@@ -126,6 +126,13 @@ class CloudFunction:
 
     needs_mesh: ClassVar[bool] = False
     """Whether it maps particles to the cells of the mesh, which must then be whole."""
+    travels: ClassVar[bool] = False
+    """Whether it can sample particles wherever they are, as its data of a particle can go with it. All arrays
+    then have a row for each particle, but :attr:`events` and :attr:`common`."""
+    events: ClassVar[str] = ""
+    """Name of the array with a row for each event: number of the particle, time, and others."""
+    common: ClassVar[frozenset[str]] = frozenset({"history", "written", "warned"})
+    """Names of arrays that only :meth:`write` needs."""
 
     @property
     def needed_fields(self) -> tuple[str, ...]:
@@ -138,6 +145,10 @@ class CloudFunction:
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Record a sample of the cloud, every ``interval`` steps and before each writing."""
+
+    def watched(self, memory: Memory) -> Rows | None:  # noqa: ARG002
+        """Return the numbers of the particles that it samples next; by default None, for all."""
+        return None
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the data into the function's own folder, at each write time."""

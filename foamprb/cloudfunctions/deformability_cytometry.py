@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,6 +83,9 @@ class DeformabilityCytometry(PlaneFunction):
     view: Annotated[Vector3, Meaning("viewing direction of the camera, of any length", "1")]
     sampleInterval: SampleInterval = 1
 
+    travels: ClassVar[bool] = True
+    events: ClassVar[str] = "seen"
+
     def __post_init__(self) -> None:
         for name in ("normal", "view"):
             if not any(getattr(self, name)):
@@ -101,7 +104,7 @@ class DeformabilityCytometry(PlaneFunction):
         seen = outline(p.R[at, None, None] ** 2 * F @ F.transpose(0, 2, 1), _unit(self.view))
         new = np.column_stack(
             [
-                at,
+                p.number[at],
                 found.time,
                 found.x,
                 found.sense,

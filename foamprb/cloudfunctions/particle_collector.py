@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -49,6 +49,9 @@ class ParticleCollector(PlaneFunction):
     resetOnWrite: Annotated[bool, Meaning("reset the counts at each write time")] = False
     sampleInterval: SampleInterval = 10
 
+    travels: ClassVar[bool] = True
+    events: ClassVar[str] = "crossings"
+
     def __post_init__(self) -> None:
         if not any(self.normal):
             raise InputError("has a normal (0 0 0)")
@@ -66,7 +69,7 @@ class ParticleCollector(PlaneFunction):
         at, x = found.rows, found.x
         before, after = (taylor_of(cloud, at, F) for F in (memory["F"][at], now["F"][found.among]))
         D = before + found.share * (after - before)
-        new = np.column_stack([at, found.time, x, found.sense, D, masses(p, at)])
+        new = np.column_stack([p.number[at], found.time, x, found.sense, D, masses(p, at)])
         if self.radius is not None:
             aside = x - self.origin - ((x - self.origin) @ e)[:, None] * e
             new = new[np.linalg.norm(aside, axis=1) <= self.radius]

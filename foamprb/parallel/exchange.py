@@ -2,41 +2,69 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.state import VARIABLES, Particles
+from foamprb.cloud.state import VARIABLES, Particles, concatenate
 
 Rows = NDArray[np.int64]
 
 UNEVEN = 1.1
 """How much longer than with even shares a step may take before particles change hands."""
-RECORD = np.dtype([("id", "i8"), *((name, v.dtype, v.shape) for name, v in VARIABLES.items())])
-"""A particle as it travels: its number in the whole cloud, and its state."""
 
 
-def pack(p: Particles, rows: Rows, ids: Rows) -> NDArray[Any]:
-    """Return records of the particles in some rows.
+class Share(NamedTuple):
+    """Particles with their numbers in the whole cloud, and what cloud functions remember of them."""
 
-    Parameters
-    ----------
-    ids
-        Their numbers in the whole cloud, as many as ``rows``.
+    particles: Particles
+    ids: Rows
+    memory: Mapping[str, NDArray[Any]] = MappingProxyType({})
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Return all arrays by their names in a record."""
+        return {"id": self.ids, **self.particles._asdict(), **self.memory}
+
+    def take(self, rows: Any) -> Share:
+        """Return the particles of some rows."""
+        memory = {name: array[rows] for name, array in self.memory.items()}
+        return Share(self.particles.take(rows), self.ids[rows], memory)
+
+
+def record(carried: Iterable[tuple[str, str, tuple[int, ...]]] = ()) -> np.dtype[Any]:
+    """Return the type of a particle as it travels: number, state, and what is carried with it.
+
+    ``carried`` are names, types and shapes.
     """
-    records = np.empty(len(rows), dtype=RECORD)
-    records["id"] = ids
-    for name, array in p._asdict().items():
+    own = ((name, v.dtype, v.shape) for name, v in VARIABLES.items())
+    return np.dtype([("id", "i8"), *own, *carried])
+
+
+def pack(share: Share, rows: Rows, dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Return records of the particles in some rows."""
+    records = np.empty(len(rows), dtype=dtype)
+    for name, array in share.arrays().items():
         records[name] = array[rows]
     return records
 
 
-def unpack(records: NDArray[Any]) -> tuple[Particles, Rows]:
-    """Return the particles of records, and their numbers in the whole cloud."""
-    return Particles(*(records[name].copy() for name in Particles._fields)), records["id"].copy()
+def unpack(records: NDArray[Any]) -> Share:
+    """Return the particles of records."""
+    arrays = {name: records[name].copy() for name in records.dtype.names or ()}
+    ids = arrays.pop("id")
+    particles = Particles(*(arrays.pop(name) for name in Particles._fields))
+    return Share(particles, ids, arrays)
+
+
+def join(shares: Sequence[Share]) -> Share:
+    """Return the particles of several shares, at least one, in order."""
+    memory = {name: np.concatenate([s.memory[name] for s in shares]) for name in shares[0].memory}
+    ids = np.concatenate([share.ids for share in shares])
+    return Share(concatenate(share.particles for share in shares), ids, memory)
 
 
 def homes_of(n: int, size: int, whole: bool) -> NDArray[np.int64]:

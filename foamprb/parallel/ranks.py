@@ -20,14 +20,17 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import PART, Cloud, Stepper, Value, parts_in_order
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
+from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields, columns_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.parallel.distributed import LEAST_LAYERS, DistributedFlow, distributed_flow, why_whole
-from foamprb.parallel.exchange import homes_of, plan_exchange
+from foamprb.parallel.exchange import Share, homes_of, plan_exchange
+from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.shared_memory import Publisher
 from foamprb.parallel.worker import Answer, Worker, piece_file
 from foamprb.results.pvd import with_ending
@@ -147,26 +150,33 @@ class RankStepper(Stepper):
         The cloud, whose particles and flow are distributed.
     ranks
         The processes.
-    whole
-        Whether the first process gathers all particles. Otherwise each process is the home of as many, and
-        the cloud keeps those of the first.
+    functions
+        Cloud functions, with which the first process gathers all particles. Without them each process is the
+        home of as many, and the cloud keeps those of the first.
     """
 
     _order = "advance"
 
-    def __init__(self, cloud: Cloud, ranks: Ranks, whole: bool = True) -> None:
+    def __init__(self, cloud: Cloud, ranks: Ranks, functions: CloudFunctions) -> None:
         super().__init__(cloud)
         self.ranks, size = ranks, cloud.particles.size
-        self._homes = homes_of(size, ranks.size, whole)
+        self._functions = functions
+        self._homes = homes_of(size, ranks.size, bool(functions.functions))
         self.firsts = tuple(np.unique(self._homes[:-1][np.diff(self._homes) > 0]).tolist())
         self.published = Publisher(ranks.worker.windows, ranks.order)
         self._placed = b""
         self._gathered = True
+        self._behind: set[str] = set()
+        """Cloud functions that go with the particles, and have not sampled them since the last steps."""
         cloud.flow.move(self.published.move)
-        ranks.order("prepare", loaded_libs(), pickle.dumps(cloud.tracker), cloud.threads)
+        models = pickle.dumps((cloud.tracker, Sampling.of(functions, cloud.medium)))
+        ranks.order("prepare", loaded_libs(), models, cloud.threads)
         self._begin()
-        ranks.order("settle", self._homes, own=(cloud.particles,))
-        cloud.particles = ranks.worker.home
+        carried = functions.with_particles(functions.travelling)
+        whole = Share(cloud.particles, np.arange(size), carried)
+        ranks.order("settle", self._homes, own=(whole,))
+        cloud.particles = ranks.worker.home.particles
+        del whole
         self._set_out()
         self._counts = [share.counts for share in ranks.order("share")]
         nodes = ranks.worker.windows.nodes
@@ -188,12 +198,26 @@ class RankStepper(Stepper):
         """Send the particles to the processes."""
         self.ranks.order("set_out", [list(range(self.ranks.size))])
 
-    def gather(self) -> None:
-        """Collect changed particles at their homes, and rebounds from all processes."""
-        if not self._gathered:
-            self.ranks.order("gather")
-            self.cloud.tracker.rebounds += self.ranks.order("take_rebounds")
+    def gather(self, numbers: NDArray[np.int64] | None = None) -> None:
+        """Collect changed particles at their homes, rebounds and events from all processes."""
+        if self._gathered:
+            return
+        self.ranks.order("gather", numbers, numbers is None and not self._behind)
+        self.cloud.tracker.rebounds += self.ranks.order("take_rebounds")
+        if numbers is None:
+            self._functions.add_events(self.ranks.order("take_events"))
             self._gathered = True
+
+    def sample_away(self, names: Sequence[str]) -> list[str]:
+        """Let the cloud functions sample that can do so on all processes; return the others."""
+        travelling = self._functions.travelling
+        away = [name for name in names if name in travelling]
+        if away:
+            self._publish_present()
+            self.ranks.order("sample", away, self.cloud.time)
+            self._gathered = False
+            self._behind -= {*away}
+        return [name for name in names if name not in travelling]
 
     def each(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
         """See :meth:`Stepper.each`."""
@@ -279,6 +303,7 @@ class RankStepper(Stepper):
         shares = self.ranks.order(self._order, step, steps, self.cloud.bounds, own=(stop,))
         self._counts = [share.counts for share in shares]
         self._gathered = False
+        self._behind = {*self._functions.travelling}
         return sum((share.outcome for share in shares), Outcome())
 
     def _publish(self, flow: Any, fields: Fields | None = None) -> None:
@@ -355,16 +380,16 @@ class PartStepper(RankStepper):
             self.ranks.order("exchange", whole)
 
 
-def stepper_of(cloud: Cloud, ranks: Ranks, whole: bool) -> RankStepper:
+def stepper_of(cloud: Cloud, ranks: Ranks, functions: CloudFunctions) -> RankStepper:
     """Return the stepper for a cloud whose flow the nodes share as parts or as a whole.
 
     Parameters
     ----------
-    cloud, ranks, whole
+    cloud, ranks, functions
         See :class:`RankStepper`.
     """
     flow: Any = cloud.flow
-    return (PartStepper if isinstance(flow, DistributedFlow) else RankStepper)(cloud, ranks, whole)
+    return (PartStepper if isinstance(flow, DistributedFlow) else RankStepper)(cloud, ranks, functions)
 
 
 MOST_AT_ONCE = 1000

@@ -16,15 +16,17 @@ from numpy.typing import NDArray
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.measures import injected
 from foamprb.cloud.report import report
-from foamprb.cloud.state import Particles, Status, concatenate, empty
+from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.tracker import Outcome, Tracker
+from foamprb.cloudfunctions.base import Memory
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.sampling import sample_with, viscosity_with
-from foamprb.parallel.exchange import RECORD, pack, unpack
+from foamprb.parallel.exchange import Share, join, pack, record, unpack
 from foamprb.parallel.parts import Part, Summary
+from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.shared_memory import Windows, wait_for_all
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
@@ -92,11 +94,15 @@ class Worker:
         self.comm = MPI.COMM_WORLD.Dup()
         self.rank: int = self.comm.rank
         self.windows = Windows(MPI, self.comm)
-        self._record = MPI.BYTE.Create_contiguous(RECORD.itemsize).Commit()
         self.make, self.spread, self.free = self.windows.make, self.windows.spread, self.windows.free
-        self.particles, self.ids = empty(0), np.empty(0, dtype=np.int64)
-        self.home = empty(0)
+        nothing = Share(empty(0), np.empty(0, dtype=np.int64))
+        self.own = nothing
+        """Particles that this process advances."""
+        self.home = nothing
         """Gathered states of particles of consecutive numbers."""
+        self._events: Memory = {}
+        # Of a particle as it travels.
+        self._dtype, self._record = record(), MPI.BYTE
         self._homes = np.zeros(self.comm.size + 1, dtype=np.int64)
         # True for particles whose state their homes may not have.
         self._fresh = np.empty(0, dtype=bool)
@@ -125,13 +131,22 @@ class Worker:
                 error = RankError(f"{where}{type(error).__name__}: {error}", traceback.format_exc())
             return Answer(None, error, list(signals))
 
-    def prepare(self, libs: Sequence[Path], tracker: bytes, threads: int) -> None:
-        """Compile the loop."""
-        load_libs(libs)
-        self._tracker: Tracker = pickle.loads(tracker)
-        self._threads = threads
+    @property
+    def particles(self) -> Particles:
+        """Particles that this process advances."""
+        return self.own.particles
 
-    def settle(self, homes: NDArray[np.int64], whole: Particles | None = None) -> None:
+    def prepare(self, libs: Sequence[Path], models: bytes, threads: int) -> None:
+        """Compile the loop; ``models`` are a tracker and a :class:`Sampling`."""
+        load_libs(libs)
+        self._tracker: Tracker
+        self._sampling: Sampling
+        self._tracker, self._sampling = pickle.loads(models)
+        self._threads = threads
+        self._dtype = record(self._sampling.carried)
+        self._record = self._MPI.BYTE.Create_contiguous(self._dtype.itemsize).Commit()
+
+    def settle(self, homes: NDArray[np.int64], whole: Share | None = None) -> None:
         """Receive the particles whose home this process is from the first one, which has the whole.
 
         Parameters
@@ -143,14 +158,14 @@ class Worker:
         """
         self._homes = homes
         if self.rank > 0:
-            self.home, _ = unpack(self._receive(0))
+            self.home = unpack(self._receive(0))
             return
         assert whole is not None
         for rank in range(1, self.comm.size):
-            ids = np.arange(homes[rank], homes[rank + 1])
-            self.comm.Send([pack(whole, ids, ids), len(ids), self._record], rank)
-        own = whole.take(slice(homes[1]))
-        self.home = whole if own.size == whole.size else own.copy()
+            rows = np.arange(homes[rank], homes[rank + 1])
+            self.comm.Send([pack(whole, rows, self._dtype), len(rows), self._record], rank)
+        n = homes[1]
+        self.home = whole if n == homes[-1] else unpack(pack(whole, np.arange(n), self._dtype))
 
     def set_out(self, ranks_of: list[list[int]], node_of: NDArray[np.int32] | None = None) -> None:
         """Send the particles from their homes to the processes that advance them.
@@ -166,8 +181,7 @@ class Worker:
             Node of each particle; on the first process only, None for a single one.
         """
         self._ranks_of = ranks_of
-        first, last = self._homes[self.rank : self.rank + 2]
-        ids = np.arange(first, last)
+        ids = self.home.ids
         node = np.zeros(len(ids), dtype=np.int32)
         if self._part is not None:
             if self.rank == 0:
@@ -178,9 +192,8 @@ class Worker:
             else:
                 self.comm.Recv(node, 0)
         rank_of = self._ranks_in(node, ids)
-        parts = [unpack(own) for own in self._trade(lambda rows: pack(self.home, rows, ids[rows]), rank_of)]
-        self.particles = concatenate([particles for particles, _ in parts])
-        self.ids = np.concatenate([numbers for _, numbers in parts])
+        arrived = self._trade(lambda rows: pack(self.home, rows, self._dtype), rank_of)
+        self.own = join([unpack(records) for records in arrived])
         if self._part is not None:
             self.particles.host[:] = self._held.hosts_of(self.particles.host)
         self._fresh = self._unfinished(self.particles)
@@ -214,7 +227,7 @@ class Worker:
         """Send records, in the order of the processes; return those from all."""
         received = np.empty_like(sent)
         self.comm.Alltoall(sent, received)
-        incoming = np.empty(received.sum(), dtype=RECORD)
+        incoming = np.empty(received.sum(), dtype=self._dtype)
         self.comm.Alltoallv([outgoing, (sent, _starts(sent)), self._record],
                             [incoming, (received, _starts(received)), self._record])  # fmt: skip
         return incoming
@@ -265,8 +278,8 @@ class Worker:
 
     def normals(self, numbers: NDArray[np.int64]) -> tuple[NDArray[np.int64], Floats]:
         """Return which of some particles this process has, and the normals of the walls where they ended."""
-        rows = np.flatnonzero(np.isin(self.ids, numbers))
-        return self.ids[rows], self._tracker.contact_normals(self._flow, self.particles, rows)
+        rows = np.flatnonzero(np.isin(self.own.ids, numbers))
+        return self.own.ids[rows], self._tracker.contact_normals(self._flow, self.particles, rows)
 
     def use_flow(self, flow: bytes) -> None:
         """Replace the arguments of the flow's kernels and the fields, whose arrays lie in shared memory."""
@@ -278,16 +291,14 @@ class Worker:
         active = np.flatnonzero(self.particles.status == Status.ACTIVE)
         # Evenly spread over the rows, so that costly particles are spread too.
         rows = active[np.arange(sent.sum()) * len(active) // max(sent.sum(), 1)]
-        incoming = self._swap(pack(self.particles, rows, self.ids[rows]), sent)
-        self._replace(rows, *unpack(incoming))
+        self._replace(rows, unpack(self._swap(pack(self.own, rows, self._dtype), sent)))
 
-    def _replace(self, rows: NDArray[np.int64], particles: Particles, ids: NDArray[np.int64]) -> None:
+    def _replace(self, rows: NDArray[np.int64], others: Share) -> None:
         """Replace the particles of some rows by others."""
-        gone = np.zeros(self.particles.size, dtype=bool)
-        gone[rows] = True
-        self.particles = concatenate([self.particles.take(~gone), particles])
-        self.ids = np.concatenate([self.ids[~gone], ids])
-        self._fresh = np.concatenate([self._fresh[~gone], np.ones(len(ids), dtype=bool)])
+        stay = np.ones(self.particles.size, dtype=bool)
+        stay[rows] = False
+        self.own = join([self.own.take(stay), others])
+        self._fresh = np.concatenate([self._fresh[stay], np.ones(len(others.ids), dtype=bool)])
 
     def advance(
         self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
@@ -327,15 +338,14 @@ class Worker:
         node = part.places.node[part.cells_of(p.host[rows])]
         away = node != part.number
         rows, node = rows[away], node[away]
-        rank_of = self._ranks_in(node, self.ids[rows])
-        arrived = [unpack(own) for own in self._trade(lambda some: self._packed(rows[some]), rank_of)]
-        particles = concatenate([own for own, _ in arrived])
-        particles.host[:] = part.hosts_of(particles.host)
-        self._replace(rows, particles, np.concatenate([ids for _, ids in arrived]))
+        rank_of = self._ranks_in(node, self.own.ids[rows])
+        arrived = join([unpack(own) for own in self._trade(lambda some: self._packed(rows[some]), rank_of)])
+        arrived.particles.host[:] = part.hosts_of(arrived.particles.host)
+        self._replace(rows, arrived)
 
     def _packed(self, rows: NDArray[np.int64]) -> NDArray[Any]:
         """Return records of particles with their hosts in the whole mesh."""
-        records = pack(self.particles, rows, self.ids[rows])
+        records = pack(self.own, rows, self._dtype)
         if self._part is not None:
             records["host"] = self._part.numbers_of(records["host"])
         return records
@@ -344,14 +354,38 @@ class Worker:
         """Return the rebounds that happened in this process."""
         return self._tracker.take_rebounds()
 
-    def gather(self) -> None:
-        """Send the particles that may have changed to their homes."""
+    def gather(self, numbers: NDArray[np.int64] | None, settled: bool) -> None:
+        """Send particles that may have changed to their homes.
+
+        Parameters
+        ----------
+        numbers
+            Those of some numbers; None for all.
+        settled
+            Whether what cloud functions remember of particles that have ended is final.
+        """
         rows, first = np.flatnonzero(self._fresh), self._homes[self.rank]
-        homes = np.searchsorted(self._homes[1:], self.ids[rows], side="right")
+        if numbers is not None:
+            rows = rows[np.isin(self.own.ids[rows], numbers)]
+        homes = np.searchsorted(self._homes[1:], self.own.ids[rows], side="right")
         for records in self._trade(lambda some: self._packed(rows[some]), homes):
-            for name, array in self.home._asdict().items():
+            for name, array in self.home.arrays().items():
                 array[records["id"] - first] = records[name]
-        self._fresh = self._unfinished(self.particles)
+        if settled:
+            self._fresh = self._unfinished(self.particles)
+
+    def sample(self, names: Sequence[str], time: float) -> None:
+        """Let some cloud functions sample the particles that this process advances."""
+        own = self.own
+        found = self._sampling.sample(
+            names, own.memory, own.particles, self._seen, self._tracker, time, self._events
+        )
+        self._events |= found
+
+    def take_events(self) -> Memory:
+        """Return the events that the functions have recorded since the last call."""
+        found, self._events = {**self._sampling.events, **self._events}, {}
+        return found
 
     def each(self, function: Callable[..., Any], time: float, *arguments: Any) -> Any:
         """Return what a function finds of the particles that this process advances."""
@@ -359,7 +393,7 @@ class Worker:
 
     def at_home(self, function: Callable[..., Any], rank: int | None, part: slice, *arguments: Any) -> Any:
         """Return what a function finds of a part of the gathered particles, on one process or on all."""
-        return function(self.home.take(part), *arguments) if rank in (self.rank, None) else None
+        return function(self.home.particles.take(part), *arguments) if rank in (self.rank, None) else None
 
     @property
     def _seen(self) -> _SharedFlow:
@@ -388,7 +422,7 @@ class Worker:
             return None
         file, mu = piece_file(folder, self.rank), self._tracker.mu
         return file, write_snapshot(
-            file, report(self.particles, self._seen, mu, time, names, further, self.ids)
+            file, report(self.particles, self._seen, mu, time, names, further, self.own.ids)
         )
 
     def serve(self, signals: Sequence[int]) -> int:
@@ -419,7 +453,8 @@ class Worker:
             self._part.close()
         for key in sorted(self.windows.arrays):
             self.windows.free(key)
-        self._record.Free()
+        if self._record != self._MPI.BYTE:
+            self._record.Free()
         sys.stdout.flush()
         sys.stderr.flush()
         self._MPI.Finalize()
@@ -427,7 +462,7 @@ class Worker:
     def _receive(self, source: int) -> NDArray[Any]:
         status = self._MPI.Status()
         self.comm.Probe(source, status=status)
-        records = np.empty(status.Get_count(self._record), dtype=RECORD)
+        records = np.empty(status.Get_count(self._record), dtype=self._dtype)
         self.comm.Recv([records, len(records), self._record], source)
         return records
 

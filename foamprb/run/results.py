@@ -184,8 +184,7 @@ class Results:
 
     def observe(self, stepper: Stepper) -> None:
         """Let the cloud functions observe the cloud that sample at this step."""
-        stepper.gather()
-        self._job.functions.sample()
+        self._sample(stepper, self._job.functions.due)
 
     def write(self, stepper: Stepper) -> None:
         """Write the files of a write time: snapshot, tables of the cloud functions, checkpoint.
@@ -197,6 +196,7 @@ class Results:
         OSError
             If a file cannot be written, now or at the time before.
         """
+        self._sample(stepper, list(self._job.functions.functions))
         cloud = self._gathered(stepper)
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
         tables = self._write_functions()
@@ -252,6 +252,14 @@ class Results:
         rows = stepper.in_order(_fates_of, self._job.patch_names, self._job.tables, own=(further,))
         write_rows(self._fates, rows, finish)
         self._remove_links()
+
+    def _sample(self, stepper: Stepper, names: list[str]) -> None:
+        """Let some cloud functions record a sample."""
+        functions = self._job.functions
+        rest = stepper.sample_away(names) if isinstance(stepper, RankStepper) else names
+        if rest:
+            stepper.gather(functions.watched(rest))
+            functions.sample(rest)
 
     def _gathered(self, stepper: Stepper) -> Cloud:
         """Return the cloud with the state of the last step, after earlier writes have ended."""

@@ -85,7 +85,7 @@ def orbit(folder, dt, function, turns=3.2):
         p.x[:] = radius * np.array([np.cos(phase), np.sin(phase), 0.0])
         p.v[:] = radius * np.array([-np.sin(phase), np.cos(phase), 0.0])
         cloud.step = step + 1
-        function_set.sample()
+        function_set.sample(function_set.due)
     folder.mkdir(exist_ok=True)
     function_set.write(folder)
     return table(folder / "f/crossings.csv"), table(folder / "f/collector.csv")

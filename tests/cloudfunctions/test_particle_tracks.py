@@ -53,5 +53,6 @@ def test_samples_and_tracks_have_their_limits(tmp_path):
 def test_what_has_not_moved_has_no_path(tmp_path):
     cloud = pipe_cloud()
     functions = CloudFunctions({"f": ParticleTracks(10, 21)}, observed(cloud))
+    functions.sample(functions.functions)
     functions.write(tmp_path)
     assert pyvista.read(tmp_path / "f/tracks.vtp").n_points == 0

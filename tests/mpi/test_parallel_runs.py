@@ -39,6 +39,8 @@ FUNCTIONS = """cloudFunctions
     paths   { type particleTracks; trackInterval 10; maxSamples 100; }
     loads   { type particleHistogram; sampleInterval 7; }
     plane   { type particleCollector; mode plane; origin (0.0005 0 0); normal (1 0 0); }
+    camera  { type deformabilityCytometry; origin (0.0005 0 0); normal (1 0 0); view (0 0 1); }
+    blood   { type haemolysis; constants Ding; stress KelvinVoigt; sampleInterval 20; }
     stress  { type suspensionStress; }
     fields  { type fieldSampling; fields (p); }
 }"""
@@ -380,7 +382,7 @@ found = connect()
 if isinstance(found, Worker):
     sys.exit(found.serve(()))
 job = prepare(sys.argv[1], threads=1)
-stepper = RankStepper(job.cloud, found)
+stepper = RankStepper(job.cloud, found, job.functions)
 shared = stepper.published.move(np.full(1 << 24, 1.5))
 # The flow's own arrays and those of its mesh are the shared ones.
 flow, windows = job.cloud.flow, found.worker.windows.arrays.values()

@@ -14,7 +14,7 @@ from pipe_case import copy_of_pipe, message
 
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
-from foamprb.parallel.exchange import homes_of, pack, plan_exchange, unpack
+from foamprb.parallel.exchange import Share, homes_of, pack, plan_exchange, record, unpack
 
 
 @given(st.lists(st.integers(0, 40 * LANES), min_size=2, max_size=9))
@@ -49,9 +49,13 @@ def test_records_hold_every_bit_of_a_particle(random):
         raw = random.integers(0, 256, (7, p._asdict()[name][0].nbytes), dtype=np.uint8)
         p._asdict()[name][...] = raw.view(variable.dtype).reshape(p._asdict()[name].shape)
     rows = np.array([5, 0, 6])
-    found, ids = unpack(pack(p, rows, rows + 100))
-    np.testing.assert_array_equal(ids, rows + 100)
-    for array, expected in zip(found, p.take(rows), strict=True):
+    memory = {"loads/D": random.random(7), "plane/x": random.random((7, 3))}
+    dtype = record((name, array.dtype.str, array.shape[1:]) for name, array in memory.items())
+    whole = Share(p, np.arange(7) + 100, memory)
+    found, expected_of = unpack(pack(whole, rows, dtype)), whole.take(rows)
+    assert found.arrays().keys() == expected_of.arrays().keys()
+    for name, array in found.arrays().items():
+        expected = expected_of.arrays()[name]
         assert array.dtype == expected.dtype
         assert array.tobytes() == expected.tobytes()
 

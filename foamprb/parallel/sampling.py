@@ -1,0 +1,89 @@
+"""Cloud functions whose data go with the particles, so that each process samples its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from numpy.typing import NDArray
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.state import Particles
+from foamprb.cloud.tracker import Tracker
+from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud
+from foamprb.cloudfunctions.registry import CloudFunctions
+
+
+class _Share(NamedTuple):
+    """What functions see of a cloud of which this process has a share."""
+
+    particles: Particles
+    flow: Any
+    medium: Medium
+    tracker: Tracker
+    time: float
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """Functions that sample the particles of each process."""
+
+    functions: Mapping[str, CloudFunction]
+    events: Memory
+    """Empty tables of events by the names of their functions."""
+    carried: tuple[tuple[str, str, tuple[int, ...]], ...]
+    """Name, type and shape of what a function remembers of a particle."""
+    medium: Medium
+    injectors: tuple[str, ...]
+    patches: tuple[str, ...]
+
+    @classmethod
+    def of(cls, functions: CloudFunctions, medium: Medium) -> Sampling:
+        """Return those of the functions of a cloud that can sample so."""
+        cloud = functions.cloud
+        names = functions.travelling
+        arrays = functions.with_particles(names)
+        return cls(
+            {name: functions.functions[name] for name in names},
+            functions.new_events(names),
+            tuple((name, array.dtype.str, array.shape[1:]) for name, array in arrays.items()),
+            medium,
+            cloud.injectors,
+            cloud.patches,
+        )
+
+    def sample(
+        self,
+        names: Iterable[str],
+        memory: Mapping[str, NDArray[Any]],
+        p: Particles,
+        flow: Any,
+        tracker: Tracker,
+        time: float,
+        events: Memory,
+    ) -> Memory:
+        """Let some functions sample particles; return the events so far by their names.
+
+        Parameters
+        ----------
+        names
+            The functions.
+        memory
+            What the functions remember of the particles, by ``function/array``; changed in place.
+        p, flow, tracker, time
+            The particles, the flow around them, the tracker of the cloud, and the time, s.
+        events
+            Events so far.
+        """
+        share: Any = _Share(p, flow, self.medium, tracker, time)
+        cloud, found = ObservedCloud(share, self.injectors, self.patches), {}
+        for name in names:
+            function, own = self.functions[name], f"{name}/"
+            known = {k.removeprefix(own): array for k, array in memory.items() if k.startswith(own)}
+            if function.events:
+                known[function.events] = events.get(name, self.events[name])
+            function.sample(known, cloud)
+            if function.events:
+                found[name] = known[function.events]
+        return found
