@@ -81,7 +81,8 @@ def homes_of(n: int, size: int, whole: bool) -> NDArray[np.int64]:
     """
     if whole:
         return np.array([0] + [n] * size, dtype=np.int64)
-    return np.arange(size + 1, dtype=np.int64) * n // size
+    # Rounded up, so that the first process has some if there are any.
+    return -(-np.arange(size + 1, dtype=np.int64) * n // size)
 
 
 def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:
