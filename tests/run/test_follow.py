@@ -94,7 +94,7 @@ def test_run_beside_a_solver_is_that_after_it(written, case, monkeypatch):
 
 def test_log_has_few_lines_of_a_long_wait(monkeypatch, caplog):
     caplog.set_level("INFO", "foamprb")
-    case = SimpleNamespace(times=["0"], ended=False, look=lambda: None)
+    case = SimpleNamespace(times=["0"], ended=False, unfinished="", look=lambda: None)
     clock = SimpleNamespace(now=0.0)
 
     def sleep(seconds):

@@ -7,12 +7,14 @@ longer change.
 
 from __future__ import annotations
 
+import gzip
 import math
 import os
 import re
 import shutil
 import threading
 import time as clock
+import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -30,11 +32,12 @@ __all__ = ["FollowedCase", "remove_links"]
 
 _CONTROL = Path("system/controlDict")
 _QUIET, _CERTAIN = 2.0, 60.0
-"""Seconds without a change after which the last time is complete: if it has the fields of the time before,
-and the files end as OpenFOAM ends them; and in any case."""
+"""Seconds without a change after which the last time is complete: if it has the files of the time before,
+and they end as OpenFOAM ends them; and if only files that not all times have are in doubt."""
 _ENDINGS = b"//", b")"
 """Ends of OpenFOAM's files: the line of a comment, or the last block of a collated file."""
-_TAIL = 64
+_TAIL, _PIECE = 64, 1 << 20
+"""Bytes of the end that are examined, and that are unpacked at once."""
 _ROUNDED = 1e-9
 """Relative error of a time in ``controlDict`` or in the name of a folder."""
 _BETWEEN_LOOKS = 0.1
@@ -84,6 +87,8 @@ class FollowedCase:
         """Whether the solver has ended, and all its times are complete."""
         self.decomposed = decomposed
         """Whether the times are in processor folders."""
+        self.unfinished = ""
+        """File that the last time lacks."""
         self._selection, self._region = selection, region
         names_in(case, ("0",), selection)
         self._control_time = -1
@@ -99,6 +104,7 @@ class FollowedCase:
         self._released = 0
         self._since = -math.inf
         self._seen: tuple[object, float] = (), 0.0
+        self._checked: list[tuple[str, bool]] | None = None
         self._lock, self._closed = threading.Lock(), threading.Event()
         self._thread = threading.Thread(target=self._watch, name="foamprb-follow", daemon=True)
         self._error: Exception | None = None
@@ -171,13 +177,19 @@ class FollowedCase:
                 self._place(root).mkdir(exist_ok=True)
                 _link(root / "constant", self._place(root) / "constant")
             self.times += self._selected(_common_times(map(self._place, self._roots)))
+        self.unfinished = ""
         written = _common_times(self._roots)
         selected = self._selected(written)
-        ended = self._has_ended(written)
+        ended = self._has_ended(written, self._roots[0])
         for name in selected:
             if self.times and float(name) <= float(self.times[-1]):
                 continue
-            if name == written[-1] and not (ended and self._is_settled(name, self.times[-1:])):
+            if name == written[-1]:
+                complete = ended and self._is_settled(name, _QUIET)
+            else:
+                # The threads of collated files lag behind the solver.
+                complete = not self._roots[0].name.startswith("processors") or self._is_settled(name, 0.0)
+            if not complete:
                 break
             if self.times:
                 self._refuse_gap(self.times[-1], name)
@@ -193,7 +205,10 @@ class FollowedCase:
         if self.decomposed or (processors and is_only_decomposed(self.case, self._region)):
             self.decomposed = True
             return Processors(self.case).folders if processors else []
-        return [self.case] if not processors or len(available_times(self.case)) > 1 else []
+        times = available_times(self.case)
+        # A case with one time may yet be decomposed.
+        here = len(times) > 1 or (not processors and self._has_ended(times, self.case))
+        return [self.case] if here else []
 
     def _selected(self, names: Sequence[str]) -> tuple[str, ...]:
         return names_in(self.case, names, self._selection)
@@ -238,8 +253,8 @@ class FollowedCase:
             f"foamprb started before the solver; or to begin at a time that is there, -time {name}:."
         )
 
-    def _has_ended(self, written: Sequence[str]) -> bool:
-        """Return whether ``controlDict`` lets the solver write no time after the last one."""
+    def _has_ended(self, written: Sequence[str], root: Path) -> bool:
+        """Return whether ``controlDict`` lets the solver write no time after the last one in a folder."""
         if not written:
             return False
         control, last = self._read_control(), float(written[-1])
@@ -247,7 +262,7 @@ class FollowedCase:
         if stop == "noWriteNow":
             return True
         if stop in ("writeNow", "nextWrite"):
-            return (self._roots[0] / written[-1]).stat().st_mtime_ns > self._control_time
+            return (root / written[-1]).stat().st_mtime_ns > self._control_time
         end, interval = _number(control, "endTime", math.inf), self._interval()
         tolerance = 0.5 * _number(control, "deltaT", 0.0)
         following = last if interval[1] or interval[0] == math.inf else last + interval[0]
@@ -272,8 +287,8 @@ class FollowedCase:
                 return int(read_entry(written, "index", int))
         return 0 if float(name) == 0.0 else None
 
-    def _is_settled(self, name: str, before: Sequence[str]) -> bool:
-        """Return whether the files of a time have not changed for a while, and are whole."""
+    def _is_settled(self, name: str, least: float) -> bool:
+        """Return whether the files of a time have not changed for ``least`` seconds, and are whole."""
         folders = [root / name / self._region for root in self._roots]
         try:
             files = [path for folder in folders for path in sorted(folder.iterdir())]
@@ -283,16 +298,25 @@ class FollowedCase:
             return False
         if state != self._seen[0]:
             age = max(0.0, clock.time() - 1e-9 * max((changed for *_, changed in state), default=0.0))
-            self._seen = state, clock.monotonic() - age
+            self._seen, self._checked = (state, clock.monotonic() - age), None
         quiet = clock.monotonic() - self._seen[1]
-        if quiet < _QUIET:
+        if quiet < least:
             return False
+        self._checked = self._checked or [self._unfinished(root, name) for root in self._roots]
+        self.unfinished = next((file for file, _ in self._checked if file), "")
+        return not self.unfinished and (quiet >= _CERTAIN or not any(doubt for _, doubt in self._checked))
+
+    def _unfinished(self, root: Path, name: str) -> tuple[str, bool]:
+        """Return a file that a time must have but has not, or not whole; and whether others are in doubt."""
+        files = _files(root / name / self._region)
         # The fields of a time that the solver did not write are others.
-        known = [self._place(self._roots[0]) / time for time in before]
-        known = [time / self._region for time in known if (time / "uniform/time").exists()]
-        expected = {path.name for folder in known if folder.is_dir() for path in folder.iterdir()}
-        there = {path.name for path in files}
-        return quiet >= _CERTAIN or (expected <= there and all(map(_is_whole, files)))
+        known = [self._place(root) / time for time in self.times[-2:]]
+        before = [_files(time / self._region) for time in known if (time / "uniform/time").exists()]
+        unfinished = {field for field, path in files.items() if not _is_whole(path)}
+        for field in sorted(set.intersection(*map(set, before))) if before else ():
+            if field not in files or (field in unfinished and _is_whole(before[-1][field])):
+                return str((root / name / self._region / field).relative_to(self.case)), True
+        return "", bool(unfinished or (before and before[-1].keys() - files.keys()))
 
     def _read_control(self) -> Dictionary:
         """Return ``system/controlDict``; the one of before while it is being changed."""
@@ -349,10 +373,25 @@ def _hard_link(source: str, target: str) -> None:
         shutil.copy2(source, target)
 
 
+def _files(folder: Path) -> dict[str, Path]:
+    """Return the files of a folder by their names without ``.gz``."""
+    paths = sorted(folder.iterdir()) if folder.is_dir() else []
+    return {path.name.removesuffix(".gz"): path for path in paths}
+
+
 def _is_whole(path: Path) -> bool:
-    """Return whether a file ends as OpenFOAM ends it; True for folders and compressed files."""
-    if path.is_dir() or path.suffix == ".gz":
+    """Return whether a file ends as OpenFOAM ends it; True for folders."""
+    if path.is_dir():
         return True
+    if path.suffix == ".gz":
+        tail = b""
+        try:
+            with gzip.open(path) as packed:
+                while part := packed.read(_PIECE):
+                    tail = (tail + part)[-_TAIL:]
+        except (OSError, EOFError, zlib.error):
+            return False
+        return tail.rstrip().endswith(_ENDINGS)
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - _TAIL))
         return file.read().rstrip().endswith(_ENDINGS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 import shutil
 import time as clock
@@ -108,6 +109,26 @@ def test_the_last_time_is_not_taken_while_its_files_are_new(case, monkeypatch):
     assert (flow.times[-1], flow.ended) == ("0.4", True)
 
 
+def test_a_time_in_which_the_solver_was_killed_is_not_taken(case, monkeypatch):
+    """A file that is neither in all times nor whole is taken in the end, a lost one is not."""
+    monkeypatch.setattr(follow, "_CERTAIN", 0.0)
+    for time in ("0.1", "0.2", "0.3"):
+        write(case / time, "U", "p")
+    (case / "0.2/T.gz").write_bytes(gzip.compress(b"T //"))
+    flow = followed(case)
+    write(case / "0.4", "U", "note", end="1.2")
+    flow.look()
+    assert (flow.times[-1], flow.ended, flow.unfinished) == ("0.3", False, "0.4/U")
+    (case / "0.4/U").unlink()
+    (case / "0.4/U.gz").write_bytes(gzip.compress(b"1 2 3 //")[:-9])
+    write(case / "0.4", "p")
+    flow.look()
+    assert flow.unfinished == "0.4/U"
+    (case / "0.4/U.gz").write_bytes(gzip.compress(b"1 2 3 //"))
+    flow.look()
+    assert (flow.times[-1], flow.ended, flow.unfinished) == ("0.4", True, "")
+
+
 def test_a_range_ends_with_a_time_beyond_it(case):
     write(case / "0.1", "U")
     write(case / "0.2", "U")
@@ -196,6 +217,28 @@ def test_times_of_processors_are_those_of_all(case):
     assert flow.times == ["0", "0.1"]
     assert (case / "flow/processor1/0.1/U").exists()
     assert (case / "flow/processor1/constant").samefile(case / "processor1/constant")
+
+
+def test_case_may_be_decomposed_while_a_run_waits(case):
+    flow = followed(case)
+    assert flow.times == []
+    for time in ("0", "0.1", "0.2"):
+        write(case / "processor0" / time, "U")
+    (case / "processor0/constant").mkdir()
+    flow.look()
+    assert (flow.decomposed, flow.times) == (True, ["0", "0.1"])
+
+
+def test_collated_files_may_be_written_after_the_folder_of_the_next_time(case):
+    (case / "processors2/constant").mkdir(parents=True)
+    for time in ("0", "0.1", "0.3"):
+        write(case / "processors2" / time, "U", "p")
+    write(case / "processors2/0.2", "U", "p", end="")
+    flow = followed(case)
+    assert flow.times == ["0", "0.1"]
+    write(case / "processors2/0.2", "U", "p")
+    flow.look()
+    assert flow.times == ["0", "0.1", "0.2"]
 
 
 def test_last_time_needs_the_region(case):
