@@ -36,6 +36,7 @@ PARTS = (
     "integrators",
     "surroundings",
     "peers",
+    "processes",
     "profile",
     "roofline",
 )

@@ -211,6 +211,18 @@ def _profile(results: Results) -> str:
     return "\n\n".join(texts) or "Not measured."
 
 
+def _processes(results: Results) -> str:
+    """Return a line for each program and number of processes."""
+    quantities = ("memory, largest process", "memory, all processes", "user CPU per particle-step")
+    lines = []
+    for program in results.subjects(quantities[0]):
+        for ranks, _ in results.curve(quantities[0], program):
+            values = [results.get(quantity, program, ranks) for quantity in quantities]
+            lines.append((program, f"{ranks:g}", *("" if v is None else number(v) for v in values)))
+    head = ("program", "processes", "largest, MB", "all, MB", "µs per particle-step")
+    return table(head, lines) if lines else "Not measured."
+
+
 def _by_processor(results: Results) -> str:
     """Return the cost of a step over OpenFOAM's, on every processor measured."""
     ratios = ("cost over OpenFOAM's", "default run over OpenFOAM's")
@@ -240,6 +252,7 @@ def write_report(results: Results, folder: Path) -> None:
         machines=_machines(results),
         profile=_profile(results),
         processors=processors,
+        processes=_processes(results),
         **parts,
     )
     (folder / "performance.md").write_text(text, encoding="utf-8")
