@@ -6,7 +6,7 @@ import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,6 +27,8 @@ log = logging.getLogger("foamprb")
 
 LEAST_LAYERS = 3
 """Smallest number of layers around the cells of a node."""
+Summaries: TypeAlias = Sequence[Summary | None]
+OpenParts: TypeAlias = Callable[[int], Summaries]
 _MOST_NODES = 1_000_000
 """Number of nodes up to which :meth:`DistributedFlow.at_nodes` returns all."""
 
@@ -71,10 +73,13 @@ class DistributedFlow:
     ----------
     order
         Lets all processes call a method of their worker; see :meth:`foamprb.parallel.ranks.Ranks.order`.
+    open_parts
+        Lets all nodes read their parts with a number of layers around their cells in which bodies may move.
+        Returns the summaries of all processes; None for those that are not the first of a node.
+    step
+        Time between two points where particles can change nodes, s.
     summaries
-        Those of all processes; None for the processes that are not the first of a node.
-    depth
-        Number of layers around the cells of a node in which bodies may move.
+        Those of ``open_parts`` with :data:`LEAST_LAYERS`.
     """
 
     kernels = MeshFlow.kernels
@@ -84,10 +89,13 @@ class DistributedFlow:
     field_columns = ()
 
     def __init__(
-        self, order: Callable[..., list[Any]], summaries: Sequence[Summary | None], depth: int
+        self, order: Callable[..., list[Any]], open_parts: OpenParts, step: float, summaries: Summaries
     ) -> None:
-        self._order, self.depth = order, depth
-        self.summaries = [summary for summary in summaries if summary is not None]
+        self._order, self._open_parts, self._step = order, open_parts, step
+        self._shared: tuple[Any, ...] | None = None
+        self.depth, self.shared_bytes = LEAST_LAYERS, 0
+        self._summarise(summaries)
+        self._deepen(self._layers)
         first = self.summaries[0]
         self.patches, self.bounds, self.width, self.notes = (
             first.patches,
@@ -95,15 +103,27 @@ class DistributedFlow:
             first.width,
             first.notes,
         )
-        self.rate = first.rate
-        """See :attr:`foamprb.flow.partflow.PartFlow.rate`."""
         self.mesh = WholeCounts(first.counts[0], first.counts[1], range(first.counts[2]))
-        self._shared: tuple[Any, ...] | None = None
-        self.shared_bytes = 0
 
-    def layers_for(self, step: float) -> int:
-        """Return the number of layers that no body crosses in a time, s."""
-        return 2 + math.ceil(self.rate * step)
+    def _deepen(self, layers: int) -> None:
+        """Let all nodes read their parts with more layers, until no body crosses them in a step."""
+        while self.depth < layers:
+            self.depth = layers
+            self._summarise(self._open_parts(layers))
+            layers = self._layers
+        walls, self._shared = self._shared, None
+        if walls is not None:
+            self.arrays(*walls)
+
+    def _summarise(self, summaries: Summaries) -> None:
+        self.summaries = [summary for summary in summaries if summary is not None]
+        self.rate = self.summaries[0].rate
+        """See :attr:`foamprb.flow.partflow.PartFlow.rate`."""
+
+    @property
+    def _layers(self) -> int:
+        """Return the number of layers that no body crosses in a step."""
+        return 2 + math.ceil(self.rate * self._step)
 
     def owners(self, hosts: NDArray[Any]) -> list[NDArray[np.intp]]:
         """Return the rows of the hosts that each node owns."""
@@ -219,15 +239,25 @@ class DistributedSeries(Timeline, DistributedFlow):
     kernels = SeriesFlow.kernels
     nothing = staticmethod(SeriesFlow.nothing)
 
-    def __init__(
-        self, order: Callable[..., list[Any]], summaries: Sequence[Summary | None], depth: int
-    ) -> None:
-        super().__init__(order, summaries, depth)
+    def __init__(self, *given: Any) -> None:
+        super().__init__(*given)
         first = self.summaries[0]
         self._set_times(first.times, first.period)
 
     def load(self, start: float, end: float) -> float:
-        """Let all nodes load times; see :meth:`foamprb.flow.series.SeriesFlow.load`."""
+        """Let all nodes load times; see :meth:`foamprb.flow.series.SeriesFlow.load`.
+
+        They read their parts anew if the flow has become too fast for the layers.
+        """
+        until = self._load_all(start, end)
+        if self._layers > self.depth:
+            log.info("    The flow is faster than before: nodes read more cells around theirs.")
+            # It may become faster still.
+            self._deepen(self._layers + self._layers // 2)
+            until = self._load_all(start, end)
+        return until
+
+    def _load_all(self, start: float, end: float) -> float:
         found = [own for own in self._order("load_part", start, end) if own is not None]
         self.rate = max(rate for _, rate in found)
         return float(found[0][0])
@@ -238,9 +268,8 @@ class DistributedSeries(Timeline, DistributedFlow):
         return {**super().traits(), "times": times, "period": self.period or 0.0}
 
 
-def distributed_flow(
-    order: Callable[..., list[Any]], summaries: Sequence[Summary | None], depth: int
-) -> DistributedFlow:
+def distributed_flow(order: Callable[..., list[Any]], open_parts: OpenParts, step: float) -> DistributedFlow:
     """Return the flow of which all nodes hold parts; see :class:`DistributedFlow`."""
+    summaries = open_parts(LEAST_LAYERS)
     several = any(summary is not None and summary.times for summary in summaries)
-    return (DistributedSeries if several else DistributedFlow)(order, summaries, depth)
+    return (DistributedSeries if several else DistributedFlow)(order, open_parts, step, summaries)

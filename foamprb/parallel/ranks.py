@@ -16,6 +16,7 @@ from __future__ import annotations
 import logging
 import pickle
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,7 +29,7 @@ from foamprb.cloud.tracker import Outcome, never
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields, columns_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.parallel.distributed import LEAST_LAYERS, DistributedFlow, distributed_flow, why_whole
+from foamprb.parallel.distributed import DistributedFlow, distributed_flow, why_whole
 from foamprb.parallel.exchange import Share, homes_of, plan_exchange
 from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.shared_memory import Publisher
@@ -111,12 +112,8 @@ class Ranks:
         if reason is not None:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             return None
-        depth, layers = 0, LEAST_LAYERS
-        while depth < layers:
-            depth = layers
-            summaries = self.order("open_part", case, source.region, times, source, depth)
-            flow = distributed_flow(self.order, summaries, depth)
-            layers = max(depth, flow.layers_for(step))
+        open_parts = partial(self.order, "open_part", case, source.region, times, source)
+        flow = distributed_flow(self.order, open_parts, step)
         for number, summary in enumerate(flow.summaries):
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,
                      summary.held - summary.own)  # fmt: skip

@@ -109,6 +109,8 @@ class Worker:
         self._flow: Any = None
         self._sampled: Fields | None = None
         self._part: Part | None = None
+        self._hosts: NDArray[np.int64] | None = None
+        """Hosts of the particles in the whole mesh, while the node has read its part anew."""
         self._ranks_of: list[list[int]] = []
         self._amid_exchange = False
         self.signals: Sequence[int] = ()
@@ -245,6 +247,8 @@ class Worker:
     ) -> Summary | None:
         """Read the flow on the cells of this node; return a summary on its first process."""
         if self._part is not None:
+            if self.particles.size:
+                self._hosts = self._part.numbers_of(self.particles.host)
             self._part.close()
             self._part = None
             gc.collect()
@@ -255,6 +259,8 @@ class Worker:
         """Place the arrays of the node's flow, with some walls, in its memory; return bytes shared once."""
         size = self._held.share(*walls)
         self._flow = self._held.arrays
+        if self._hosts is not None:
+            self.particles.host[:], self._hosts = self._held.hosts_of(self._hosts), None
         return size if self.windows.node.rank == 0 else 0
 
     def load_part(self, start: float, end: float) -> tuple[float, float] | None:
