@@ -162,7 +162,7 @@ def begin_to_follow(
         with only_writer(folder.path):
             checkpoints = Checkpoints(folder.checkpoints).files()
             resumed = options.start_from == "latestTime"
-            followed.begin(max(checkpoints, default=None) if resumed else None)
+            followed.begin(max(checkpoints, default=-math.inf) if resumed else None)
         lag, first = 0, "the first times of the flow"
         wait(followed, lambda: len(followed.times) > 1, never, options.patience, first)
         if len(followed.times) > 1:

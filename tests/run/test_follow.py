@@ -138,6 +138,19 @@ def test_stopped_run_continues_with_the_links_it_left(written, case, monkeypatch
     assert files(case) == files(written[1])
 
 
+def test_run_killed_before_its_first_checkpoint_continues_with_the_links_it_left(written, case, monkeypatch):
+    Solver(written[0], case, monkeypatch)
+    control = case / "system/controlDict"
+    control.write_text(control.read_text() + "purgeWrite 2;")
+    for time in ("0", "0.5"):
+        shutil.copytree(written[0] / time, case / "postProcessing/softCloud/flow" / time)
+    shutil.copytree(written[0] / "1.5", case / "1.5")
+    following = prepare(case, follow=Follow("latestTime")).following
+    assert following is not None
+    following.close()
+    assert following.flow.times == (0.0, 0.5, 1.5)
+
+
 def test_impatient_run_stops_with_a_checkpoint(written, case, monkeypatch):
     solver = Solver(written[0], case, monkeypatch)
     job = prepare(case, follow=Follow(patience=60.0))
