@@ -75,10 +75,12 @@ def scratch():
 
 
 @pytest.mark.parametrize(
-    ("integrator", "models"), [("rosenbrock", ()), ("stokes", AROUND)], ids=["rosenbrock", "surroundings"]
+    ("integrator", "models", "wanted"),
+    [("rosenbrock", (), (1, adaptive._MANY, LANES)), ("stokes", AROUND, (1, LANES))],
+    ids=["rosenbrock", "surroundings"],
 )
 def test_a_particle_goes_the_same_way_whoever_is_in_the_other_lanes(
-    coarse_vortex, integrator, models, monkeypatch
+    coarse_vortex, integrator, models, wanted, monkeypatch
 ):
     """Whether many wait for others, none does, or there are no others; and rebounds are noted alike."""
     found, waited, places = [], [], SHELF // 3
@@ -90,7 +92,7 @@ def test_a_particle_goes_the_same_way_whoever_is_in_the_other_lanes(
         return made
 
     monkeypatch.setattr("foamprb.cloud.tracker.new_scratch", new_scratch_to_see)
-    for many in (1, adaptive._MANY, LANES):
+    for many in wanted:
         monkeypatch.setattr(adaptive, "_MANY", many)
         cloud, seen = in_vortex(coarse_vortex, integrator, models=models), []
         go(cloud)

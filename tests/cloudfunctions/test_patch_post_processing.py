@@ -54,7 +54,7 @@ def test_touching_by_the_centre(tmp_path):
         AIR,
         cloud.interactions,
         cloud.dt,
-        Models(touching="centre", integrator=cloud.models.integrator),
+        Models(touching="centre", integrator="rosenbrock"),
     )
     observe(centre, PatchPostProcessing(("wall",), maxStoredParcels=3), tmp_path)
     rows = table(tmp_path / "f/wall.csv")

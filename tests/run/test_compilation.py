@@ -16,6 +16,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.compile import link as compiling
+from foamprb.compile.cache import cache_directory
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.series import SeriesFlow
@@ -93,17 +94,29 @@ def test_example_of_a_flow_has_the_types_of_its_arguments(make):
     assert numba.typeof(type(flow).nothing()) == numba.typeof(flow.arrays(0.0, []))
 
 
-def test_code_of_the_second_process_is_used(request, tmp_path, monkeypatch):
+def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
     (tmp_path / "numpy.py").write_text("open('executed', 'w')")
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("foamprb.run.compilation.available_threads", lambda: 2)
     flow = steady(build_mesh(block(1, 0.0, "mixed")))
-    request.getfixturevalue("two_processors")
-    p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
     models = Models(integrator="paper", touching="centre")
+
+    def loop():
+        return Tracker(models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+
+    # A cache that lacks only the loop.
+    key = loop()._track.py_func.__qualname__.rpartition("_")[2]
+    cache = tmp_path / "cache"
+    cache.mkdir()
+    for folder in {*cache_directory().glob("*")} - {cache_directory() / key}:
+        (cache / folder.name).symlink_to(folder)
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(cache))
+    monkeypatch.delitem(compiling._parts, key)
+
+    p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
     cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, models)
-    early = Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
     assert not cloud.tracker.compiled
-    Compilation(early, type(flow)).wait()
+    Compilation(loop(), type(flow)).wait()
     # It runs no code of the current folder.
     assert not (tmp_path / "executed").exists()
     assert cloud.tracker.compiled
