@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from mesh_shapes import block, box_patches
 
-from foamprb import Gravity, PressureGradient, VirtualMass, analytic
+from foamprb import analytic
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound, Stick
@@ -45,14 +45,13 @@ def box_cloud(integrator):
     p.t0[4] = p.t[4] = 5e-3
     kinds = {"floor": Stick(), "lid": Escape(), "sides": Rebound(0.8, 0.1)}
     medium = Medium(2.0, 1000.0, (0.0, 0.0, -9.81))
-    forces = (Gravity(), PressureGradient(), VirtualMass(Cvm=0.5))
     if integrator == "stokes":
         # Without inertia the velocity is the fluid's; the wall is met by falling.
-        medium, forces = Medium(0.02, 100.0, (0.0, 9.81, -9.81)), (Gravity(),)
+        medium = Medium(0.02, 100.0, (0.0, 9.81, -9.81))
         p.x[:, 2] = 0.0105, 0.9999, 0.5, 0.5, 0.4
         p.x[2, 1] = 0.9895
     walls = [kinds[patch.name] for patch in flow.patches]
-    return Cloud(p, flow, medium, walls, 2e-3, Models(integrator=integrator, forces=forces), 1)
+    return Cloud(p, flow, medium, walls, 2e-3, Models(integrator=integrator), 1)
 
 
 def assert_same(a: Particles, b: Particles, rows: int | slice = slice(None)) -> None:
