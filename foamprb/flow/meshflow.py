@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import fields, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,6 +24,7 @@ from foamprb.flow.mesh.submesh import alone, total_of
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with, viscosity_with
+from foamprb.flow.traits import of_pairs, of_rows
 from foamprb.flow.viscosity import viscosity
 from foamprb.flow.walk import (
     cell_volume,
@@ -108,6 +109,23 @@ LISTS = ("near", "wall_", "seen")
 """Prefixes of the names of arrays for lists of walls."""
 AT_ONCE = 1 << 20
 """Number of tetrahedra per chunk when volumes are computed."""
+
+
+class Numbering(NamedTuple):
+    """Numbers, in the whole mesh, of the items of a part."""
+
+    own: NDArray[np.bool_]
+    """(n_cells,) which cells belong to the part alone."""
+    cells: NDArray[np.int64]
+    """(n_cells,)."""
+    nodes: NDArray[np.int64]
+    """(n_nodes,)."""
+    first_tet: NDArray[Any]
+    """(n_cells,) number of the first tetrahedron of each cell."""
+    triangles: NDArray[np.intp]
+    """Boundary triangles here, of own cells."""
+    faces: NDArray[Any]
+    """Their faces."""
 
 
 class MeshFlow:
@@ -345,12 +363,45 @@ class MeshFlow:
         return fields_on(self._arrays, self.field_table, self.field_columns)
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Return mesh and velocities by name."""
-        arrays = self._arrays._asdict()
-        if len(arrays["viscosity"]) == 0:
-            del arrays["viscosity"]
-        fixed = {name: a for name, a in arrays.items() if not name.startswith(("wall_", "seen", "strayed"))}
-        return fixed | ({"sampled": self.field_table} if self.field_columns else {})
+        """Return sums over mesh and velocities by name; parts of a mesh add up to those of the whole."""
+        arrays, mesh, whole = self._arrays, self.mesh, self._numbering()
+        corners = np.repeat(whole.own, np.diff(mesh.cell_point_start))
+        cells = np.repeat(whole.cells, np.diff(mesh.cell_point_start))[corners]
+        tables = {"nodes": arrays.nodes, "turbulence": arrays.turbulence, "viscosity": arrays.viscosity}
+        return {
+            "cells": of_pairs(cells, whole.nodes[mesh.cell_points[corners]]),
+            "patches": of_pairs(whole.faces, mesh.triangle_patch[whole.triangles]),
+            **{name: self._node_sums(table) for name, table in tables.items()},
+            "correction": self._tet_sums(arrays.correction),
+            **({"sampled": self._node_sums(self.field_table)} if self.field_columns else {}),
+        }
+
+    def _numbering(self) -> Numbering:
+        """Return the numbers of the mesh's items in the whole mesh."""
+        mesh = self.mesh
+        return Numbering(
+            np.ones(mesh.n_cells, dtype=bool),
+            np.arange(mesh.n_cells),
+            np.arange(mesh.n_points + mesh.n_cells),
+            mesh.cell_start[:-1],
+            np.arange(len(mesh.triangle_face)),
+            mesh.n_internal + mesh.triangle_face,
+        )
+
+    def _node_sums(self, table: Floats) -> Floats:
+        """Return :func:`of_rows` of values at nodes, where each own cell counts its points and its centre."""
+        mesh, whole = self.mesh, self._numbering()
+        corners = mesh.cell_points[np.repeat(whole.own, np.diff(mesh.cell_point_start))]
+        counts = np.concatenate([np.bincount(corners, minlength=mesh.n_points), whole.own]).astype(np.float64)
+        return of_rows(table[: len(counts)], whole.nodes, counts)
+
+    def _tet_sums(self, table: NDArray[np.float32]) -> Floats:
+        """Return :func:`of_rows` of values in the tetrahedra of own cells."""
+        mesh, whole = self.mesh, self._numbering()
+        # There are no rows for no correction.
+        sizes = np.diff(mesh.cell_start) if len(table) else np.zeros(mesh.n_cells, dtype=np.int32)
+        numbers = np.arange(len(table)) + np.repeat(whole.first_tet - mesh.cell_start[:-1], sizes)
+        return of_rows(table, numbers, np.repeat(whole.own, sizes).astype(np.float64))
 
     def locate(self, points: Floats) -> Ints:
         """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""

@@ -20,7 +20,7 @@ from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import BEYOND, Halo
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
-from foamprb.flow.meshflow import AT_ONCE, LISTS, MeshFlow, end_triangles, shortest_extent
+from foamprb.flow.meshflow import AT_ONCE, LISTS, MeshFlow, Numbering, end_triangles, shortest_extent
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
 
@@ -89,6 +89,14 @@ class PartFlow(MeshFlow):
         tree.boxes[1, :3] = np.min([low for low, _ in ends], axis=0)
         tree.boxes[1, 3:] = np.max([high for _, high in ends], axis=0)
         return tree._replace(leaves=np.where(tree.leaves < 0, np.int32(-1), usable[tree.leaves]))
+
+    def _numbering(self) -> Numbering:
+        mesh, part = self.mesh, self.halo.part
+        triangles = self._own_triangles(mesh)
+        nodes = np.concatenate([part.points, self.counts[1] + part.cells])
+        return Numbering(
+            part.own, part.cells, nodes, self._first_tet, triangles, self._faces_of(mesh, triangles)
+        )
 
     def _own_triangles(self, mesh: Mesh) -> Index:
         """Return the boundary triangles of own cells."""

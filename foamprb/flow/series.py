@@ -403,17 +403,22 @@ class SeriesFlow(Timeline, MeshFlow):
         )
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Return mesh, first time with its fields, and all times of a period, by name.
+        """Return sums over mesh and the first time with its fields, and all times of a period, by name.
 
         Later times may be added to a flow without period (:meth:`extend`).
         """
         first = self._first()
         times = self.times[: 1 if self.period is None else None]
-        sampled = {"sampled": self.field_table[self._in_memory[0]]} if self.field_columns else {}
+        row = self._in_memory[0]
+        sampled = {"sampled": self._node_sums(self.field_table[row])} if self.field_columns else {}
         return {
-            **super().traits(), "times": times, "period": self.period or 0.0, "fields": first,
-            "correction": self._corrections[self._in_memory[0]], **sampled,
-        }  # fmt: skip
+            **super().traits(),
+            "times": times,
+            "period": self.period or 0.0,
+            "fields": self._node_sums(first),
+            "correction": self._tet_sums(self._corrections[row]),
+            **sampled,
+        }
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """Load time t and sample there; see :meth:`MeshFlow.sample` and :meth:`load`."""

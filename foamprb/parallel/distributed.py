@@ -225,9 +225,13 @@ class DistributedFlow:
         return normals
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Return sizes of the mesh and of the velocities by name, the same for any number of nodes."""
-        first = self.summaries[0]
-        return {"distributed": np.array([*first.counts, first.size, first.width, *np.ravel(first.bounds)])}
+        """Return those of the flow on one node, but for round-off."""
+        first, *others = self._ask("traits")
+        fixed = ("times", "period")
+        return {
+            name: value if name in fixed else sum((own[name] for own in others), start=value)
+            for name, value in first.items()
+        }
 
 
 class DistributedSeries(Timeline, DistributedFlow):
@@ -261,11 +265,6 @@ class DistributedSeries(Timeline, DistributedFlow):
         found = [own for own in self._order("load_part", start, end) if own is not None]
         self.rate = max(rate for _, rate in found)
         return float(found[0][0])
-
-    def traits(self) -> Mapping[str, ArrayLike]:
-        """See :meth:`DistributedFlow.traits` and :meth:`foamprb.flow.series.SeriesFlow.traits`."""
-        times = self.times[: 1 if self.period is None else None]
-        return {**super().traits(), "times": times, "period": self.period or 0.0}
 
 
 def distributed_flow(order: Callable[..., list[Any]], open_parts: OpenParts, step: float) -> DistributedFlow:

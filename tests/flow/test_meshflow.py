@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from mesh_shapes import block, boundary, box_patches, corners, cyclic_row, grid, interfaces, merged, period
@@ -144,8 +146,32 @@ def test_nodes_are_points_and_centres_with_their_values(random):
     assert flow.notes == ("one", "two")
     assert flow.span == (-np.inf, np.inf)
     assert flow.load(0.0, 1.0) == np.inf
-    assert not {name for name in flow.traits() if name.startswith(("wall_", "seen"))}
-    assert "near" in flow.traits()
+
+
+def test_what_tells_a_flow_from_another(random):
+    """One value, the order of two, a point, a cell and a patch."""
+    mesh = build_mesh(block(2, 0.2), box_patches(block(2, 0.2)))
+    n = len(mesh.nodes)
+    u, l = random.normal(size=(n, 3)), random.normal(size=(n, 3, 3))
+    before = MeshFlow(mesh, u, l).traits()
+    assert all(np.array_equal(value, before[name]) for name, value in MeshFlow(mesh, u, l).traits().items())
+    other, swapped, moved = u.copy(), u.copy(), block(2, 0.2)
+    other[5, 1] *= 1.0 + 1e-6
+    swapped[[3, 4]] = u[[4, 3]]
+    moved.points[13] += 1e-6
+    faces = replace(mesh, triangle_patch=np.roll(mesh.triangle_patch, 1))
+    cells = replace(mesh, cell_points=np.roll(mesh.cell_points, 1))
+    for flow, name in (
+        (MeshFlow(mesh, other, l), "nodes"),
+        (MeshFlow(mesh, swapped, l), "nodes"),
+        (MeshFlow(build_mesh(moved, box_patches(moved)), u, l), "nodes"),
+        (MeshFlow(cells, u, l), "cells"),
+        (MeshFlow(faces, u, l), "patches"),
+    ):
+        found = flow.traits()[name]
+        assert not np.allclose(
+            np.asarray(found, dtype=float), np.asarray(before[name], dtype=float), 1e-10
+        ), name
 
 
 def test_lists_are_made_for_what_is_asked_and_kept():

@@ -459,8 +459,8 @@ def decomposed(case: Path, parts: int) -> None:
 
 @pytest.mark.openfoam
 @pytest.mark.skipif(shutil.which("decomposePar") is None, reason="decomposePar is not on PATH")
-def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_path, monkeypatch):
-    """Bodies go through parts of all nodes; the run ends as on one process, on fewer nodes than it began."""
+def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_path, monkeypatch, capsys):
+    """Bodies go through parts of all nodes; the run begins and ends on one process, and as it does there."""
     monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
     for name, value in (("endTime", 0.015), ("writeInterval", 0.005)):
         edit(case, rf"{name}\s+\S+;", f"{name} {value};")
@@ -470,6 +470,9 @@ def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_pa
     alone = tmp_path / "alone"
     shutil.copytree(case, alone)
     assert main(["run", "-case", str(alone)]) == 0
+    edit(case, r"endTime\s+\S+;", "endTime 0.005;")
+    assert main(["run", "-case", str(case)]) == 0
+    edit(case, r"endTime\s+\S+;", "endTime 0.015;")
     decomposed(case, 5)
     kill = after_hook(
         tmp_path,
@@ -482,11 +485,14 @@ def hooked(self):
 Worker._hand_over = hooked
 """,
     )
-    assert run(3, case, script=kill).returncode != 0
+    killed = run(3, case, "-resume", script=kill)
+    assert killed.returncode != 0
+    assert "Continuing from the checkpoint at t = 0.005 s" in killed.stdout
+    assert re.search(r"node 1 +4608 cells, and 4608 around them", killed.stdout)
     assert not (folder_of(case) / "fates.csv").exists()
-    log = finish(2, case, "-resume")
-    assert "Continuing from the checkpoint at t = 0.01 s" in log
-    assert re.search(r"node 1 +4608 cells, and 4608 around them", log)
+    capsys.readouterr()
+    assert main(["run", "-case", str(case), "-resume"]) == 0
+    assert "Continuing from the checkpoint at t = 0.01 s" in capsys.readouterr().out
     for file in [*folder_of(alone).rglob("*.csv"), folder_of(alone) / "paths/tracks.vtp"]:
         name = file.relative_to(folder_of(alone))
         assert (folder_of(case) / name).read_bytes() == file.read_bytes(), name

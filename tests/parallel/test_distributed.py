@@ -65,6 +65,22 @@ def test_hosts_and_samples_are_those_of_the_whole(flow, whole, random):
     np.testing.assert_array_equal(flow.cell_size(hosts), whole.cell_size(hosts))
 
 
+def assert_alike(found, expected):
+    """What tells flows apart is the same but for round-off."""
+    assert found.keys() == expected.keys()
+    for name, value in expected.items():
+        value = np.asarray(value)
+        if value.dtype.kind == "u":
+            assert np.array_equal(found[name], value), name
+        else:
+            np.testing.assert_allclose(found[name], value, rtol=1e-12, atol=1e-13, err_msg=name)
+
+
+def test_what_tells_a_flow_from_another_is_that_of_the_whole(flow, whole):
+    assert_alike(flow.traits(), whole.traits())
+    assert np.any(whole.traits()["correction"])
+
+
 def test_patches_zones_and_nodes_are_those_of_the_whole(flow, whole):
     assert (flow.patches, flow.width, flow.mesh[:2]) == (whole.patches, whole.width, (12, 27))
     np.testing.assert_array_equal(flow.bounds, whole.bounds)
@@ -92,6 +108,7 @@ def test_a_flow_in_time_is_that_of_the_whole(period, case, random):
     for found, expected in zip(flow.patch_faces("lid", 0.4), whole.patch_faces("lid", 0.4), strict=True):
         np.testing.assert_array_equal(found, expected)
     assert flow.load(0.2, 0.4) == 1.0
+    assert_alike(flow.traits(), whole.traits())
     # The faster one of the loaded times counts.
     assert flow.rate == distributed(case, FlowTimes("1")).rate
     assert flow.times_within(-1.0, 9.0)[:2] == [0.0, 1.0]
