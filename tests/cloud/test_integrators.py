@@ -10,6 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from small_clouds import assert_same
 from strategies import flat, square
+from unsteady_flow import changing_flow
 
 from foamprb import analytic
 from foamprb.body import stokes
@@ -69,18 +70,8 @@ def unsteady(t):
     return np.array([[0.0, 1.0 + 0.5 * c, 0.0], [0.2 * s, 0.0, 0.0], [0.0, 0.0, 0.0]])
 
 
-def sample_unsteady(_flow, _host, x, t):
-    """The flow of it, as the loops sample it."""
-    c, s = math.cos(1.3 * t), math.sin(1.3 * t)
-    k = 1.0 + 0.5 * c
-    u_t = (-0.65 * s * x[1], 0.26 * c * x[0], 0.0)
-    return (k * x[1], 0.2 * s * x[0], 0.0), (0.0, k, 0.0, 0.2 * s, 0.0, 0.0, 0.0, 0.0, 0.0), u_t
-
-
 def unsteady_flow():
-    flow = analytic.shear(1.0)
-    flow.kernels = flow.kernels | {"sample": sample_unsteady}
-    return flow
+    return changing_flow(1.3, (1.0, 0.5, 0.0, 0.0), (0.0, 0.0, 0.2, 0.0))
 
 
 def relative_errors(F, exact):

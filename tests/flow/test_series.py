@@ -10,6 +10,7 @@ import pytest
 from foam_writer import write_case
 from mesh_shapes import block, box_patches
 from small_clouds import assert_same
+from unsteady_flow import changing_flow, sample_changing
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
@@ -17,7 +18,6 @@ from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
-from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import select_times
@@ -31,31 +31,17 @@ SHEAR = np.array([[0.0, 1.0, 0.0], [0.3, 0.0, 0.0], [0.0, 0.0, 0.0]])
 DRIFT = np.array([0.1, 0.0, 0.05])
 
 
-def swing(flow, t):
-    """Factor of the flow at t, and its rate of change; the flow is (ω, rate of growth)."""
-    omega, growth = flow
-    # A plain tuple: the cache of compiled code cannot be read where a type of its arguments is unknown.
-    return math.cos(omega * t) + growth * t, -omega * math.sin(omega * t) + growth
-
-
-def sample_swing(flow, host, x, t):
-    """Shear about the cube's centre and a drift, both in proportion to the factor."""
-    f, rate = swing(flow, t)
-    y, x_ = x[1] - 0.5, x[0] - 0.5
-    u = (0.1 + y, 0.3 * x_, 0.0 * y + 0.05)
-    l = (0.0, f, 0.0, 0.3 * f, 0.0, 0.0, 0.0, 0.0, 0.0)
-    return (f * u[0], f * u[1], f * u[2]), l, (rate * u[0], rate * u[1], rate * u[2])
+def swing(omega, growth, t):
+    """Factor of the flow at t."""
+    return math.cos(omega * t) + growth * t
 
 
 def in_closed_form(omega=0.0, growth=0.0):
-    kernels = {
-        "sample": sample_swing,
-        "walk": walk_free,
-        "gap": gap_free,
-        "normal": normal_free,
-        "recover": recover_free,
-    }
-    return AnalyticFlow((float(omega), float(growth)), kernels)
+    """Shear about the cube's centre and a drift, both in proportion to the factor."""
+    along, across, drift_x, drift_z = (
+        (0.0, share, 0.0, share * growth) for share in (SHEAR[0, 1], SHEAR[1, 0], DRIFT[0], DRIFT[2])
+    )
+    return changing_flow(omega, along, across, drift_x, drift_z, 0.5)
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +56,7 @@ def in_files(mesh, times, omega=0.0, growth=0.0, log=None, **options):
     def read(index):
         if log is not None:
             log.append(index)
-        f = swing((omega, growth), times[index])[0]
+        f = swing(omega, growth, times[index])
         l = np.broadcast_to(f * SHEAR, (mesh.n_points + mesh.n_cells, 3, 3))
         return f * (DRIFT + (mesh.nodes - CENTRE) @ SHEAR.T), l
 
@@ -99,7 +85,7 @@ def test_what_is_linear_in_time_is_met_exactly(mesh, random):
         np.testing.assert_allclose(u, u_exact, rtol=0, atol=1e-13)
         np.testing.assert_allclose(l, l_exact, rtol=0, atol=1e-13)
         sampled = flow.kernels["sample"](flow.arrays(), hosts[0], tuple(x[0]), t)
-        slope = sample_swing((0.0, 2.0), 0, tuple(x[0]), t)[2]
+        slope = sample_changing(exact.arrays(t, ()), 0, tuple(x[0]), t)[2]
         np.testing.assert_allclose(sampled[2], slope, rtol=1e-12)
 
 
