@@ -360,6 +360,10 @@ class MeshFlow:
 
     def fields(self, start: float, end: float) -> Fields:  # noqa: ARG002
         """Return the fields that are sampled, from time ``start`` to ``end``, s."""
+        return self.loaded_fields()
+
+    def loaded_fields(self) -> Fields:
+        """Return the fields that are sampled."""
         return fields_on(self._arrays, self.field_table, self.field_columns)
 
     def traits(self) -> Mapping[str, ArrayLike]:
@@ -373,8 +377,13 @@ class MeshFlow:
             "patches": of_pairs(whole.faces, mesh.triangle_patch[whole.triangles]),
             **{name: self._node_sums(table) for name, table in tables.items()},
             "correction": self._tet_sums(arrays.correction),
-            **({"sampled": self._node_sums(self.field_table)} if self.field_columns else {}),
+            **({"sampled": self._node_sums(self._first_table)} if self.field_columns else {}),
         }
+
+    @property
+    def _first_table(self) -> Floats:
+        """Fields that are sampled, at the first time, (n_nodes, columns)."""
+        return self.field_table
 
     def _numbering(self) -> Numbering:
         """Return the numbers of the mesh's items in the whole mesh."""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.turbulence import fluctuation_size
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces
 from foamprb.flow.mesh.arrays import MeshArrays
@@ -26,6 +27,10 @@ from foamprb.flow.walls import Walls, images_of_walls, walls_at
 
 _ASIDE = 0.1
 """Distance up to which walls of other nodes are held at the start, over the diagonal of a node's cells."""
+
+
+_LARGEST_EDDY = 5.0
+"""Largest velocity of an eddy, in standard deviations, for which the layers are meant."""
 
 
 class PartFlow(MeshFlow):
@@ -215,6 +220,7 @@ class PartFlow(MeshFlow):
                 if name in held:
                     # Readers of further times hold the same mesh.
                     setattr(self.mesh, name, moved[name])
+        self.field_table = place(self.field_table)
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """See :meth:`MeshFlow.at_nodes`."""
@@ -258,6 +264,19 @@ class PartFlow(MeshFlow):
         rows, hosts = self.own_hosts(numbers)
         return rows, *self.sample(points[rows], hosts, t)
 
+    def viscosities_of_own(self, points: Floats, numbers: Labels, t: float) -> tuple[Index, Floats]:
+        """Return which hosts, by their numbers, are own ones, and :meth:`viscosity` there."""
+        rows, hosts = self.own_hosts(numbers)
+        return rows, self.viscosity(points[rows], hosts, t)
+
+    def fields_of_own(
+        self, points: Floats, numbers: Labels, t: Floats, start: float, end: float
+    ) -> tuple[Index, Floats]:
+        """Return which hosts are own ones, and the fields there at times t, from ``start`` to ``end``."""
+        rows, hosts = self.own_hosts(numbers)
+        found = self.fields(start, end).at(points[rows], hosts, t[rows])
+        return rows, np.concatenate([field.values for field in found.values()], axis=1)
+
     def cell_sizes_of_own(self, numbers: Labels) -> tuple[Index, Floats]:
         """Return which hosts, by their numbers, are own ones, and :meth:`cell_size` there."""
         rows, hosts = self.own_hosts(numbers)
@@ -274,42 +293,55 @@ class PartFlow(MeshFlow):
         rows, hosts = self.own_hosts(numbers)
         return rows, self._vertices(hosts)
 
-    def nodes_of_own(self, stride: int) -> tuple[Labels, Floats, Floats]:
-        """Return numbers, velocities and gradients of some nodes of own cells.
+    def nodes_of_own(self, stride: int) -> tuple[Labels, Floats]:
+        """Return numbers of some nodes of own cells, and values there.
 
-        Every ``stride``-th node in the order of the whole mesh is chosen, and here the ones with the largest
-        and smallest speeds and shear rates.
+        These are the velocity, its gradient, and turbulence and viscosity if they were read. Every
+        ``stride``-th node in the order of the whole mesh is chosen, and here the ones with the largest and
+        smallest speed, shear rate and further values.
         """
         part, mesh = self.halo.part, self.mesh
-        n_points = self.counts[1]
+        n_points, n = self.counts[1], mesh.n_points + mesh.n_cells
         at_points = np.zeros(mesh.n_points, dtype=bool)
         at_points[mesh.cell_points[np.repeat(part.own, np.diff(mesh.cell_point_start))]] = True
         rows = np.concatenate([np.flatnonzero(at_points), mesh.n_points + np.flatnonzero(part.own)])
         numbers = np.concatenate([part.points, n_points + part.cells])[rows]
         _, u, l = self.at_nodes()
-        speeds = np.linalg.norm(u[rows], axis=1)
-        rates = np.linalg.norm((l + l.reshape(-1, 3, 3).transpose(0, 2, 1).reshape(-1, 9))[rows], axis=1)
-        ends = [f(values) for values in (speeds, rates) for f in (np.argmin, np.argmax)]
+        further = [
+            values for values in (self.turbulence_at_nodes(), self.viscosity_at_nodes()) if len(values)
+        ]
+        table = np.concatenate([u, l, *(values[:n].reshape(n, -1) for values in further)], axis=1)[rows]
+        l = table[:, 3:12]
+        speeds = np.linalg.norm(table[:, :3], axis=1)
+        rates = np.linalg.norm(l + l.reshape(-1, 3, 3).transpose(0, 2, 1).reshape(-1, 9), axis=1)
+        ends = [f(values) for values in (speeds, rates, *table[:, 12:].T) for f in (np.argmin, np.argmax)]
         chosen = np.union1d(np.flatnonzero(numbers % stride == 0), ends)
-        return numbers[chosen], u[rows[chosen]], l[rows[chosen]]
+        return numbers[chosen], table[chosen]
 
     @property
     def rate(self) -> float:
         """Largest number of own cells that the fluid passes in a time, 1/s."""
-        return self._rate_of(self.at_nodes()[1])
+        return self._rate_of(self.at_nodes()[1], self.turbulence_at_nodes())
 
-    def _rate_of(self, u: Floats) -> float:
+    def _rate_of(self, u: Floats, turbulence: Floats) -> float:
         """Return the largest flux through a face over the volume, of own cells, 1/s.
 
-        The velocity in a cell is that at its centre, in the last rows of ``u`` (n, 3).
+        The velocity in a cell is that at its centre, in the last rows of ``u`` (n, 3), and that of eddies in
+        any direction, from the same rows of ``turbulence`` (n, 8), if there are any.
         """
         mesh, part = self.mesh, self.halo.part
         of_cells = mesh.cell_face_start, mesh.cell_faces
         faces = Faces(mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour, *of_cells)
         areas, u = measured(mesh.points, faces)[1], u[mesh.n_points :]
+        eddies = np.zeros(mesh.n_cells)
+        if len(turbulence):
+            k, drift = turbulence[mesh.n_points :, 0], turbulence[mesh.n_points :, 5:]
+            eddies = _LARGEST_EDDY * fluctuation_size(np.maximum(k, 0.0)) + np.linalg.norm(drift, axis=1)
         most = np.zeros(mesh.n_cells)
         for cells in (mesh.owner, mesh.neighbour):
-            passed = np.abs(np.einsum("fi,fi->f", areas[: len(cells)], u[cells]))
+            across = areas[: len(cells)]
+            passed = np.abs(np.einsum("fi,fi->f", across, u[cells]))
+            passed += np.linalg.norm(across, axis=1) * eddies[cells]
             np.maximum.at(most, cells, passed)
         return float((most / mesh.volumes)[part.own].max(initial=0.0))
 
@@ -364,7 +396,8 @@ class PartSeries(PartFlow, SeriesFlow):
     def _fetch(self, index: int) -> None:
         super()._fetch(index)
         if index not in self._rates:
-            self._rates[index] = self._rate_of(self._fields[self._in_memory[index], :, :3])
+            fields = self._fields[self._in_memory[index]]
+            self._rates[index] = self._rate_of(*self._velocity_and_turbulence(fields))
 
     def _take(self, index: int) -> tuple[Any, ...]:
         """Read the fields at a time; nodes exchange values meanwhile."""

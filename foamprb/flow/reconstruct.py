@@ -138,6 +138,12 @@ class Reconstruction:
         if self._halo is not None:
             self._halo.fill(kind, values)
 
+    def ends(self, values: Floats) -> tuple[float, float]:
+        """Return the least and the largest of some values of all nodes of a run."""
+        own = float(values.min(initial=np.inf)), float(values.max(initial=-np.inf))
+        lows, highs = zip(*self._halo.of_all(own), strict=True) if self._halo else ((own[0],), (own[1],))
+        return min(lows), max(highs)
+
     def _norm(self, values: Floats) -> float:
         """Return the norm of values at the cells."""
         squares = np.einsum("ci,ci->c", values.reshape(len(values), -1), values.reshape(len(values), -1))

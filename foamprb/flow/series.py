@@ -68,29 +68,6 @@ class SeriesArrays(NamedTuple):
     """(rows, 4) as that of :class:`MeshArrays`, time by time; no rows for none."""
 
 
-class Loaded(NamedTuple):
-    """Fields at the loaded times."""
-
-    times: Floats
-    """(n,) rising, s."""
-    rows: NDArray[np.int64]
-    """(n,) 64-bit, row of the following arrays with the fields of each time."""
-    slack: float
-    """See :class:`SeriesArrays`."""
-    fields: Floats
-    """(n or more, n_nodes, columns); see :class:`SeriesArrays`."""
-    correction: NDArray[np.float32]
-    """(n or more, n_tets, 4)."""
-
-    def on(self, mesh: MeshArrays) -> SeriesArrays:
-        """Return the arrays for the kernels."""
-        (_, nodes, columns), tets = self.fields.shape, self.correction.shape[1]
-        fields, correction = self.fields.reshape(-1, columns), self.correction.reshape(-1, 4)
-        return SeriesArrays(
-            mesh, self.times, self.rows * nodes, fields, self.slack, self.rows * tets, correction
-        )
-
-
 def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
     """Return u + c (m/s), l_ij = ∂u_i/∂x_j (1/s) and ∂u/∂t − l·c (m/s²), linear in t.
 
@@ -290,7 +267,7 @@ class SeriesFlow(Timeline, MeshFlow):
         self._set_times(times, period)
         self._read, self._keep = read, keep
         self._names = names if names is not None else []
-        self._turbulent = turbulent
+        self._turbulent, self._viscous = turbulent, viscous
         self.field_columns = tuple(sampled)
         self.field_table: NDArray[np.float64] = np.empty((0, nodes, width(sampled)))
         self._fields = np.empty((0, nodes, _width(turbulent, viscous)))
@@ -353,14 +330,22 @@ class SeriesFlow(Timeline, MeshFlow):
         seen: Sequence[int] = (),
     ) -> SeriesArrays:
         """Return the arrays for the kernels at the times loaded last; see :meth:`MeshFlow.arrays`."""
-        return self.loaded().on(super().arrays(reach, touchable, sight, seen))
+        return self.loaded()._replace(mesh=super().arrays(reach, touchable, sight, seen))
 
-    def loaded(self) -> Loaded:
-        """Return the fields at the times loaded last."""
-        rows = [self._in_memory[self._index(level)] for level in self._levels]
+    def loaded(self) -> SeriesArrays:
+        """Return the arrays at the times loaded last, without a mesh."""
+        nodes, tets = self._fields.shape[1], self._corrections.shape[1]
+        places = np.array([self._in_memory[self._index(level)] for level in self._levels], dtype=np.int64)
         times = np.array([self._time_of(level) for level in self._levels])
-        slack = self._slack(float(times.max(initial=self.times[0])))
-        return Loaded(times, np.array(rows, dtype=np.int64), slack, self._fields, self._corrections)
+        return SeriesArrays(
+            no_mesh(),
+            times,
+            places * nodes,
+            self._fields.reshape(-1, self._fields.shape[2]),
+            self._slack(float(times.max(initial=self.times[0]))),
+            places * tets,
+            self._corrections.reshape(-1, 4),
+        )
 
     def _first(self) -> Floats:
         """Return the fields (n_nodes, 12 or 20) at the first time."""
@@ -375,9 +360,12 @@ class SeriesFlow(Timeline, MeshFlow):
 
     def turbulence_at_nodes(self) -> Floats:
         """Return k, ε, ∇k and ∇(k²/3ε) (n, 8) at all nodes at the first time; no rows if not read."""
-        if not self._turbulent:
-            return np.empty((0, _OF_TURBULENCE))
-        return self._first()[:, _OF_VELOCITY : _OF_VELOCITY + _OF_TURBULENCE]
+        return self._velocity_and_turbulence(self._first())[1]
+
+    def _velocity_and_turbulence(self, fields: Floats) -> tuple[Floats, Floats]:
+        """Return these columns of the fields at a time; no rows of turbulence if it was not read."""
+        turbulence = fields[:, _OF_VELOCITY : _OF_VELOCITY + _OF_TURBULENCE]
+        return fields[:, :3], turbulence if self._turbulent else np.empty((0, _OF_TURBULENCE))
 
     def viscosity(self, points: Floats, hosts: Ints, t: float) -> Floats:
         """Load time t and sample there; see :meth:`MeshFlow.viscosity` and :meth:`load`."""
@@ -386,11 +374,15 @@ class SeriesFlow(Timeline, MeshFlow):
 
     def viscosity_at_nodes(self) -> Floats:
         """Return the field of the viscosity at all nodes at the first time, as it was read, (n,)."""
-        return self._first()[:, -_OF_VISCOSITY]
+        return self._first()[:, -_OF_VISCOSITY] if self._viscous else np.empty(0)
 
     def fields(self, start: float, end: float) -> Fields:
         """Load times and return the fields that are sampled; see :meth:`MeshFlow.fields` and :meth:`load`."""
         self.load(start, end)
+        return self.loaded_fields()
+
+    def loaded_fields(self) -> Fields:
+        """See :meth:`MeshFlow.loaded_fields`; at the times loaded last."""
         nodes = self.field_table.shape[1]
         first = [self._in_memory[self._index(level)] * nodes for level in self._levels]
         times = [self._time_of(level) for level in self._levels]
@@ -409,16 +401,18 @@ class SeriesFlow(Timeline, MeshFlow):
         """
         first = self._first()
         times = self.times[: 1 if self.period is None else None]
-        row = self._in_memory[0]
-        sampled = {"sampled": self._node_sums(self.field_table[row])} if self.field_columns else {}
         return {
             **super().traits(),
             "times": times,
             "period": self.period or 0.0,
             "fields": self._node_sums(first),
-            "correction": self._tet_sums(self._corrections[row]),
-            **sampled,
+            "correction": self._tet_sums(self._corrections[self._in_memory[0]]),
         }
+
+    @property
+    def _first_table(self) -> Floats:
+        table: Floats = self.field_table[self._in_memory[0]]
+        return table
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """Load time t and sample there; see :meth:`MeshFlow.sample` and :meth:`load`."""

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.fields import FieldColumns, FieldValues, by_name, width
 from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import find_file
@@ -31,6 +32,21 @@ Summaries: TypeAlias = Sequence[Summary | None]
 OpenParts: TypeAlias = Callable[[int], Summaries]
 _MOST_NODES = 1_000_000
 """Number of nodes up to which :meth:`DistributedFlow.at_nodes` returns all."""
+
+
+class DistributedFields(NamedTuple):
+    """Fields of which every node holds a part; see :class:`foamprb.flow.fields.Fields`."""
+
+    ask: Callable[..., list[NDArray[Any]]]
+    columns: tuple[FieldColumns, ...]
+    start: float
+    end: float
+
+    def at(self, points: Floats, hosts: NDArray[Any], t: ArrayLike) -> dict[str, FieldValues]:
+        """See :meth:`foamprb.flow.fields.Fields.at`."""
+        empty, times = np.full((len(points), width(self.columns)), np.nan), np.broadcast_to(t, len(points))
+        values = self.ask("fields_of_own", [empty], points, hosts, times, self.start, self.end)[0]
+        return by_name(values, self.columns)
 
 
 class WholeCounts(NamedTuple):
@@ -53,14 +69,8 @@ def why_whole(case: Path, times: FlowTimes, source: FlowSource, nodes: int) -> s
     names = opened.select_times(times.several) if times.transient else [opened.select_time(times.steady)]
     if not all(keeps_volume(case, source.region, opened.folder(name)) for name in names):
         return "its density may vary"
-    if source.turbulent:
-        return "a dispersionModel reads the turbulence"
     if source.relative and find_file(case, source.region, "MRFProperties") is not None:
         return "it has rotating zones (MRFProperties)"
-    if source.viscosity is not None:
-        return "the viscosity is a field"
-    if source.sampled:
-        return "fieldSampling reads fields"
     return None
 
 
@@ -86,7 +96,6 @@ class DistributedFlow:
     nothing: Callable[[], Any] = staticmethod(MeshFlow.nothing)
     lists_walls = True
     span = (-math.inf, math.inf)
-    field_columns = ()
 
     def __init__(
         self, order: Callable[..., list[Any]], open_parts: OpenParts, step: float, summaries: Summaries
@@ -104,6 +113,7 @@ class DistributedFlow:
             first.notes,
         )
         self.mesh = WholeCounts(first.counts[0], first.counts[1], range(first.counts[2]))
+        self.field_columns = first.columns
 
     def _deepen(self, layers: int) -> None:
         """Let all nodes read their parts with more layers, until no body crosses them in a step."""
@@ -202,20 +212,38 @@ class DistributedFlow:
         """Return the vertices of tetrahedra, (n, 4, 3), m."""
         return self._ask_own("vertices_of_own", [np.empty((len(hosts), 4, 3))], hosts)[0]
 
-    def at_nodes(self) -> tuple[str, Floats, Floats]:
-        """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at the nodes.
+    def viscosity(self, points: Floats, hosts: NDArray[Any], t: float) -> Floats:
+        """Return the field of the viscosity at points (n, 3) in hosts (n,) at t, s, as it was read, (n,)."""
+        return self._ask_own("viscosities_of_own", [np.full(len(points), np.nan)], points, hosts, t)[0]
+
+    def fields(self, start: float, end: float) -> DistributedFields:
+        """Return the fields that are sampled, from time ``start`` to ``end``, s."""
+        return DistributedFields(self._ask_own, self.field_columns, start, end)
+
+    def _at_nodes(self) -> Floats:
+        """Return the values at nodes; see :meth:`foamprb.flow.partflow.PartFlow.nodes_of_own`.
 
         In a large mesh these are some nodes, among them the extreme ones of each part.
         """
         stride = 1 + (self.mesh.n_cells + self.mesh.n_points) // _MOST_NODES
-        parts = self._ask("nodes_of_own", stride)
-        _, first = np.unique(np.concatenate([numbers for numbers, *_ in parts]), return_index=True)
-        u, l = (np.concatenate([part[k] for part in parts])[first] for k in (1, 2))
-        return self.summaries[0].time, u, l
+        numbers, tables = zip(*self._ask("nodes_of_own", stride), strict=True)
+        _, first = np.unique(np.concatenate(numbers), return_index=True)
+        table: Floats = np.concatenate(tables)[first]
+        return table
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at nodes."""
+        table = self._at_nodes()
+        return self.summaries[0].time, table[:, :3], table[:, 3:12]
 
     def turbulence_at_nodes(self) -> Floats:
-        """Return no rows: the turbulence stays with the nodes."""
-        return np.empty((0, 8))
+        """Return k, ε, ∇k and ∇(k²/3ε) at nodes, (n, 8); no rows if they were not read."""
+        found = self._at_nodes()[:, 12:20]
+        return found if found.shape[1] == 8 else found[:0]
+
+    def viscosity_at_nodes(self) -> Floats:
+        """Return the field of the viscosity at nodes, as it was read, (n,)."""
+        return self._at_nodes()[:, -1]
 
     def normals_of(self, particles: NDArray[np.int64]) -> Floats:
         """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""

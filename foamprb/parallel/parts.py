@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
+from foamprb.flow.fields import FieldColumns, Fields
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.fragment import Labels, Team
 from foamprb.flow.mesh.lists import Index
@@ -18,7 +19,7 @@ from foamprb.flow.partflow import PartFlow, PartSeries
 from foamprb.flow.read.openfoam import flow_of
 from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.flow.series import Loaded
+from foamprb.flow.series import SeriesArrays
 from foamprb.memory import returned_at_once
 from foamprb.parallel.shared_memory import Publisher, Windows, wait_for_all
 
@@ -65,6 +66,14 @@ class Shared(NamedTuple):
 
     flow: MeshArrays
     places: PlacesInWhole
+    sampled: Fields
+
+
+class SharedAtTimes(NamedTuple):
+    """Arrays that the processes of a node share, at the loaded times."""
+
+    flow: SeriesArrays
+    sampled: Fields
 
 
 class Summary(NamedTuple):
@@ -82,8 +91,8 @@ class Summary(NamedTuple):
     """Number of cells, with those of other nodes."""
     rate: float
     """Largest velocity over the width of a cell, 1/s."""
-    size: float
-    """Sum of squares of the velocities at the cells, m²/s²."""
+    columns: tuple[FieldColumns, ...]
+    """Fields that are sampled."""
     time: str
     """Name of the first time."""
     times: tuple[float, ...]
@@ -93,11 +102,11 @@ class Summary(NamedTuple):
 
 def summary_of(flow: PartFlow) -> Summary:
     """Return the summary of a part; all nodes call it together."""
-    halo, (time, u, _) = flow.halo, flow.at_nodes()
-    own, speeds = halo.part.own, np.einsum("ci,ci->c", *2 * (u[flow.mesh.n_points :],))
+    halo, time = flow.halo, flow.at_nodes()[0]
+    own = halo.part.own
     return Summary(
-        flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts,
-        int(own.sum()), len(own), max(halo.of_all(flow.rate)), halo.total(speeds), time,
+        flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts, int(own.sum()), len(own),
+        max(halo.of_all(flow.rate)), flow.field_columns, time,
         *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
     )  # fmt: skip
 
@@ -123,7 +132,9 @@ class Part:
         """On the first process of a node."""
         self.number: int = windows.node.bcast(self._team.rank if self._team else None)
         """Number of this node."""
-        self._loaded: Loaded | None = None
+        self.sampled: Fields | None = None
+        """Fields that are sampled."""
+        self._loaded: SeriesArrays | None = None
         self.torn = False
         """True while the processes of the node might not agree on what comes next."""
 
@@ -152,7 +163,7 @@ class Part:
     @property
     def arrays(self) -> Any:
         """Return the arrays for the kernels; see :meth:`foamprb.flow.base.Flow.arrays`."""
-        return self.mesh if self._loaded is None else self._loaded.on(self.mesh)
+        return self.mesh if self._loaded is None else self._loaded._replace(mesh=self.mesh)
 
     def open(
         self, root: Path, region: str, times: FlowTimes, source: FlowSource, depth: int
@@ -180,11 +191,12 @@ class Part:
         def place(_: MpiTeam) -> Any:
             assert self.flow is not None
             places = PlacesInWhole(*self.flow.places_in_whole())
-            placed = self._publisher.replace(Shared(self.flow.in_space(*walls), places))
+            sampled = self.flow.loaded_fields()
+            placed = self._publisher.replace(Shared(self.flow.in_space(*walls), places, sampled))
             self.flow.forget_walls()
             return placed
 
-        self.mesh, self.places = self.shared.find(self._tell(self._lead(place)))
+        self.mesh, self.places, self.sampled = self.shared.find(self._tell(self._lead(place)))
         return self.size
 
     def load(self, start: float, end: float) -> tuple[float, float] | None:
@@ -198,10 +210,11 @@ class Part:
         def load(_: MpiTeam) -> tuple[tuple[float, float], Any]:
             assert isinstance(self.flow, PartSeries)
             until = self.flow.load(start, end)
-            return (until, self.flow.rate), self._publisher.renew(self.flow.loaded())
+            now = SharedAtTimes(self.flow.loaded(), self.flow.loaded_fields())
+            return (until, self.flow.rate), self._publisher.renew(now)
 
         found, placed = self._tell(self._lead(load))
-        self._loaded = self.shared.find(placed)
+        self._loaded, self.sampled = self.shared.find(placed)
         return found if self._leads else None
 
     def ask(self, name: str, *arguments: Any) -> Any:

@@ -29,6 +29,7 @@ class Place(NamedTuple):
     """Stands for an array in shared memory where the array itself would be."""
 
     key: int
+    shape: tuple[int, ...]
 
 
 class Windows:
@@ -95,7 +96,10 @@ class Windows:
 
     def find(self, tree: Any) -> Any:
         """Return a tuple, and those in it, with this process' arrays for the places that stand for them."""
-        return _map(tree, lambda leaf: self.arrays[leaf.key] if isinstance(leaf, Place) else leaf)
+        return _map(
+            tree,
+            lambda leaf: self.arrays[leaf.key].reshape(leaf.shape) if isinstance(leaf, Place) else leaf,
+        )
 
 
 class Publisher:
@@ -114,8 +118,8 @@ class Publisher:
         self._next = 0
         self._sources: dict[int, Array] = {}
         """Arrays from which the windows were filled."""
-        self._own: dict[tuple[int, tuple[int, ...], str], int] = {}
-        """Windows that take the place of their sources, by where they are."""
+        self._own: dict[tuple[int, int], int] = {}
+        """Windows that take the place of their sources, by their addresses and bytes."""
         self._small = b""
         self._placed: list[int] = []
         """Windows filled by the last :meth:`replace`."""
@@ -130,14 +134,14 @@ class Publisher:
 
         If it changes, :meth:`renew` lets the others see it.
         """
-        before = None if old is None else self._own.pop(_where(old), None)
+        before = None if old is None else self._own.pop(_extent(old), None)
         if before is not None:
             self._order("free", before)
         if not _is_large(array):
             return array
         key = self._fill_new(array)
         moved = self._windows.arrays[key]
-        self._own[_where(moved)] = key
+        self._own[_extent(moved)] = key
         return moved
 
     def replace(self, tree: Any) -> Any:
@@ -152,11 +156,11 @@ class Publisher:
         def place(leaf: Any) -> Any:
             if not _is_large(leaf):
                 return leaf
-            key = self._own.get(_where(leaf))
+            key = self._own.get(_extent(leaf))
             if key is None:
                 key = self._fill_new(leaf)
                 self._placed.append(key)
-            return Place(key)
+            return Place(key, leaf.shape)
 
         placed = _map(tree, place)
         for key in before:
@@ -167,11 +171,11 @@ class Publisher:
         """Return a tuple with a :class:`Place` for each array that was moved and may have changed."""
 
         def place(leaf: Any) -> Any:
-            key = self._own.get(_where(leaf)) if _is_large(leaf) else None
+            key = self._own.get(_extent(leaf)) if _is_large(leaf) else None
             if key is None:
                 return leaf
             self._order("spread", key)
-            return Place(key)
+            return Place(key, leaf.shape)
 
         return _map(tree, place)
 
@@ -191,11 +195,11 @@ class Publisher:
         def place(leaf: Any) -> Any:
             if not _is_large(leaf):
                 return leaf
-            key = self._own.get(_where(leaf))
+            key = self._own.get(_extent(leaf))
             if key is None:
                 key = self._update(leaf, changed)
                 used.add(key)
-            return Place(key)
+            return Place(key, leaf.shape)
 
         placed = _map(tree, place)
         for key in set(self._sources) - used:
@@ -233,6 +237,10 @@ def wait_for_all(comm: Any) -> None:
 
 def _is_large(leaf: Any) -> bool:
     return isinstance(leaf, np.ndarray) and leaf.nbytes >= _SMALLEST
+
+
+def _extent(array: Array) -> tuple[int, int]:
+    return array.__array_interface__["data"][0], array.nbytes
 
 
 def _where(array: Array) -> tuple[int, tuple[int, ...], str]:

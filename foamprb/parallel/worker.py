@@ -258,7 +258,7 @@ class Worker:
     def share_part(self, *walls: Any) -> int:
         """Place the arrays of the node's flow, with some walls, in its memory; return bytes shared once."""
         size = self._held.share(*walls)
-        self._flow = self._held.arrays
+        self._flow, self._sampled = self._held.arrays, self._held.sampled
         if self._hosts is not None:
             self.particles.host[:], self._hosts = self._held.hosts_of(self._hosts), None
         return size if self.windows.node.rank == 0 else 0
@@ -266,7 +266,7 @@ class Worker:
     def load_part(self, start: float, end: float) -> tuple[float, float] | None:
         """Load a flow that changes; see :meth:`Part.load`."""
         found = self._held.load(start, end)
-        self._flow = self._held.arrays
+        self._flow, self._sampled = self._held.arrays, self._held.sampled
         return found
 
     def node_number(self) -> int:

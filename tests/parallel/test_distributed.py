@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from foam_writer import decompose, write_case
+from foam_writer import decompose, header, write_case
 from threads_team import together
 from transient_case import scaled
 
 from foamprb.errors import InputError
 from foamprb.flow.read.decomposed import DecomposedCase
+from foamprb.flow.read.fluid import _NU, ViscosityField
+from foamprb.flow.read.foamfile import FoamFile
 from foamprb.flow.read.openfoam import flow_of, steady_flow
 from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
@@ -32,11 +34,11 @@ def whole(case):
     return steady_flow(DecomposedCase(case), "1", FlowSource())
 
 
-def distributed(case, times):
+def distributed(case, times, source=FlowSource()):  # noqa: B008
     """The flow of two nodes, which carry out orders together."""
 
     def read(team):
-        part = flow_of(PartCase(case, "", team, 1), times, FlowSource())
+        part = flow_of(PartCase(case, "", team, 1), times, source)
         return part, summary_of(part)
 
     found = together(2, read)
@@ -114,6 +116,36 @@ def test_a_flow_in_time_is_that_of_the_whole(period, case, random):
     assert flow.times_within(-1.0, 9.0)[:2] == [0.0, 1.0]
 
 
+@pytest.mark.parametrize("times", [FlowTimes("1"), FlowTimes(None, True)])
+def test_further_fields_are_those_of_the_whole(times, case, random):
+    for name, unit in (
+        ("k", "[0 2 -2 0 0 0 0]"),
+        ("epsilon", "[0 2 -3 0 0 0 0]"),
+        ("nu", "[0 2 -1 0 0 0 0]"),
+    ):
+        for folder in case.glob("processor*/[01]"):
+            cells = 1.0 + FoamFile(folder.parent / "constant/polyMesh/cellProcAddressing").labels()
+            (folder / name).write_text(
+                f"{header('volScalarField', name)} dimensions {unit};\n"
+                f"internalField nonuniform List<scalar> {len(cells)} ({' '.join(map(str, cells))});\n"
+                'boundaryField { ".*" { type zeroGradient; } }\n'
+            )
+    source = FlowSource(turbulent=True, viscosity=ViscosityField("nu", _NU, 1.0), sampled=("k", "U"))
+    whole, flow = flow_of(DecomposedCase(case), times, source), distributed(case, times, source)
+    x = random.uniform(0.0, 1.0, (100, 3))
+    hosts = flow.locate(x)
+    np.testing.assert_array_equal(flow.viscosity(x, hosts, 0.5), whole.viscosity(x, hosts, 0.5))
+    np.testing.assert_array_equal(flow.viscosity_at_nodes(), whole.viscosity_at_nodes())
+    np.testing.assert_array_equal(flow.turbulence_at_nodes(), whole.turbulence_at_nodes())
+    found, expected = (own.fields(0.4, 0.5).at(x, hosts, 0.5) for own in (flow, whole))
+    assert list(found) == ["k", "U"]
+    for name, field in expected.items():
+        np.testing.assert_array_equal(found[name].values, field.values)
+    assert_alike(flow.traits(), whole.traits())
+    # Eddies make bodies faster.
+    assert flow.rate > distributed(case, times).rate
+
+
 def test_an_error_on_one_node_is_raised_on_all():
     def read(team):
         with team.united():
@@ -135,8 +167,6 @@ def test_an_error_on_one_node_is_raised_on_all():
         ({}, 2, "it is not decomposed"),
         ({"decomposed": True}, 2, None),
         ({"decomposed": True}, 3, "the case has 2 processor folders for 3 nodes"),
-        ({"decomposed": True, "turbulent": True}, 2, "a dispersionModel reads the turbulence"),
-        ({"decomposed": True, "sampled": ("p",)}, 2, "fieldSampling reads fields"),
     ],
 )
 def test_the_reason_for_a_whole_mesh_is_given(changes, nodes, reason, case):

@@ -253,9 +253,9 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
     viscosity = more[-1] if source.viscosity else None
     given = whole.mesh, u, l, notes, zones, name, turbulence, correction, viscosity
-    if case.halo is not None:
-        return PartFlow(case.halo, *given)
-    flow = RotatingFlow(rotating, *given) if rotating else MeshFlow(*given)
+    flow = MeshFlow(*given) if case.halo is None else PartFlow(case.halo, *given)
+    if rotating:
+        flow = RotatingFlow(rotating, *given)
     if sampled is not None:
         flow.field_table, flow.field_columns = sampled
     return flow

@@ -95,8 +95,7 @@ def read_sampled(
         at_nodes = reconstruct.linear(cells, boundary).reshape(-1, cells[0].size)
         if cells.ndim == 1:
             # Beside a front the extrapolation to a wall would go below zero, or above a fraction of one.
-            given = np.concatenate([cells, boundary])
-            at_nodes = at_nodes.clip(given.min(), given.max())
+            at_nodes = at_nodes.clip(*reconstruct.ends(np.concatenate([cells, boundary])))
         table = at_nodes[:, _SIX] if kind.inner == "symmTensor" else at_nodes
         tables.append(table)
         columns.append(FieldColumns(name, table.shape[1], unit_text(field.dimensions)))

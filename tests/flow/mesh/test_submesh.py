@@ -74,6 +74,8 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random):
     cells = np.stack([np.sin(3 * y) + x * z, np.cos(2 * x) * z, y * y - x], axis=1)
     boundary = np.where(mesh.boundary_areas[:, :1] > 0.0, 0.1 * mesh.boundary_centres, 0.0)
     u, l = Reconstruction(mesh)(cells, boundary)
+    positive = np.exp(cells), np.exp(boundary)
+    scalars, linear = Reconstruction(mesh).scalars(*positive)[0], Reconstruction(mesh).linear(*positive)
     conserve = Conservation(mesh)
     correction = conserve(u, l)
     flow = MeshFlow(mesh, u, l, correction=correction)
@@ -94,7 +96,10 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random):
         faces = sub.faces[sub.mesh.n_internal :][: sub.mesh.patch_start[-2]] - sub.n_internal
         on_faces = np.zeros((len(sub.mesh.boundary_centres), 3))
         on_faces[: len(faces)] = boundary[faces]
-        u, l = Reconstruction(sub.mesh, halo=halo)(own_cells, on_faces)
+        reconstruct = Reconstruction(sub.mesh, halo=halo)
+        u, l = reconstruct(own_cells, on_faces)
+        at_points = reconstruct.scalars(np.exp(own_cells), np.exp(on_faces))[0]
+        also = reconstruct.linear(np.exp(own_cells), np.exp(on_faces))
         conserve = Conservation(sub.mesh, halo=halo)
         correction = conserve(u, l)
         part = PartFlow(halo, sub.mesh, u, l, correction=correction)
@@ -106,20 +111,20 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random):
         np.testing.assert_array_equal(gaps_at(arrays, points[found], local, 0.1 * reach), gaps[found])
         sampled = part.sample(points[found], local, 0.0)[0]
         np.testing.assert_array_equal(sampled, flow.sample(points[found], hosts[found], 0.0)[0])
-        return sub, u, l, correction, conserve.unbalanced, found, numbers
+        return sub, (u, l, at_points, also), correction, conserve.unbalanced, found, numbers
 
     results = together(3, work)
     located = np.concatenate([found for *_, found, _ in results])
     np.testing.assert_array_equal(np.sort(located), np.flatnonzero(hosts >= 0))
     np.testing.assert_array_equal(np.concatenate([numbers for *_, numbers in results]), hosts[located])
-    for sub, u_part, l_part, c_part, left, _, _ in results:
+    for sub, parts_of, c_part, left, _, _ in results:
         n, inner = sub.mesh.n_points, sub.layer <= 2
         nodes = np.concatenate([sub.points, mesh.n_points + sub.cells])
         of_inner = sub.mesh.cell_points[np.repeat(inner, np.diff(sub.mesh.cell_point_start))]
         some = np.concatenate([np.unique(of_inner), n + np.flatnonzero(inner)])
         np.testing.assert_array_equal(sub.mesh.nodes[some], mesh.nodes[nodes][some])
-        np.testing.assert_array_equal(u_part[some], u[nodes][some])
-        np.testing.assert_array_equal(l_part[some], l[nodes][some])
+        for own, whole in zip(parts_of, (u, l, scalars, linear), strict=True):
+            np.testing.assert_array_equal(own[some], whole[nodes][some])
         tets = np.concatenate([np.arange(*mesh.cell_start[c : c + 2]) for c in sub.cells[inner]])
         own = np.concatenate([np.arange(*sub.mesh.cell_start[c : c + 2]) for c in np.flatnonzero(inner)])
         np.testing.assert_array_equal(nodes[sub.mesh.tets[own]], mesh.tets[tets])
