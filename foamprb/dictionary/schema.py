@@ -10,6 +10,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import MISSING, Field, fields
+from functools import cache
 from types import NoneType, UnionType
 from typing import (
     Annotated,
@@ -35,6 +36,7 @@ __all__ = [
     "Instead",
     "Schema",
     "allowed",
+    "hints_of",
     "members",
     "names_of",
     "note_of",
@@ -92,7 +94,7 @@ def read_entries(schema: type[S], dictionary: Dictionary, also: Iterable[str] = 
         If entries are unknown, missing or invalid, with all of them; or if the schema raises it because
         entries contradict each other.
     """
-    hints = get_type_hints(schema, include_extras=True)
+    hints = hints_of(schema)
     known = {*names_of(schema), *also}
     # Entries without effect are read, but never suggested.
     idle = {name for name, hint in hints.items() if isinstance(_kind(hint)[1], NoEffect)}
@@ -117,6 +119,12 @@ def read_entry(dictionary: Dictionary, key: str, hint: Any) -> Any:
     if key not in dictionary.entries:
         raise dictionary.missing(key, allowed(hint))
     return _convert(dictionary.entries[key], hint)
+
+
+@cache
+def hints_of(schema: type) -> dict[str, Any]:
+    """Return the hints of the entries that a schema declares, with their notes."""
+    return get_type_hints(schema, include_extras=True)
 
 
 def names_of(schema: type[Schema]) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import as_slice, path_stokes_number, shear_rate_at
 from foamprb.cloud.state import Particles
 from foamprb.cloud.viscosity import medium_at, viscosity_at_nodes
+from foamprb.flow.base import Flow
 
 STEADY_CAPILLARY = 0.3
 """Approximate largest μ_f γ̇/μ_s at which a neo-Hookean sphere has a steady shape in uniaxial extension."""
@@ -50,8 +51,30 @@ class Groups(NamedTuple):
     """Share of the flow in which the softest particle has no steady shape; see :func:`_extending`."""
 
 
-def groups(cloud: Cloud, injector: int) -> Groups:
-    """Return the dimensionless groups of the particles that one injection model releases."""
+def extension_rates(flow: Flow) -> NDArray[np.float64]:
+    """Return the rate of extension at some nodes: the largest real part of the eigenvalues of ∇u, 1/s.
+
+    It is zero in simple shear, where every solid has a steady shape.
+    """
+    gradient = _at_some_nodes(flow.at_nodes()[2])
+    rates: NDArray[np.float64] = np.linalg.eigvals(gradient.reshape(-1, 3, 3)).real.max(axis=1)
+    return rates
+
+
+def _at_some_nodes(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    return values[:: max(1, len(values) // _MOST_NODES)]
+
+
+def groups(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> Groups:
+    """Return the dimensionless groups of the particles that one injection model releases.
+
+    Parameters
+    ----------
+    cloud, injector
+        The cloud, and the index of the injection model.
+    extension
+        :func:`extension_rates` of the flow.
+    """
     rows = np.flatnonzero(cloud.particles.injector == injector)
     # Part by part: a copy of all particles would double the memory.
     chosen = (as_slice(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK))
@@ -61,7 +84,7 @@ def groups(cloud: Cloud, injector: int) -> Groups:
     rate, capillary, reynolds, stokes, step, size, path, stiffness = (
         (float(low), float(high)) for low, high in zip(lowest, largest, strict=True)
     )
-    extending = _extending(cloud, rows)
+    extending = _extending(cloud, rows, extension)
     return Groups(len(rows), rate, capillary, reynolds, stokes, step, size, path, stiffness, extending)
 
 
@@ -87,29 +110,25 @@ def _range(values: NDArray[np.float64]) -> tuple[float, float]:
     return float(values.min()), float(values.max())
 
 
-def _extending(cloud: Cloud, rows: NDArray[np.intp]) -> float:
+def _extending(cloud: Cloud, rows: NDArray[np.intp], extension: NDArray[np.float64]) -> float:
     """Return the share of the nodes where the softest particle has no steady shape.
 
-    A solid has none beyond a capillary number of extension, whose rate is the largest real part of the
-    eigenvalues of ∇u. It is zero in simple shear, where every solid has a steady shape. A drop breaks up
-    where it grows faster than its surface tension restores it.
+    A solid has none beyond a capillary number of extension. A drop breaks up where it grows faster than its
+    surface tension restores it.
     """
-    gradient = cloud.flow.at_nodes()[2]
-    some = slice(None, None, max(1, len(gradient) // _MOST_NODES))
-    gradient, mu = gradient[some], np.asarray(viscosity_at_nodes(cloud.medium.mu, cloud.flow))
-    if len(gradient) == 0 or len(rows) == 0:
+    mu = np.asarray(viscosity_at_nodes(cloud.medium.mu, cloud.flow))
+    if len(extension) == 0 or len(rows) == 0:
         return 0.0
-    p, mu = cloud.particles, mu[some] if mu.ndim else mu
+    p, mu = cloud.particles, _at_some_nodes(mu) if mu.ndim else mu
     softest = rows[np.argmin(p.mu[rows])]
     times = mu / p.mu[softest]
     if MATERIALS[cloud.models.material].liquid:
         ratio = p.eta[softest] / mu
-        l: Any = tuple(gradient.reshape(-1, 9).T)
+        l: Any = tuple(_at_some_nodes(cloud.flow.at_nodes()[2]).reshape(-1, 9).T)
         growth, limit = drop_growth(l, ratio, times)
         growing = np.stack(np.broadcast_arrays(*growth), axis=-1).reshape(-1, 3, 3)
         return float(np.mean(np.linalg.eigvals(growing).real.max(axis=1) > limit))
-    rate = np.linalg.eigvals(gradient.reshape(-1, 3, 3)).real.max(axis=1)
-    return float(np.mean(np.sqrt(3.0) * rate * times > STEADY_CAPILLARY))
+    return float(np.mean(np.sqrt(3.0) * extension * times > STEADY_CAPILLARY))
 
 
 def doubts(g: Groups, integrator: str, where: str, liquid: bool = False) -> list[str]:

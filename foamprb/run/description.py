@@ -21,7 +21,7 @@ from foamprb.cloud.measures import path_stokes_number, shape_stokes_number
 from foamprb.flow.base import Caveat
 from foamprb.results.atomic import atomic_write
 from foamprb.results.folder import RECORD_FORMAT
-from foamprb.run.checks import doubts, groups
+from foamprb.run.checks import doubts, extension_rates, groups
 from foamprb.settings.settings import Settings
 
 __all__ = ["describe", "renew_record", "write_record"]
@@ -49,8 +49,9 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     flow, models = cloud.flow, cloud.models
     injections = []
     warnings = [str(note) for note in flow.notes if isinstance(note, Caveat)]
+    extension = extension_rates(flow)
     for index, injection in enumerate(settings.injections):
-        g = groups(cloud, index)
+        g = groups(cloud, index, extension)
         ranges = {name: value for name, value in g._asdict().items() if name != "n"} if g.n else {}
         injections.append(
             {"name": injection.name, "type": type(injection.model).__name__, "particles": g.n, **ranges}

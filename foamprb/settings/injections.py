@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, get_type_hints
+from typing import Annotated, Any
 
 from foamprb.body.material import MATERIALS
 from foamprb.cloud.injection.distribution import Distribution, scaled
@@ -22,7 +22,7 @@ from foamprb.dictionary.constraints import (
     Positive,
 )
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
-from foamprb.dictionary.schema import allowed, names_of, read_entries, read_entry, selected
+from foamprb.dictionary.schema import allowed, hints_of, names_of, read_entries, read_entry, selected
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, unquoted
 from foamprb.dictionary.values import Line
 from foamprb.results.folder import fault_of_word
@@ -233,7 +233,7 @@ def _injection(
     with mistakes:
         common = read_entries(InjectionModel, dictionary, also=own)
         if common.sizeDistribution is None and "positionsFile" not in own:
-            hint = get_type_hints(InjectionModel, include_extras=True)["sizeDistribution"]
+            hint = hints_of(InjectionModel)["sizeDistribution"]
             raise dictionary.missing("sizeDistribution", allowed(hint))
     with mistakes:
         places = [place for place in (constant, dictionary) if "solid" in place.entries]
@@ -287,7 +287,7 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     # Whether entries are missing depends on valid entries.
     mistakes.raise_any()
     where = places[-1].entries["solid"].dictionary()
-    hints = parameters() | get_type_hints(Solid, include_extras=True)
+    hints = parameters() | hints_of(Solid)
     stiffness = combined.keys() & set(STIFFNESS)
     material = MATERIALS[combined["type"]] if "type" in combined else None
     liquid, membrane = material is not None and material.liquid, material is not None and material.membrane

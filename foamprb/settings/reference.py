@@ -11,7 +11,7 @@ import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import MISSING, fields, is_dataclass
-from typing import Any, NamedTuple, get_type_hints
+from typing import Any, NamedTuple
 
 from foamprb.cloud.forces import FORCES
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS, Distribution
@@ -22,7 +22,7 @@ from foamprb.cloud.surroundings.dispersion import DISPERSIONS
 from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only
-from foamprb.dictionary.schema import Schema, allowed, members, note_of, rule_of
+from foamprb.dictionary.schema import Schema, allowed, hints_of, members, note_of, rule_of
 from foamprb.dictionary.values import READERS
 from foamprb.errors import InputError, suggestion
 from foamprb.settings import patches
@@ -136,7 +136,7 @@ def meaning(section: str, entry: str, model: str = "") -> EntryText:
 
 
 def _described(section: str, model: str, prefix: str, schema: Any) -> Iterator[EntryText]:
-    hints = get_type_hints(schema, include_extras=True)
+    hints = hints_of(schema)
     for field in fields(schema):
         hint, name = hints[field.name], "/".join(filter(None, (prefix, field.name)))
         own = [part for part in members(hint) if is_dataclass(part) and part not in READERS]

@@ -18,7 +18,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.run import log
-from foamprb.run.checks import doubts, groups
+from foamprb.run.checks import doubts, extension_rates, groups
 
 OIL = Medium(1.0, 1000.0, (0.0, 0.0, 0.0))
 
@@ -39,7 +39,11 @@ def doubts_in(gradient, Ca, ratio=None):
         p, material = drops(x, d=1e-4, rho=1000.0, gamma=5e-5 / Ca, eta=ratio), "drop"
     models = Models(integrator="stokes", material=material)
     cloud = Cloud(p, flow, OIL, [Stick()] * len(flow.patches), 1e-3, models)
-    return doubts(groups(cloud, 0), "stokes", "it", ratio is not None)
+    return doubts_about(cloud, liquid=ratio is not None)
+
+
+def doubts_about(cloud, liquid=False):
+    return doubts(groups(cloud, 0, extension_rates(cloud.flow)), "stokes", "it", liquid)
 
 
 def test_progress_lines_give_the_time_left(caplog, monkeypatch):
@@ -120,11 +124,11 @@ def test_bodies_that_glide_far_keep_their_inertia():
     # With 1 m/s they stop within 3 m.
     assert falling(1.0, v=(1.0, 0.0, 0.0), g=0.0).models.integrator == "rosenbrock"
     assert falling(1000.0, v=(1.0, 0.0, 0.0), g=0.0).models.integrator == "stokes"
-    (text,) = doubts(groups(cloud, 0), "stokes", "it")
+    (text,) = doubts_about(cloud)
     assert "drag stops the particles within 93.3 times the width of the flow" in text
 
 
 def test_a_modulus_that_round_off_limits_is_a_doubt():
-    (text,) = doubts(groups(falling(1.0, g=0.0, G=1e7), 0), "stokes", "it")
+    (text,) = doubts_about(falling(1.0, g=0.0, G=1e7))
     assert "the shear modulus is 5.6e+08 times mu/deltaT" in text
-    assert doubts(groups(falling(1.0, g=0.0, G=1e5), 0), "stokes", "it") == []
+    assert doubts_about(falling(1.0, g=0.0, G=1e5)) == []
