@@ -39,6 +39,8 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
 
     study = read_study(arguments.study)
     n = len(study)
+    if not study.case.is_dir():
+        raise InputError(f"{study.file}: case: {study.case} is no folder. Needed: one relative to the file.")
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
     if arguments.run is not None and not 1 <= arguments.run <= n:

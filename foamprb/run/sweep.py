@@ -153,7 +153,7 @@ def _values(path: Path, name: str, value: object) -> tuple[object, ...]:
     if not (_is_number(low) and _is_number(high)):
         raise InputError(f"{where}: a range needs from and to, two numbers; there is {value}.")
     if not isinstance(number, int) or isinstance(number, bool) or not 2 <= number <= _MOST_RUNS:
-        raise InputError(f"{where}: number is {number!r}. Allowed: an integer >= 2.")
+        raise InputError(f"{where}: number is {number!r}. Allowed: an integer from 2 to {_MOST_RUNS}.")
     if spacing == "linear":
         return tuple(np.linspace(low, high, number).tolist())
     if min(low, high) <= 0.0:

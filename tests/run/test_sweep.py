@@ -67,7 +67,10 @@ def test_names_of_entries_are_as_long_as_they_must_be(tmp_path):
         ("", r"no entries. Needed: \[entries\]"),
         ("[entries]\na = []", "a has no values"),
         ("[entries]\na = { from = 1, number = 2 }", "a range needs from and to, two numbers"),
-        ("[entries]\na = { from = 1, to = 2, number = 1 }", "number is 1. Allowed: an integer >= 2"),
+        (
+            "[entries]\na = { from = 1, to = 2, number = 1 }",
+            "number is 1. Allowed: an integer from 2 to 100000",
+        ),
         ("[entries]\na = { from = 1, to = 2, number = 2, spacing = 'lin' }", "Did you mean 'linear'?"),
         ("[entries]\na = { from = 0, to = 2, number = 2, spacing = 'log' }", "from and to above 0"),
         (
@@ -136,6 +139,13 @@ def test_one_run_of_a_job_array(case, tmp_path, capsys):
     assert "-run 3: the study has the runs 1 to 2" in capsys.readouterr().err
     assert main(["sweep", str(path), "-run", "2"]) == 0
     assert [folder.name for folder in (tmp_path / "study").iterdir()] == ["002"]
+
+
+def test_a_study_without_its_case_starts_no_run(tmp_path, capsys):
+    path = study(tmp_path, 'case = "pip"\n[entries]\n"solution/deltaT" = [1e-5, 2e-5]\n')
+    assert main(["sweep", str(path)]) == 1
+    assert f"study.toml: case: {tmp_path / 'pip'} is no folder" in capsys.readouterr().err
+    assert not (tmp_path / "study").exists()
 
 
 def test_a_run_that_cannot_start_does_not_stop_the_others(case, tmp_path, capsys):
