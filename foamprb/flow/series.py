@@ -383,12 +383,12 @@ class SeriesFlow(Timeline, MeshFlow):
 
     def loaded_fields(self) -> Fields:
         """See :meth:`MeshFlow.loaded_fields`; at the times loaded last."""
-        nodes = self.field_table.shape[1]
+        rows, nodes, columns = self.field_table.shape
         first = [self._in_memory[self._index(level)] * nodes for level in self._levels]
         times = [self._time_of(level) for level in self._levels]
         return fields_on(
             self._arrays,
-            self.field_table.reshape(-1, self.field_table.shape[2]),
+            self.field_table.reshape(rows * nodes, columns),
             self.field_columns,
             first,
             times,

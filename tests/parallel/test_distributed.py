@@ -45,7 +45,14 @@ def distributed(case, times, source=FlowSource()):  # noqa: B008
 
     def order(name, *arguments):
         if name == "load_part":
-            return together(2, lambda team: ((part := found[team.rank][0]).load(*arguments), part.rate))
+
+            def load(team):
+                part = found[team.rank][0]
+                until = part.load(*arguments)
+                assert part.loaded_fields().columns == part.field_columns
+                return until, part.rate
+
+            return together(2, load)
         assert name == "ask_part"
         return together(2, lambda team: getattr(found[team.rank][0], arguments[0])(*arguments[1:]))
 
