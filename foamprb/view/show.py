@@ -413,7 +413,8 @@ def _surroundings(request: Request, run: Run, *, drawn: bool) -> tuple[Geometry 
         given = request.source not in (None, FlowSource())
         if given or request.slice is not None or request.flow_time != LATEST:
             raise
-        log.warning("No geometry is shown: %s", error)
+        hint = " -case names the case." if request.case == request.results else ""
+        log.warning("No geometry is shown: %s%s", error, hint)
         return None, None
     geometry = boundary(mesh)
     if flow is None and mesh.n_cells > MOST_CELLS:

@@ -260,6 +260,9 @@ class TestCommand:
         page = PageReader((tmp_path / "postProcessing/softCloud/softCloud.html").read_text())
         assert page.scene["surfaces"] == []
         assert page.scene["flow"] is None
+        results = tmp_path / "postProcessing"
+        write_page(Request(results, results=results), None, 1.5, "")
+        assert "-case names the case." in capsys.readouterr().out
 
     @pytest.mark.parametrize(
         ("options", "said"),
