@@ -199,8 +199,8 @@ def measure(options: Options) -> list[Row]:
     """Measure memory in a large case, and user CPU of pairs of runs of different lengths in a small one."""
     if not (shutil.which("mpirun") and shutil.which("decomposePar")):
         return []
-    grid, many = ("40k", 20_000) if options.quick else ("1M", 500_000)
-    n, steps, repeats = (20_000, 20, 1) if options.quick else (100_000, 100, 3)
+    grid, many = ("40k", 20_000) if options.quick else ("300k", 200_000)
+    n, steps, repeats = (20_000, 20, 1) if options.quick else (100_000, 50, 2)
     found = []
     for (name, ranks), run in contestants(grid, many).items():
         use = run(steps=_SHORT)
