@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from foam_writer import header, write_case
+from parcels import G
 
 SETTINGS = """
 solution { deltaT 0.05; endTime 1.2; writeInterval 0.4; transient yes; integrationSchemes { shape stokes; } }
@@ -48,7 +49,10 @@ def write_transient_case(case: Path) -> Path:
     for time, factor in SCALE.items():
         file = case / time / "U"
         file.write_text(scaled(file.read_text(), factor))
-    (case / "constant/softCloudProperties").write_text(header("dictionary", "softCloudProperties") + SETTINGS)
+    # A force of zero, as the loop with gravity is compiled for other tests.
+    settings = SETTINGS.replace("ellipsoidDrag;", "ellipsoidDrag; gravity;")
+    (case / "constant/softCloudProperties").write_text(header("dictionary", "softCloudProperties") + settings)
+    (case / "constant/g").write_text(header("uniformDimensionedVectorField", "g") + G)
     (case / "constant/positions").write_text("((0.5 0.5 0.5) (0.45 0.5 0.55))")
     (case / "constant/transportProperties").write_text("nu 1e-06;")
     return case

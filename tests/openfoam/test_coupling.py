@@ -9,6 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 from foam_writer import header, rows
+from parcels import G
 from paths import ROOT
 
 pytestmark = [
@@ -61,7 +62,7 @@ FILES = {
         constantProperties { rho0 1000; rhoInf 1000; solid { type neoHooke; shearModulus 1000; } }
         subModels
         {
-            particleForces { ellipsoidDrag; }
+            particleForces { ellipsoidDrag; gravity; }
             injectionModels
             {
                 all
@@ -85,7 +86,10 @@ FILES = {
         }""",
     "0/sigma": "",
 }
-KINDS = {"U": "volVectorField", "p": "volScalarField", "sigma": "volSymmTensorField"}
+KINDS = {
+    "U": "volVectorField", "p": "volScalarField", "sigma": "volSymmTensorField",
+    "g": "uniformDimensionedVectorField",
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -111,6 +115,7 @@ def case(tmp_path_factory):
         "constant/turbulenceProperties": model,
         "constant/softCloudProperties": function,
         "constant/positions": f"({rows(centres)})",
+        "constant/g": G,
         "0/U": velocity,
         "0/sigma": stress,
     }

@@ -52,7 +52,7 @@ SOFT = f"""
     }}
     subModels
     {{
-        particleForces {{ ellipsoidDrag; }}
+        particleForces {{ ellipsoidDrag; gravity; }}
         injectionModels {{ #include "injectionModels" }}
         dispersionModel MODEL;
         stochasticDispersionRASCoeffs {{ fluctuations OpenFOAM; }}
