@@ -267,7 +267,10 @@ class TestWalls:
 
 class TestStop:
     def test_a_call_ends_within_a_step_and_goes_on_to_the_same_state(self):
-        """Two threads with seconds of work in one step; some blocks are done, others not."""
+        """Two threads with seconds of work in one step; some blocks are done, others not.
+
+        By CPU time: other work on the machine does not count.
+        """
 
         def cloud():
             Ca = np.where(np.arange(320) < 160, 0.01, 4.0)
@@ -279,15 +282,15 @@ class TestStop:
         whole, parts = cloud(), cloud()
         for each in (whole, parts):
             each.tracker.compile(each.make_ready())
-        begun = time.perf_counter()
+        begun = time.process_time()
         Stepper(whole).advance(1)
-        took = time.perf_counter() - begun
+        took = time.process_time() - begun
         slow, count = 0.0, 0
         while parts.step == 0:
             count += 1
-            due = time.perf_counter() + 0.2 * took * count
-            Stepper(parts).advance(1, lambda due=due: time.perf_counter() > due)
-            slow = max(slow, time.perf_counter() - due)
+            due = time.process_time() + 0.2 * took * count
+            Stepper(parts).advance(1, lambda due=due: time.process_time() > due)
+            slow = max(slow, time.process_time() - due)
         assert slow < 0.5 * took
         assert count > 1
         assert_same(whole.particles, parts.particles)
@@ -319,10 +322,10 @@ class TestStop:
             raise KeyboardInterrupt
 
         cloud.tracker.compile(cloud.make_ready())
-        started = time.perf_counter()
+        started = time.process_time()
         with pytest.raises(KeyboardInterrupt):
             Stepper(cloud).advance(1, stop)
-        assert time.perf_counter() - started < 2.0
+        assert time.process_time() - started < 2.0
         assert threading.active_count() < 10
         assert cloud.step == 0
 
