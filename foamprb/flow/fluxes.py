@@ -18,23 +18,17 @@ the middle of a face times the area, which exceeds the integral by the curvature
 from __future__ import annotations
 
 import logging
-import math
-from collections.abc import Callable, Collection, Iterable
-from functools import partial
-from itertools import pairwise, zip_longest
-from typing import Any, NamedTuple
+from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse.linalg import splu
 
 from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector_product
 from foamprb.compile.link import link
+from foamprb.flow.balance import BALANCED, CONSTANT, MOST_ITERATIONS, Balance, Mass
 from foamprb.flow.base import WALLS, Caveat, Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
-from foamprb.flow.mesh.faces import group_faces
-from foamprb.flow.mesh.lists import Mask, share, together
+from foamprb.flow.mesh.lists import Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import Halo
 
@@ -44,15 +38,6 @@ _CLOSED = frozenset({"empty", "symmetry", "symmetryPlane"})
 """Types of patches, beside walls, through which nothing flows."""
 _LEAST_ALONG = 0.02
 """Least cosine between a face's normal and the line of the cell centres that counts in its weight."""
-_LEAST_ERROR = 0.04
-"""Least square of the error of a flux that counts in its weight, over the mean square."""
-_BLOCK, _MOST_BLOCKS = 100, 5000
-"""Cells in a block of the preconditioner, about, and the most blocks."""
-_BALANCED = 1e-5
-"""Largest flux that cells make or lose, over the fluxes through faces; root mean squares."""
-_MOST_ITERATIONS = 2000
-_PARTS, _LEAST_PART = 8, 10_000
-"""Parts of the cells that are computed at the same time, at most, and cells in a part, at least."""
 # Sum of squares of what the tetrahedra of a cell may still lack, over that of their fluxes.
 _EXACT = 1e-14
 _ROWS = 7
@@ -74,21 +59,6 @@ def _types(mesh: Mesh, types: Collection[str]) -> Mask:
     return np.repeat(chosen, np.diff(mesh.patch_start))
 
 
-class Mass(NamedTuple):
-    """Density of the fluid in any unit, as only its ratios matter, and its rate of change per second.
-
-    Of the cells (n_cells,) and at the boundary faces (n_boundary,), or one value for all.
-    """
-
-    cells: Floats
-    boundary: Floats
-    growth: Floats
-
-
-CONSTANT = Mass(np.ones(1), np.ones(1), np.zeros(1))
-"""Density of an incompressible flow, whose cells keep volume."""
-
-
 class Conservation:
     """Operator from u and ∇u at the nodes of a mesh to the correction that keeps volume.
 
@@ -100,7 +70,7 @@ class Conservation:
         (n_boundary,) mask of boundary faces whose velocity is given; by default all. The flux through a wall
         without a velocity may change, as that through an open face.
     halo
-        The nodes that hold a part of the mesh each, if this is a part. The first balances all cells.
+        The nodes that hold a part of the mesh each, if this is a part.
     """
 
     def __init__(self, mesh: Mesh, valued: Mask | None = None, halo: Halo | None = None) -> None:
@@ -144,10 +114,7 @@ class Conservation:
             outer[coupling.faces] = 0.5 * (interpolated[coupling.faces] - interpolated[coupling.partners])
         if mass is not None:
             measures = _measured(mesh, self._nodes, u, fluxes)
-            if self._halo is None:
-                self.unbalanced = _Balance(mesh, measures, self._open)(fluxes, mass)
-            else:
-                fluxes, self.unbalanced = self._balanced_together(self._halo, measures, fluxes)
+            self.unbalanced = Balance(mesh, measures, self._open, self._halo)(fluxes, mass)
         correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
         most = int(np.diff(mesh.cell_start).max(initial=0))
         arrays = (
@@ -162,38 +129,14 @@ class Conservation:
         share(mesh.n_cells, cells)
         return correction
 
-    def _balanced_together(self, halo: Halo, measures: Floats, fluxes: Floats) -> tuple[Floats, float]:
-        """Return the balanced fluxes of a part of the mesh, and what is left; only volume is kept."""
-        part, mesh, faces, own = halo.part, self._mesh, halo.own_faces, np.flatnonzero(halo.part.own)
-        beyond = np.full(len(mesh.owner), -1, dtype=np.int64)
-        beyond[: mesh.n_internal] = part.cells[mesh.neighbour]
-        free = np.zeros(len(mesh.owner), dtype=bool)
-        free[mesh.n_internal :] = self._open
-        ends = part.cells[mesh.owner[faces]], beyond[faces]
-        of_faces = halo.gather(
-            part.faces[faces],
-            *(cells.astype(np.int32) for cells in ends),
-            *(values[faces] for values in (free, fluxes, *measures)),
-        )
-        of_cells = halo.gather(part.cells[own], mesh.centres[own], mesh.volumes[own])
-        balanced, left = None, 0.0
-        if of_faces:
-            owner, neighbour, free, balanced, *whole = of_faces
-            n, n_cells = part.n_internal, len(of_cells[0])
-            listed = np.zeros(n_cells + 1, dtype=np.int32), np.empty(len(owner) + n, dtype=np.int32)
-            link(group_faces)(owner, neighbour[:n], *listed)
-            graph = _Graph(n, n_cells, *listed, owner, neighbour[:n], *of_cells)
-            left = _Balance(graph, np.stack(whole), free[n:])(balanced, CONSTANT)
-        return halo.scatter(part.faces, balanced), halo.team.spread(left)
-
     def caveats(self) -> list[Caveat]:
         """Return a warning if the last correction leaves cells that make or lose fluid."""
-        if self.unbalanced <= 10.0 * _BALANCED:
+        if self.unbalanced <= 10.0 * BALANCED:
             return []
         return [
             Caveat(
                 f"cells make or lose {self.unbalanced:.1e} of what flows through their faces (root mean "
-                f"squares): {_MOST_ITERATIONS} iterations found no fluxes that keep it. Tracers may gather "
+                f"squares): {MOST_ITERATIONS} iterations found no fluxes that keep it. Tracers may gather "
                 "or stick where fluid is lost. Has the mesh cells without volume? (checkMesh tells)"
             )
         ]
@@ -205,137 +148,6 @@ class Conservation:
             log.warning("At time %s %s", time, caveat)
 
 
-class _Graph(NamedTuple):
-    """Faces between cells, and the cells; see :class:`~foamprb.flow.mesh.mesh.Mesh`."""
-
-    n_internal: int
-    n_cells: int
-    cell_face_start: Ints
-    cell_faces: Ints
-    owner: Ints
-    neighbour: Ints
-    centres: Floats
-    volumes: Floats
-
-
-class _Balance:
-    """Least change of the fluxes through the faces of the cells that keeps the mass of each cell.
-
-    The change is the smallest in the sum of squares over a weight, which is a conductance: the area of a face
-    in the direction of the line between the centres, over its length. A face that this line meets at a small
-    angle lies along long cells; a flux through it would move the fluid along them. It is multiplied by the
-    square of an error: the difference between the integral of the interpolated velocity and the mean of the
-    cells, as large as at walls and shear layers that the mesh does not resolve, plus a part of its mean.
-
-    Parameters
-    ----------
-    mesh
-        Cells and faces.
-    measures
-        (3, n_faces) results of :func:`weigh_faces`; they are overwritten.
-    free
-        Boundary faces through which the flux may change.
-    """
-
-    def __init__(self, mesh: Mesh | _Graph, measures: Floats, free: Mask) -> None:
-        weight, error, square = measures
-        self._mesh, self._closed = mesh, not free.any()
-        n, cells = mesh.n_internal, mesh.n_cells
-        error += _LEAST_ERROR * np.mean(error) + 1e-12 * np.mean(square) + 1e-300
-        weight *= error
-        weight /= weight.max(initial=1e-300)
-        self._weight = weight
-        weight[n:][~free] = 0.0
-        # Unsigned, which avoids a check for negative indices.
-        start, columns = np.empty(cells + 1, dtype=np.uint32), np.empty(2 * n, dtype=np.uint32)
-        self._rows = start, columns, np.empty(2 * n), np.empty(cells)
-        faces_of = mesh.cell_face_start, mesh.cell_faces, mesh.owner, mesh.neighbour
-        link(list_rows)(*faces_of, weight, *self._rows)
-        self._block, self._n_blocks = _blocks(mesh.centres)
-        self._solve_blocks = splu(self._coarse().tocsc()).solve
-        # Sums must not depend on the number of threads.
-        ends = np.linspace(0, cells, max(1, min(_PARTS, cells // _LEAST_PART)) + 1).astype(np.intp)
-        self._parts = list(pairwise(ends.tolist()))
-
-    def _coarse(self) -> sparse.csr_array:
-        """Return the matrix of the sums over the blocks."""
-        mesh, block, number = self._mesh, self._block, self._n_blocks
-        at, beside = block[mesh.owner[: mesh.n_internal]], block[mesh.neighbour]
-        weight, apart = self._weight[: mesh.n_internal], at != beside
-        sums = np.bincount(block, self._rows[3], number)
-        inside = np.bincount(at[~apart], weight[~apart], number)
-        pairs = at[apart], beside[apart]
-        between = sparse.csr_array((-weight[apart], pairs), shape=(number, number))
-        # Blocks that no flux leaves, as a closed flow, are determined but for a constant.
-        found: sparse.csr_array = between + between.T + sparse.diags_array((1.0 + 1e-9) * sums - 2.0 * inside)
-        return found
-
-    def __call__(self, fluxes: Floats, mass: Mass) -> float:
-        """Change fluxes (n_faces,) in place; what remains of a closed flow is shared by volume.
-
-        Returns
-        -------
-        What cells still make or lose, over the fluxes through faces; root mean squares.
-        """
-        mesh, weight, n = self._mesh, self._weight, self._mesh.n_internal
-        owner, neighbour, cells = mesh.owner, mesh.neighbour, mesh.n_cells
-        inside = np.broadcast_to(mass.cells, (cells,))
-        outside = np.broadcast_to(mass.boundary, (len(owner) - n,))
-        density = np.ones(1)
-        if mass is not CONSTANT:
-            density = np.concatenate([0.5 * (inside[owner[:n]] + inside[neighbour]), outside])
-        fluxes *= density
-        stored = mesh.volumes * mass.growth
-        rest = np.bincount(neighbour, fluxes[:n], cells) - np.bincount(owner, fluxes, cells) - stored
-        if self._closed:
-            rest -= mesh.volumes * (rest.sum() / mesh.volumes.sum())
-        size = float(np.sqrt(np.mean(fluxes**2) * cells))
-        y, left = self._solve(rest, _BALANCED * size)
-        fluxes += weight * y[owner]
-        fluxes[:n] -= weight[:n] * y[neighbour]
-        fluxes /= density
-        return left / max(size, 1e-300)
-
-    def _solve(self, residual: Floats, enough: float) -> tuple[Floats, float]:
-        """Solve for potentials of the cells by conjugate gradients until the norm of what is left is enough.
-
-        The preconditioner is Jacobi's plus the exact solution with a constant in each block. BLAS, and so
-        SciPy's solvers, add in an order that depends on the number of threads.
-
-        Parameters
-        ----------
-        residual
-            (n_cells,) what cells lack; it is overwritten.
-
-        Returns
-        -------
-        The potentials (n_cells,), and the norm.
-        """
-        y, way, image = np.zeros((3, len(residual)))
-        of_parts = np.zeros((len(self._parts), self._n_blocks))
-        diagonal, block = self._rows[3], self._block
-        go, turn, multiply = link(go_down), link(turn_way), link(multiply_rows)
-        step = part_of_last = before = 0.0
-        for iteration in range(_MOST_ITERATIONS + 1):
-            found = self._each(go, diagonal, block, step, way, image, y, residual, rows=of_parts)
-            squares, energies = zip(*found, strict=True)
-            left = math.sqrt(math.fsum(squares))
-            if left <= enough or iteration == _MOST_ITERATIONS:
-                break
-            sums = of_parts.sum(axis=0)
-            of_blocks = self._solve_blocks(sums)
-            energy = math.fsum([*energies, float(np.einsum("i,i->", sums, of_blocks))])
-            part_of_last, before = energy / before if before else 0.0, energy
-            self._each(turn, diagonal, block, of_blocks, part_of_last, residual, way)
-            step = energy / math.fsum(self._each(multiply, *self._rows, way, image))
-        return y, left
-
-    def _each(self, kernel: Callable[..., Any], *arguments: Any, rows: Iterable[Any] = ()) -> list[Any]:
-        """Return the results of a kernel for the parts of the cells; its last argument is a row, if given."""
-        parts = zip_longest(self._parts, ((row,) for row in rows), fillvalue=())
-        return together(*(partial(kernel, *part, *arguments, *row) for part, row in parts))
-
-
 def _measured(mesh: Mesh, nodes: Floats, u: Floats, fluxes: Floats) -> Floats:
     """Return the results of :func:`weigh_faces`, (3, n_faces)."""
     measures, weigh = np.empty((3, len(fluxes))), link(weigh_faces)
@@ -343,29 +155,6 @@ def _measured(mesh: Mesh, nodes: Floats, u: Floats, fluxes: Floats) -> Floats:
     own = mesh.face_start, mesh.face_points, mesh.owner, fluxes
     share(len(fluxes), lambda low, high: weigh(low, high, *given, *own, *measures))
     return measures
-
-
-def _blocks(centres: Floats) -> tuple[Ints, int]:
-    """Return the block of each cell, a box of a regular grid over the centres, and the number of blocks.
-
-    Boxes without a cell are not counted.
-    """
-    n, extent = len(centres), np.ptp(centres, axis=0)
-    wide = extent > 1e-6 * max(extent.max(initial=0.0), 1e-300)
-    counts = np.ones(3, dtype=np.int64)
-    if wide.any():
-        boxes = min(max(n / _BLOCK, 1.0), _MOST_BLOCKS)
-        edge = float(np.prod(extent[wide]) / boxes) ** (1.0 / np.count_nonzero(wide))
-        counts[wide] = np.ceil(extent[wide] / edge)
-    number = np.zeros(n, dtype=np.intp)
-    for axis in range(3):
-        x = centres[:, axis]
-        at = (x - x.min()) / (extent[axis] if wide[axis] else 1.0) * counts[axis]
-        number *= counts[axis]
-        number += np.minimum(at.astype(np.int32), counts[axis] - 1)
-    used = np.bincount(number, minlength=int(counts.prod())) > 0
-    numbers = np.cumsum(used, dtype=np.int32)
-    return numbers[number] - np.int32(1), int(numbers[-1])
 
 
 def face_fluxes(
@@ -395,7 +184,7 @@ def weigh_faces(
     error: Floats,
     square: Floats,
 ) -> None:
-    """Compute conductance (m), squared error and squared velocity (m²/s²) of faces; see :class:`_Balance`.
+    """Compute conductance (m), squared error and squared velocity (m²/s²) of faces; see :class:`Balance`.
 
     The faces are those from ``begin`` to before ``end``; the last three arguments are the results (n_faces,).
     """
@@ -415,106 +204,6 @@ def weigh_faces(
         weight[f] = max(inner(s, d), _LEAST_ALONG * size * np.sqrt(reach)) / reach
         error[f] = ((inner(s, v) - fluxes[f]) / size) ** 2
         square[f] = (fluxes[f] / size) ** 2
-
-
-def list_rows(
-    first: Ints,
-    of_cell: Ints,
-    owner: Ints,
-    neighbour: Ints,
-    weight: Floats,
-    start: Ints,
-    columns: Ints,
-    values: Floats,
-    diagonal: Floats,
-) -> None:
-    """List the equations of the cells: minus the weights of the cells beside, and the sum of all weights.
-
-    Parameters
-    ----------
-    first, of_cell, owner, neighbour, weight
-        The faces of each cell; the cells and the weight of each face.
-    start, columns, values, diagonal
-        Results: the row of cell c is from ``start[c]`` to before ``start[c + 1]``. 1 on the diagonal of a
-        cell without weights.
-    """
-    at = 0
-    for c in range(diagonal.shape[0]):
-        total, start[c] = 0.0, at
-        for h in range(first[c], first[c + 1]):
-            f = of_cell[h]
-            total += weight[f]
-            if f < neighbour.shape[0]:
-                columns[at] = neighbour[f] if owner[f] == c else owner[f]
-                values[at] = -weight[f]
-                at += 1
-        diagonal[c] = total if total > 0.0 else 1.0
-    start[diagonal.shape[0]] = at
-
-
-def multiply_rows(
-    begin: int,
-    end: int,
-    start: Ints,
-    columns: Ints,
-    values: Floats,
-    diagonal: Floats,
-    way: Floats,
-    image: Floats,
-) -> float:
-    """Write the product of some rows of :func:`list_rows` with ``way``; return its product with ``way``."""
-    total = 0.0
-    for c in range(begin, end):
-        y = diagonal[c] * way[c]
-        for k in range(start[c], start[c + 1]):
-            y += values[k] * way[columns[k]]
-        image[c] = y
-        total += y * way[c]
-    return total
-
-
-def go_down(
-    begin: int,
-    end: int,
-    diagonal: Floats,
-    block: Ints,
-    step: float,
-    way: Floats,
-    image: Floats,
-    y: Floats,
-    residual: Floats,
-    sums: Floats,
-) -> tuple[float, float]:
-    """Go a step on the way for some cells; put the sums of the residual by blocks into ``sums``.
-
-    Returns
-    -------
-    The sum of squares of the residual, and that over the diagonal.
-    """
-    sums[:] = 0.0
-    square = energy = 0.0
-    for c in range(begin, end):
-        y[c] += step * way[c]
-        residual[c] -= step * image[c]
-        sums[block[c]] += residual[c]
-        square += residual[c] * residual[c]
-        energy += residual[c] * residual[c] / diagonal[c]
-    return square, energy
-
-
-def turn_way(
-    begin: int,
-    end: int,
-    diagonal: Floats,
-    block: Ints,
-    of_blocks: Floats,
-    before: float,
-    residual: Floats,
-    way: Floats,
-) -> None:
-    """Write the preconditioned residual plus ``before`` times the last way for some cells."""
-    for c in range(begin, end):
-        way[c] = residual[c] / diagonal[c] + of_blocks[block[c]] + before * way[c]
 
 
 def area_vector(nodes: Floats, a: int, b: int, c: int) -> Vector:

@@ -19,7 +19,7 @@ from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
 from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.submesh import BEYOND, Halo
+from foamprb.flow.mesh.submesh import BEYOND, Halo, Homes
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.meshflow import AT_ONCE, LISTS, MeshFlow, Numbering, end_triangles, shortest_extent
 from foamprb.flow.series import SeriesFlow
@@ -54,14 +54,15 @@ class PartFlow(MeshFlow):
         super().__init__(mesh, *given, **options)
         self._close(*_ends(halo))
         own = halo.part.own
-        counts = halo.gather(halo.part.cells[own], np.diff(mesh.cell_start)[own])
-        whole = starts(counts[0]).astype(np.int64) if counts else None
-        self._first_tet = halo.scatter(halo.part.cells, None if whole is None else whole[:-1])
-        """(n_cells,) first tetrahedron of each cell in the whole mesh."""
         totals = halo.of_all((int(own.sum()), int(halo.part.points.max(initial=-1)) + 1))
         n_cells, n_points = sum(n for n, _ in totals), max(n for _, n in totals)
-        n_tets = halo.team.spread(None if whole is None else int(whole[-1]))
-        self.counts = n_cells, n_points, n_tets
+        ends = np.linspace(0, n_cells, halo.team.size + 1).astype(np.intp)
+        counts = Homes(halo.team, ends, halo.part.cells[own]).put(np.diff(mesh.cell_start)[own])
+        tets = halo.of_all(int(counts.sum()))
+        first = starts(counts)[:-1].astype(np.int64) + sum(tets[: halo.team.rank])
+        self._first_tet = Homes(halo.team, ends, halo.part.cells).get(first)
+        """(n_cells,) first tetrahedron of each cell in the whole mesh."""
+        self.counts = n_cells, n_points, sum(tets)
         """Cells, points and tetrahedra of the whole mesh."""
 
     def _inverted(self, mesh: Mesh) -> tuple[int, int]:

@@ -31,9 +31,8 @@ RADIUS, LENGTH, WALL_RATE, GRAVITY = 2.1e-3, 0.75, 923.8, 9.81
 D, RHO_S, MU_F, RHO_F = 5e-6, 2560.0, 1.208 * 1.491e-5, 1.208
 MEAN = WALL_RATE * RADIUS / 4
 CELLS = 200_000_000
-PREPARED, BALANCED = 2300.0, 300.0
-"""Bytes for each cell that a node holds while it prepares the flow, and of the whole mesh on the first node;
-measured with 5e5 cells on four nodes."""
+PREPARED = 1800.0
+"""Bytes for each cell that a node holds while it prepares the flow, measured with 4e5 cells on four nodes."""
 RINGS = 5
 """Layers of cells around those of a node."""
 PAUSE = 2e-3
@@ -275,7 +274,6 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         "mesh, the part of a node with its layers": held * m.cell,
         "mesh, the part, during its preparation": held * PREPARED,
         "particles of a node, evenly": particles / c.nodes * m.state,
-        "first process: fluxes of all cells, during the preparation": CELLS * BALANCED,
         "first process: the whole cloud, with the copy for the checkpoint": particles * m.peak,
     }
     text = TEMPLATE.read_text(encoding="utf-8").format(
@@ -291,7 +289,6 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
                 ("mesh and flow, bytes/cell", number(m.cell)),
                 ("the same during preparation, whole, bytes/cell", number(m.cell_peak)),
                 ("the same, a part, bytes/cell held", number(PREPARED)),
-                ("fluxes of the whole mesh on the first process, bytes/cell", number(BALANCED)),
                 ("mesh and flow, µs of CPU/cell", number(1e6 * m.ready)),
                 ("snapshot: measures and file, µs/particle", number(1e6 * m.snapshot)),
                 ("snapshot, bytes/particle", number(m.file)),
@@ -329,7 +326,6 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         snapshot=number(particles * m.file / 1e9),
         all_snapshots=number(writes * particles * m.file / 1e12),
         table_size=number(particles * m.row_bytes / 1e9),
-        most_cells=number(c.memory / BALANCED),
         most_particles=number(c.memory / m.peak),
         order=_order(whole, compute),
     )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -216,7 +217,7 @@ class Halo:
         mesh, cells = part.mesh, part.cells
         everyone = range(team.size)
         n_boundary = int(mesh.patch_start[-2])
-        owner = mesh.owner[mesh.n_internal :][:n_boundary]
+        owner = mesh.owner[: mesh.n_internal + n_boundary]
         # Any node with a cell around a point that it owns can compute the values there.
         lowest = np.full(mesh.n_points, mesh.n_cells, dtype=np.int64)
         of_points = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
@@ -228,14 +229,15 @@ class Halo:
         for name, numbers, node in (
             ("cells", cells, part.node),
             ("points", part.points, giver),
-            ("boundary", part.faces[mesh.n_internal :][:n_boundary], part.node[owner]),
+            ("faces", part.faces[: mesh.n_internal + n_boundary], part.node[owner]),
+            ("boundary", part.faces[mesh.n_internal :][:n_boundary], part.node[owner[mesh.n_internal :]]),
         ):
             wanted = [np.flatnonzero(node == k) if k != team.rank else np.empty(0, np.intp) for k in everyone]
             asked = team.exchange([numbers[rows] for rows in wanted])
             self._plans[name] = [np.searchsorted(numbers, ids) for ids in asked], wanted
 
     def fill(self, kind: str, values: NDArray[Any]) -> None:
-        """Fill the rows of ``cells``, ``points`` or ``boundary`` faces of other nodes, in place."""
+        """Fill the rows of ``cells``, ``points``, ``faces`` or ``boundary`` of other nodes, in place."""
         given, taken = self._plans[kind]
         for rows, found in zip(taken, self.team.exchange([values[rows] for rows in given]), strict=True):
             values[rows] = found
@@ -260,22 +262,49 @@ class Halo:
         counted[mesh.n_internal + int(mesh.patch_start[-2]) :] = False
         return np.flatnonzero(counted)
 
-    def gather(self, numbers: Labels, *values: NDArray[Any]) -> list[NDArray[Any]]:
-        """Return values of all nodes in the order of the whole mesh on node 0; none on the others."""
-        parts = self.team.collect((numbers, values))
-        n = sum(len(part) for part, _ in parts)
-        whole = [np.empty((n, *a.shape[1:]), dtype=a.dtype) for a in values if parts]
-        for part, own in parts:
-            for result, array in zip(whole, own, strict=True):
-                result[part] = array
+
+class Homes:
+    """Nodes as the homes of consecutive cells of the whole mesh, whatever cells they own.
+
+    Parameters
+    ----------
+    team
+        The nodes.
+    ends
+        (size + 1,) the first cell of each node, and the end of the last.
+    numbers
+        (n,) cells whose values this node gives or takes, rising.
+    """
+
+    def __init__(self, team: Team, ends: Index, numbers: Labels) -> None:
+        self._team, self._n = team, int(ends[team.rank + 1] - ends[team.rank])
+        self._parts = [slice(*part) for part in pairwise(np.searchsorted(numbers, ends).tolist())]
+        asked = team.exchange([numbers[part] for part in self._parts])
+        self._rows = [cells - ends[team.rank] for cells in asked]
+
+    def put(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Return the values (n,) of the cells of which this node is the home; each has one giver."""
+        return self._placed([values[part] for part in self._parts], self._rows, self._n)
+
+    def put_lists(self, start: Index, *lists: NDArray[Any]) -> tuple[Any, ...]:
+        """Return starts and entries of the lists of these cells."""
+        counts = self.put(np.diff(start))
+        begin = starts(counts)
+        places = [ragged(begin[rows], counts[rows]) for rows in self._rows]
+        parts = [slice(start[part.start], start[part.stop]) for part in self._parts]
+        return begin, *(
+            self._placed([entries[part] for part in parts], places, int(begin[-1])) for entries in lists
+        )
+
+    def _placed(self, parcels: list[NDArray[Any]], places: list[Index], n: int) -> NDArray[Any]:
+        whole = np.empty(n, dtype=parcels[0].dtype)
+        for rows, part in zip(places, self._team.exchange(parcels), strict=True):
+            whole[rows] = part
         return whole
 
-    def scatter(self, numbers: Labels, whole: NDArray[Any] | None) -> NDArray[Any]:
-        """Return the rows of an array of node 0."""
-        asked = self.team.collect(numbers)
-        parcels = [whole[rows] for rows in asked] if whole is not None else [None] * self.team.size
-        found: NDArray[Any] = self.team.exchange(parcels)[0]
-        return found
+    def get(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Return the values (n,) of the cells from their homes, each of which has those of its own."""
+        return np.concatenate(self._team.exchange([values[rows] for rows in self._rows]))
 
 
 def alone(value: Any) -> list[Any]:

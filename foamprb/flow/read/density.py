@@ -12,8 +12,8 @@ from foamprb.dictionary.dimensions import MASS_FLUX, VOLUME_FLUX
 from foamprb.dictionary.files import existing
 from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
+from foamprb.flow.balance import CONSTANT, Mass
 from foamprb.flow.base import Floats
-from foamprb.flow.fluxes import CONSTANT, Mass
 from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.case import find_dictionary
 from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, FoamField, Kind

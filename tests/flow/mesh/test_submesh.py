@@ -8,6 +8,7 @@ from mesh_shapes import block, box_patches, cyclic_row, pipe, pipe_patches, wedg
 from threads_team import together
 
 from foamprb.compile.link import link
+from foamprb.flow import balance
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
 from foamprb.flow.mesh.fragment import CellSearch, Fragment, grow
@@ -67,7 +68,8 @@ SHAPES = {
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_nodes_compute_the_flow_of_the_whole(shape, random):
+def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
+    monkeypatch.setattr(balance, "_LEAST_SEGMENT", 30)
     poly = poly_of(SHAPES[shape]())
     mesh = assemble(poly, "mesh")
     x, y, z = mesh.centres.T

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from foam_writer import header, write_case
 
-from foamprb.flow.fluxes import CONSTANT
+from foamprb.flow.balance import CONSTANT
 from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.openfoam import Case, read_case
 

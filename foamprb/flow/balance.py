@@ -1,0 +1,463 @@
+"""Least change of the fluxes through faces that keeps the mass of each cell, by conjugate gradients.
+
+Each node of a parallel run has the equations of consecutive cells, in segments that depend on the mesh alone.
+Sums over a segment have its order, and sums over segments are exact. The fluxes are therefore the same to the
+last bit for any number of nodes and threads.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from itertools import pairwise, zip_longest
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import splu
+
+from foamprb.compile.link import link
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, together
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.submesh import Halo, Homes, alone, total_of
+
+_LEAST_ERROR = 0.04
+"""Least square of the error of a flux that counts in its weight, over the mean square."""
+_BLOCK, _MOST_BLOCKS = 100, 5000
+"""Cells in a block of the preconditioner, about, and the most blocks."""
+BALANCED = 1e-5
+"""Largest flux that cells make or lose, over the fluxes through faces; root mean squares."""
+MOST_ITERATIONS = 2000
+_PARTS, _LEAST_SEGMENT, _MOST_SEGMENT = 8, 10_000, 50_000
+"""Segments that are computed at the same time, at most; cells in one of up to as many, and in one of more."""
+
+
+class Mass(NamedTuple):
+    """Density of the fluid in any unit, as only its ratios matter, and its rate of change per second.
+
+    Of the cells (n_cells,) and at the boundary faces (n_boundary,), or one value for all.
+    """
+
+    cells: Floats
+    boundary: Floats
+    growth: Floats
+
+
+CONSTANT = Mass(np.ones(1), np.ones(1), np.zeros(1))
+"""Density of an incompressible flow, whose cells keep volume."""
+
+
+class Balance:
+    """Least change of the fluxes through the faces of the cells that keeps the mass of each cell.
+
+    The change is the smallest in the sum of squares over a weight, which is a conductance: the area of a face
+    in the direction of the line between the centres, over its length. A face that this line meets at a small
+    angle lies along long cells; a flux through it would move the fluid along them. It is multiplied by the
+    square of an error: the difference between the integral of the interpolated velocity and the mean of the
+    cells, as large as at walls and shear layers that the mesh does not resolve, plus a part of its mean.
+
+    Parameters
+    ----------
+    mesh
+        Cells and faces.
+    measures
+        (3, n_faces) results of :func:`~foamprb.flow.fluxes.weigh_faces`; they are overwritten.
+    free
+        Boundary faces through which the flux may change.
+    halo
+        The nodes that hold a part of the mesh each, if this is a part.
+    """
+
+    def __init__(self, mesh: Mesh, measures: Floats, free: Mask, halo: Halo | None = None) -> None:
+        weight, error, square = measures
+        self._mesh, self._weight, self._halo, n = mesh, weight, halo, mesh.n_internal
+        self._of_all = of_all = alone if halo is None else halo.of_all
+        # Each face and each cell counts on one node.
+        everything: Any = slice(None)
+        self._faces = everything if halo is None else halo.own_faces
+        self._cells = everything if halo is None else np.flatnonzero(halo.part.own)
+        self._n_faces = sum(of_all(len(weight[self._faces])))
+        self._n_cells = sum(of_all(len(mesh.volumes[self._cells])))
+        means = [total_of(a[self._faces], of_all) / max(self._n_faces, 1) for a in (error, square)]
+        error += _LEAST_ERROR * means[0] + 1e-12 * means[1] + 1e-300
+        weight *= error
+        weight /= max(of_all(float(weight[self._faces].max(initial=1e-300))))
+        weight[n:][~free] = 0.0
+        may_change = np.concatenate([np.zeros(n, dtype=bool), free])[self._faces]
+        self._closed = not any(of_all(bool(may_change.any())))
+        # Unsigned, which avoids a check for negative indices.
+        start, columns = np.empty(mesh.n_cells + 1, dtype=np.uint32), np.empty(2 * n, dtype=np.uint32)
+        rows = start, columns, np.empty(2 * n), np.empty(mesh.n_cells)
+        faces_of = mesh.cell_face_start, mesh.cell_faces, mesh.owner, mesh.neighbour
+        link(list_rows)(*faces_of, weight, *rows)
+        blocks = _blocks(mesh.centres[self._cells], of_all)
+        segments = _segments(self._n_cells)
+        if halo is None:
+            self._equations = _Equations(rows, *blocks, segments)
+            return
+        count, size, rank = len(segments) - 1, halo.team.size, halo.team.rank
+        parts = [count * k // size for k in range(size + 1)]
+        ends, own = segments[parts], halo.part.cells[self._cells]
+        self._own, self._held = (Homes(halo.team, ends, numbers) for numbers in (own, halo.part.cells))
+        here = segments[parts[rank] : parts[rank + 1] + 1] - ends[rank]
+        self._equations = _sent(halo, self._own, self._cells, ends, rows, blocks, here)
+
+    def __call__(self, fluxes: Floats, mass: Mass) -> float:
+        """Change fluxes (n_faces,) in place; what remains of a closed flow is shared by volume.
+
+        Returns
+        -------
+        What cells still make or lose, over the fluxes through faces; root mean squares.
+        """
+        mesh, weight, n = self._mesh, self._weight, self._mesh.n_internal
+        owner, neighbour, cells = mesh.owner, mesh.neighbour, mesh.n_cells
+        inside = np.broadcast_to(mass.cells, (cells,))
+        outside = np.broadcast_to(mass.boundary, (len(owner) - n,))
+        density = np.ones(1)
+        if mass is not CONSTANT:
+            density = np.concatenate([0.5 * (inside[owner[:n]] + inside[neighbour]), outside])
+        fluxes *= density
+        stored = mesh.volumes * mass.growth
+        rest = np.bincount(neighbour, fluxes[:n], cells) - np.bincount(owner, fluxes, cells) - stored
+        volumes = mesh.volumes
+        if self._halo is not None:
+            rest, volumes = (self._own.put(a[self._cells]) for a in (rest, volumes))
+        if self._closed:
+            rest -= volumes * (self._equations.total(rest) / self._equations.total(volumes))
+        squares = total_of(fluxes[self._faces] ** 2, self._of_all)
+        size = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells)
+        y, left = self._equations.solve(rest, BALANCED * size)
+        if self._halo is not None:
+            y = self._held.get(y)
+        fluxes += weight * y[owner]
+        fluxes[:n] -= weight[:n] * y[neighbour]
+        fluxes /= density
+        if self._halo is not None:
+            self._halo.fill("faces", fluxes)
+        return left / max(size, 1e-300)
+
+
+def _segments(cells: int) -> Index:
+    """Return the first cell of each segment and the end of the last."""
+    count = max(1, min(_PARTS, cells // _LEAST_SEGMENT), cells // _MOST_SEGMENT)
+    return np.linspace(0, cells, count + 1).astype(np.intp)
+
+
+class _Equations:
+    """Equations of the cells of some segments: A·y = b.
+
+    Parameters
+    ----------
+    rows
+        Results of :func:`list_rows`. Columns from the number of cells on are those of other nodes.
+    block, n_blocks
+        Block of the preconditioner of each column, and the number of blocks.
+    segments
+        The first cell of each segment, and the end of the last.
+    of_all
+        Returns a value of each node.
+    others
+        Returns the values of the columns of other nodes from those of the cells.
+    before
+        Number of these columns that are cells of lower number.
+    """
+
+    def __init__(
+        self,
+        rows: tuple[Any, ...],
+        block: Ints,
+        n_blocks: int,
+        segments: Index,
+        of_all: Callable[[Any], list[Any]] = alone,
+        others: Callable[[Floats], Floats] | None = None,
+        before: int = 0,
+    ) -> None:
+        self._rows, self._n_blocks, self._of_all, self._others = rows, n_blocks, of_all, others
+        self._n_columns, self._segments = len(block), list(pairwise(segments.tolist()))
+        start, diagonal = rows[0], rows[3]
+        # The blocks of a segment are numbered: their sums depend on no other segment.
+        self._pair, number = np.empty(len(diagonal), dtype=np.int32), np.empty(n_blocks, dtype=np.int32)
+        coarse = []
+        most = max((int(start[b] - start[a]) for a, b in self._segments), default=0)
+        between = np.empty((2, most), dtype=np.int32), np.empty(most)
+        for a, b in self._segments:
+            used = np.flatnonzero(np.bincount(block[a:b], minlength=n_blocks))
+            number[used] = np.arange(len(used))
+            self._pair[a:b] = number[block[a:b]]
+            sums = np.bincount(self._pair[a:b], diagonal[a:b], len(used))
+            inside = np.zeros(len(used))
+            count = link(part_weights)(a, b, *rows, block, before, self._pair, inside, *between)
+            faces = between[1][:count], tuple(between[0][:, :count])
+            summed = sparse.csr_array(faces, shape=(n_blocks, n_blocks)).tocoo()
+            coarse.append((used, sums, inside, summed.row, summed.col, summed.data))
+        self._blocks = [used for used, *_ in coarse]
+        whole = [segment for listed in of_all(coarse) for segment in listed]
+        self._all_blocks, *of_cells, at, beside, weights = map(np.concatenate, zip(*whole, strict=True))
+        total, within = (np.bincount(self._all_blocks, a, n_blocks) for a in of_cells)
+        pairs = sparse.csr_array((-weights, (at, beside)), shape=(n_blocks, n_blocks))
+        # Blocks that no flux leaves, as a closed flow, are determined but for a constant.
+        matrix = pairs + pairs.T + sparse.diags_array((1.0 + 1e-9) * total - 2.0 * within)
+        self._solve_blocks = splu(matrix.tocsc()).solve
+
+    def total(self, values: Floats) -> float:
+        """Return the sum of values of the cells of all nodes."""
+        return self._summed([float(values[a:b].sum()) for a, b in self._segments])
+
+    def _summed(self, found: Sequence[float]) -> float:
+        """Return the sum of values of the segments of all nodes, which is exact but for one rounding."""
+        return math.fsum(value for listed in self._of_all(found) for value in listed)
+
+    def solve(self, residual: Floats, enough: float) -> tuple[Floats, float]:
+        """Solve for potentials of the cells by conjugate gradients until the norm of what is left is enough.
+
+        The preconditioner is Jacobi's plus the exact solution with a constant in each block. BLAS, and so
+        SciPy's solvers, add in an order that depends on the number of threads.
+
+        Parameters
+        ----------
+        residual
+            (n_cells,) what cells lack; it is overwritten.
+
+        Returns
+        -------
+        The potentials (n_cells,), and the norm.
+        """
+        n, diagonal, pair = len(residual), self._rows[3], self._pair
+        y, image = np.zeros((2, n))
+        way = np.zeros(self._n_columns)
+        ends = list(pairwise(starts(np.array([len(used) for used in self._blocks], dtype=np.intp)).tolist()))
+        of_pairs = np.empty(ends[-1][1] if ends else 0)
+        parts = [(of_pairs[a:b],) for a, b in ends]
+        go, turn, multiply = link(go_down), link(turn_way), link(multiply_rows)
+        step = part_of_last = before = 0.0
+        for iteration in range(MOST_ITERATIONS + 1):
+            found = self._each(go, diagonal, pair, step, way, image, y, residual, rows=parts)
+            everywhere = self._of_all((found, of_pairs))
+            squares, energies = zip(*(pair for listed, _ in everywhere for pair in listed), strict=True)
+            left = math.sqrt(math.fsum(squares))
+            if left <= enough or iteration == MOST_ITERATIONS:
+                break
+            sums = np.bincount(self._all_blocks, np.concatenate([a for _, a in everywhere]), self._n_blocks)
+            of_blocks = self._solve_blocks(sums)
+            energy = math.fsum([*energies, float(np.einsum("i,i->", sums, of_blocks))])
+            part_of_last, before = energy / before if before else 0.0, energy
+            solved = [(of_blocks[used],) for used in self._blocks]
+            self._each(turn, diagonal, pair, part_of_last, residual, way, rows=solved)
+            if self._others is not None:
+                way[n:] = self._others(way)
+            step = energy / self._summed(self._each(multiply, *self._rows, way, image))
+        return y, left
+
+    def _each(self, kernel: Callable[..., Any], *arguments: Any, rows: Iterable[Any] = ()) -> list[Any]:
+        """Return the results of a kernel for the segments; its last argument is a row, if given."""
+        parts = zip_longest(self._segments, rows, fillvalue=())
+        calls = [partial(kernel, *part, *arguments, *row) for part, row in parts]
+        n = min(len(calls), _PARTS)
+        groups = [calls[len(calls) * k // n : len(calls) * (k + 1) // n] for k in range(n)]
+        found = together(*(partial(_in_turn, group) for group in groups)) if groups else []
+        return [result for group in found for result in group]
+
+
+def _in_turn(calls: Sequence[Callable[[], Any]]) -> list[Any]:
+    return [call() for call in calls]
+
+
+def _sent(
+    halo: Halo,
+    own: Homes,
+    cells: Index,
+    ends: Index,
+    rows: tuple[Any, ...],
+    blocks: tuple[Ints, int],
+    segments: Index,
+) -> _Equations:
+    """Send the equations of own cells to the homes of these; return those of which this node is the home."""
+    start, columns, values, diagonal = rows
+    counts = np.diff(start.astype(np.intp))[cells]
+    entries = ragged(start[cells].astype(np.intp), counts)
+    begin, to, values = own.put_lists(starts(counts), halo.part.cells[columns[entries]], values[entries])
+    first, end = ends[halo.team.rank : halo.team.rank + 2]
+    inside = (to >= first) & (to < end)
+    beyond = np.unique(to[~inside])
+    others = Homes(halo.team, ends, beyond)
+    columns = np.where(inside, to - first, end - first + np.searchsorted(beyond, to)).astype(np.uint32)
+    block = own.put(blocks[0])
+    return _Equations(
+        (begin.astype(np.uint32), columns, values, own.put(diagonal[cells])),
+        np.concatenate([block, others.get(block)]), blocks[1], segments,
+        halo.of_all, others.get, int(np.searchsorted(beyond, first)),
+    )  # fmt: skip
+
+
+def _blocks(centres: Floats, of_all: Callable[[Any], list[Any]]) -> tuple[Ints, int]:
+    """Return the block of each cell, a box of a regular grid over all centres, and the number of blocks.
+
+    Boxes without a cell are not counted. ``of_all`` returns a value of each node.
+    """
+    highest, lowest = centres.max(axis=0, initial=-np.inf), centres.min(axis=0, initial=np.inf)
+    ends = of_all((len(centres), lowest, highest))
+    n, low = sum(count for count, *_ in ends), np.min([low for _, low, _ in ends], axis=0)
+    extent = np.max([high for *_, high in ends], axis=0) - low
+    wide = extent > 1e-6 * max(extent.max(initial=0.0), 1e-300)
+    counts = np.ones(3, dtype=np.int64)
+    if wide.any():
+        boxes = min(max(n / _BLOCK, 1.0), _MOST_BLOCKS)
+        edge = float(np.prod(extent[wide]) / boxes) ** (1.0 / np.count_nonzero(wide))
+        counts[wide] = np.ceil(extent[wide] / edge)
+    number = np.zeros(len(centres), dtype=np.intp)
+    for axis in range(3):
+        x = centres[:, axis]
+        at = (x - low[axis]) / (extent[axis] if wide[axis] else 1.0) * counts[axis]
+        number *= counts[axis]
+        number += np.minimum(at.astype(np.int32), counts[axis] - 1)
+    used = np.any(of_all(np.bincount(number, minlength=int(counts.prod())) > 0), axis=0)
+    numbers = np.cumsum(used, dtype=np.int32)
+    return numbers[number] - np.int32(1), int(numbers[-1])
+
+
+def list_rows(
+    first: Ints,
+    of_cell: Ints,
+    owner: Ints,
+    neighbour: Ints,
+    weight: Floats,
+    start: Ints,
+    columns: Ints,
+    values: Floats,
+    diagonal: Floats,
+) -> None:
+    """List the equations of the cells: minus the weights of the cells beside, and the sum of all weights.
+
+    Parameters
+    ----------
+    first, of_cell, owner, neighbour, weight
+        The faces of each cell; the cells and the weight of each face.
+    start, columns, values, diagonal
+        Results: the row of cell c is from ``start[c]`` to before ``start[c + 1]``. 1 on the diagonal of a
+        cell without weights.
+    """
+    at = 0
+    for c in range(diagonal.shape[0]):
+        total, start[c] = 0.0, at
+        for h in range(first[c], first[c + 1]):
+            f = of_cell[h]
+            total += weight[f]
+            if f < neighbour.shape[0]:
+                columns[at] = neighbour[f] if owner[f] == c else owner[f]
+                values[at] = -weight[f]
+                at += 1
+        diagonal[c] = total if total > 0.0 else 1.0
+    start[diagonal.shape[0]] = at
+
+
+def part_weights(
+    begin: int,
+    end: int,
+    start: Ints,
+    columns: Ints,
+    values: Floats,
+    diagonal: Floats,
+    block: Ints,
+    before: int,
+    pair: Ints,
+    inside: Floats,
+    blocks: Ints,
+    weights: Floats,
+) -> int:
+    """Add the weights of faces within a block to ``inside``; list those between two blocks.
+
+    Of the two equations with a face the one of the lower cell counts; see :class:`_Equations`.
+
+    Parameters
+    ----------
+    begin, end
+        The cells.
+    start, columns, values, diagonal
+        Results of :func:`list_rows`.
+    block, before, pair
+        See :class:`_Equations`; ``pair`` is the index of each cell in ``inside``.
+    inside, blocks, weights
+        Results; (2, n) the two blocks of a face, and (n,) its weight.
+
+    Returns
+    -------
+    The number of faces that are listed.
+    """
+    n, count = diagonal.shape[0], 0
+    for c in range(begin, end):
+        for k in range(start[c], start[c + 1]):
+            to = columns[k]
+            if to > c and (to < n or to >= n + before):
+                if block[to] == block[c]:
+                    inside[pair[c]] -= values[k]
+                else:
+                    blocks[0, count], blocks[1, count], weights[count] = block[c], block[to], -values[k]
+                    count += 1
+    return count
+
+
+def multiply_rows(
+    begin: int,
+    end: int,
+    start: Ints,
+    columns: Ints,
+    values: Floats,
+    diagonal: Floats,
+    way: Floats,
+    image: Floats,
+) -> float:
+    """Write the product of some rows of :func:`list_rows` with ``way``; return its product with ``way``."""
+    total = 0.0
+    for c in range(begin, end):
+        y = diagonal[c] * way[c]
+        for k in range(start[c], start[c + 1]):
+            y += values[k] * way[columns[k]]
+        image[c] = y
+        total += y * way[c]
+    return total
+
+
+def go_down(
+    begin: int,
+    end: int,
+    diagonal: Floats,
+    block: Ints,
+    step: float,
+    way: Floats,
+    image: Floats,
+    y: Floats,
+    residual: Floats,
+    sums: Floats,
+) -> tuple[float, float]:
+    """Go a step on the way for some cells; put the sums of the residual by blocks into ``sums``.
+
+    Returns
+    -------
+    The sum of squares of the residual, and that over the diagonal.
+    """
+    sums[:] = 0.0
+    square = energy = 0.0
+    for c in range(begin, end):
+        y[c] += step * way[c]
+        residual[c] -= step * image[c]
+        sums[block[c]] += residual[c]
+        square += residual[c] * residual[c]
+        energy += residual[c] * residual[c] / diagonal[c]
+    return square, energy
+
+
+def turn_way(
+    begin: int,
+    end: int,
+    diagonal: Floats,
+    block: Ints,
+    before: float,
+    residual: Floats,
+    way: Floats,
+    of_blocks: Floats,
+) -> None:
+    """Write the preconditioned residual plus ``before`` times the last way for some cells."""
+    for c in range(begin, end):
+        way[c] = residual[c] / diagonal[c] + of_blocks[block[c]] + before * way[c]
