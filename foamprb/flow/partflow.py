@@ -324,25 +324,34 @@ class PartFlow(MeshFlow):
         """Largest number of own cells that the fluid passes in a time, 1/s."""
         return self._rate_of(self.at_nodes()[1], self.turbulence_at_nodes())
 
+    @property
+    def steepness(self) -> float:
+        """Largest number of own cells on a length, 1/m."""
+        n = self.mesh.n_cells
+        return self._most_passed(np.zeros((n, 3)), np.ones(n))
+
     def _rate_of(self, u: Floats, turbulence: Floats) -> float:
+        """Return :attr:`rate` for the velocity (n, 3) and turbulence (n, 8), if any, at points and cells."""
+        cells, eddies = slice(self.mesh.n_points, None), np.zeros(self.mesh.n_cells)
+        if len(turbulence):
+            k, drift = turbulence[cells, 0], turbulence[cells, 5:]
+            eddies = _LARGEST_EDDY * fluctuation_size(np.maximum(k, 0.0)) + np.linalg.norm(drift, axis=1)
+        return self._most_passed(u[cells], eddies)
+
+    def _most_passed(self, u: Floats, further: Floats) -> float:
         """Return the largest flux through a face over the volume, of own cells, 1/s.
 
-        The velocity in a cell is that at its centre, in the last rows of ``u`` (n, 3), and that of eddies in
-        any direction, from the same rows of ``turbulence`` (n, 8), if there are any.
+        Cells have the velocities u (n, 3), m/s, and further ones in any direction, (n,).
         """
         mesh, part = self.mesh, self.halo.part
         of_cells = mesh.cell_face_start, mesh.cell_faces
         faces = Faces(mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour, *of_cells)
-        areas, u = measured(mesh.points, faces)[1], u[mesh.n_points :]
-        eddies = np.zeros(mesh.n_cells)
-        if len(turbulence):
-            k, drift = turbulence[mesh.n_points :, 0], turbulence[mesh.n_points :, 5:]
-            eddies = _LARGEST_EDDY * fluctuation_size(np.maximum(k, 0.0)) + np.linalg.norm(drift, axis=1)
+        areas = measured(mesh.points, faces)[1]
         most = np.zeros(mesh.n_cells)
         for cells in (mesh.owner, mesh.neighbour):
             across = areas[: len(cells)]
             passed = np.abs(np.einsum("fi,fi->f", across, u[cells]))
-            passed += np.linalg.norm(across, axis=1) * eddies[cells]
+            passed += np.linalg.norm(across, axis=1) * further[cells]
             np.maximum.at(most, cells, passed)
         return float((most / mesh.volumes)[part.own].max(initial=0.0))
 

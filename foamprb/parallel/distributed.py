@@ -103,6 +103,7 @@ class DistributedFlow:
         self._order, self._open_parts, self._step = order, open_parts, step
         self._shared: tuple[Any, ...] | None = None
         self.depth, self.shared_bytes = LEAST_LAYERS, 0
+        self._slip = 0.0
         self._summarise(summaries)
         self._deepen(self._layers)
         first = self.summaries[0]
@@ -117,6 +118,8 @@ class DistributedFlow:
 
     def _deepen(self, layers: int) -> None:
         """Let all nodes read their parts with more layers, until no body crosses them in a step."""
+        if layers <= self.depth:
+            return
         while self.depth < layers:
             self.depth = layers
             self._summarise(self._open_parts(layers))
@@ -127,8 +130,17 @@ class DistributedFlow:
 
     def _summarise(self, summaries: Summaries) -> None:
         self.summaries = [summary for summary in summaries if summary is not None]
-        self.rate = self.summaries[0].rate
-        """See :attr:`foamprb.flow.partflow.PartFlow.rate`."""
+        self._fluid = self.summaries[0].rate
+
+    @property
+    def rate(self) -> float:
+        """Largest number of cells that a body passes in a time, 1/s."""
+        return self._fluid + self._slip * self.summaries[0].steepness
+
+    def expect(self, slip: float) -> None:
+        """Prepare for bodies with a velocity relative to the fluid, m/s."""
+        self._slip = slip
+        self._deepen(self._layers)
 
     @property
     def _layers(self) -> int:
@@ -291,7 +303,7 @@ class DistributedSeries(Timeline, DistributedFlow):
 
     def _load_all(self, start: float, end: float) -> float:
         found = [own for own in self._order("load_part", start, end) if own is not None]
-        self.rate = max(rate for _, rate in found)
+        self._fluid = max(rate for _, rate in found)
         return float(found[0][0])
 
 

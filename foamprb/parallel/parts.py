@@ -90,7 +90,9 @@ class Summary(NamedTuple):
     held: int
     """Number of cells, with those of other nodes."""
     rate: float
-    """Largest velocity over the width of a cell, 1/s."""
+    """Largest velocity of the fluid over the width of a cell, 1/s."""
+    steepness: float
+    """Largest inverse of the width of a cell, 1/m."""
     columns: tuple[FieldColumns, ...]
     """Fields that are sampled."""
     time: str
@@ -106,7 +108,7 @@ def summary_of(flow: PartFlow) -> Summary:
     own = halo.part.own
     return Summary(
         flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts, int(own.sum()), len(own),
-        max(halo.of_all(flow.rate)), flow.field_columns, time,
+        max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)), flow.field_columns, time,
         *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
     )  # fmt: skip
 

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import PART, Cloud, Stepper, Value, parts_in_order
+from foamprb.cloud.measures import largest_slip
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.cloudfunctions.registry import CloudFunctions
@@ -321,6 +322,7 @@ class PartStepper(RankStepper):
 
     def _begin(self) -> None:
         cloud, ranks, flow = self.cloud, self.ranks, self._flow
+        flow.expect(largest_slip(cloud.particles, cloud.medium))
         cloud.make_ready()
         numbers = ranks.order("node_number")
         self._ranks_of = [[r for r, n in enumerate(numbers) if n == k] for k in range(max(numbers) + 1)]

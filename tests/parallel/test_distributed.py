@@ -8,6 +8,9 @@ from foam_writer import decompose, header, write_case
 from threads_team import together
 from transient_case import scaled
 
+from foamprb.cloud.block import Medium
+from foamprb.cloud.measures import largest_slip
+from foamprb.cloud.state import empty
 from foamprb.errors import InputError
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.fluid import _NU, ViscosityField
@@ -121,6 +124,18 @@ def test_a_flow_in_time_is_that_of_the_whole(period, case, random):
     # The faster one of the loaded times counts.
     assert flow.rate == distributed(case, FlowTimes("1")).rate
     assert flow.times_within(-1.0, 9.0)[:2] == [0.0, 1.0]
+
+
+def test_bodies_that_settle_pass_more_cells(flow):
+    p = empty(2)
+    p.R[:], p.rho[:], p.v[:] = (1e-4, 2e-4), 1900.0, ((0.0, 0.0, 0.0), (np.nan, 0.0, 0.0))
+    slip = largest_slip(p, Medium(1e-3, 1000.0, (0.0, 0.0, -9.81)))
+    assert slip == pytest.approx(2.0 * 2.0 / 9.0 * 900.0 * 9.81 * 4e-8 / 1e-3)
+    before = flow.rate
+    flow.expect(slip)
+    # Of cubes of half a metre and smaller cells.
+    assert (flow.rate - before) / slip >= 2.0
+    flow.expect(0.0)
 
 
 @pytest.mark.parametrize("times", [FlowTimes("1"), FlowTimes(None, True)])
