@@ -140,26 +140,28 @@ class PartFlow(MeshFlow):
         """
         mesh, arrays, n, halo = self.mesh, self._arrays, self._n_ends, self.halo
         rows = self._own_triangles(mesh)
-        walls, faces = walls_at(mesh, rows), self._faces_of(mesh, rows)
+        walls, faces, corners = walls_at(mesh, rows), self._faces_of(mesh, rows), mesh.triangles[rows]
         low, high = walls.corners.min(axis=1), walls.corners.max(axis=1)
         self._reach = np.inf if any(patch.neighbour for patch in self.patches) else reach
         parcels = []
         for box in halo.of_all(self._usable_box):
             near = np.all((high >= box[:3] - self._reach) & (low <= box[3:] + self._reach), axis=1)
-            parcels.append((faces[near], walls.take(near)))
+            parcels.append((faces[near], halo.part.points[corners[near]], walls.take(near)))
         found = halo.team.exchange(parcels)
-        order = np.argsort(np.concatenate([numbers for numbers, _ in found]), kind="stable")
+        order = np.argsort(np.concatenate([numbers for numbers, *_ in found]), kind="stable")
         self._all_walls = walls = Walls(
-            *(np.concatenate(arrays)[order] for arrays in zip(*(own for _, own in found), strict=True))
+            *(np.concatenate(arrays)[order] for arrays in zip(*(own for *_, own in found), strict=True))
         )
-        count, nodes, n_nodes = len(order), arrays.nodes, mesh.n_points + mesh.n_cells
+        points = np.concatenate([points for _, points, _ in found])[order].reshape(-1)
+        _, first, place = np.unique(points, return_index=True, return_inverse=True)
+        count, nodes, n_nodes = len(first), arrays.nodes, mesh.n_points + mesh.n_cells
         if len(nodes) == n_nodes:
             # In place at the start, when a second copy would be the peak of memory.
-            nodes.resize((n_nodes + 3 * count, 16), refcheck=False)
+            nodes.resize((n_nodes + count, 16), refcheck=False)
         else:
-            nodes = np.concatenate([nodes[:n_nodes], np.zeros((3 * count, 16))])
-        nodes[n_nodes:, :3] = walls.corners.reshape(-1, 3)
-        of_walls = np.arange(n_nodes, n_nodes + 3 * count, dtype=np.int32).reshape(-1, 3)
+            nodes = np.concatenate([nodes[:n_nodes], np.zeros((count, 16))])
+        nodes[n_nodes:, :3] = walls.corners.reshape(-1, 3)[first]
+        of_walls = (n_nodes + place.reshape(-1, 3)).astype(np.int32)
         self._arrays = arrays._replace(
             nodes=nodes,
             triangles=np.concatenate([arrays.triangles[:n], of_walls]),
@@ -345,14 +347,18 @@ class PartFlow(MeshFlow):
         """
         mesh, part = self.mesh, self.halo.part
         of_cells = mesh.cell_face_start, mesh.cell_faces
-        faces = Faces(mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour, *of_cells)
-        areas = measured(mesh.points, faces)[1]
         most = np.zeros(mesh.n_cells)
-        for cells in (mesh.owner, mesh.neighbour):
-            across = areas[: len(cells)]
-            passed = np.abs(np.einsum("fi,fi->f", across, u[cells]))
-            passed += np.linalg.norm(across, axis=1) * further[cells]
-            np.maximum.at(most, cells, passed)
+        for begin in range(0, len(mesh.owner), AT_ONCE // 16):
+            # Part by part: the areas of all faces would need the memory of another field.
+            end = begin + AT_ONCE // 16
+            owner, neighbour = mesh.owner[begin:end], mesh.neighbour[begin:end]
+            faces = Faces(mesh.face_start[begin : end + 1], mesh.face_points, owner, neighbour, *of_cells)
+            areas = measured(mesh.points, faces)[1]
+            for cells in (owner, neighbour):
+                across = areas[: len(cells)]
+                passed = np.abs(np.einsum("fi,fi->f", across, u[cells]))
+                passed += np.linalg.norm(across, axis=1) * further[cells]
+                np.maximum.at(most, cells, passed)
         return float((most / mesh.volumes)[part.own].max(initial=0.0))
 
     def places_in_whole(self) -> tuple[Ints, Labels, Ints]:
