@@ -258,23 +258,27 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         / (ranks * m.efficiency)
         * m.snapshot,
         f"{writes} snapshots: onto the file system": writes * to_disk,
-        f"{writes} snapshots: metadata, a file a core": writes * operations * ranks,
-        f"{writes} checkpoints: gathered by the first process": writes * gathered / c.link,
-        f"{writes} checkpoints: written by the first process": writes * gathered / c.per_node_disk,
-        "the table of fates, as text by the first process": particles * m.row,
+        f"{writes} checkpoints: sent to the homes of the particles": writes * gathered / (c.nodes * c.link),
+        f"{writes} checkpoints: onto the file system": writes
+        * max(gathered / c.disk, gathered / c.nodes / c.per_node_disk),
+        f"{writes} snapshots and checkpoints: metadata, two files a core": 2 * writes * operations * ranks,
+        "the cloud at the start, sent by the first process": gathered / c.link,
+        "the table of fates, as text, a process a core": particles * m.row / ranks,
+        "the table of fates, written by the first process": particles * m.row_bytes / c.per_node_disk,
         "start of Python, a process a core, from the parallel file system": ranks
         * 4
         * m.modules
         / c.metadata,
-        "the same, a process a node": c.nodes * 4 * m.modules / c.metadata,
+        "start of Python, a process a node": c.nodes * 4 * m.modules / c.metadata,
     }
     memory = {
         "mesh, whole on each node": CELLS * m.cell,
         "mesh, whole, during its preparation": CELLS * m.cell_peak,
         "mesh, the part of a node with its layers": held * m.cell,
         "mesh, the part, during its preparation": held * PREPARED,
-        "particles of a node, evenly": particles / c.nodes * m.state,
-        "first process: the whole cloud, with the copy for the checkpoint": particles * m.peak,
+        "particles of a node and those whose home it is, evenly": particles / c.nodes * (m.state + m.peak),
+        "first process: the whole cloud, at the start": particles * m.state,
+        "the same with cloud functions, throughout": particles * m.peak,
     }
     text = TEMPLATE.read_text(encoding="utf-8").format(
         particles=number(particles),
@@ -326,7 +330,8 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         snapshot=number(particles * m.file / 1e9),
         all_snapshots=number(writes * particles * m.file / 1e12),
         table_size=number(particles * m.row_bytes / 1e9),
-        most_particles=number(c.memory / m.peak),
+        most_particles=number(c.memory / m.state),
+        most_sampled=number(c.memory / m.peak),
         order=_order(whole, compute),
     )
     return text, {"life": life, "places": places}
