@@ -411,6 +411,9 @@ class Stepper:
         cloud = self.cloud
         return [function(cloud.particles, cloud.flow, cloud.time, *arguments)]
 
+    def regroup(self) -> None:
+        """Distribute the gathered particles again if that pays; no-op on one process."""
+
     firsts: tuple[int, ...] = (0,)
     """Number of the first gathered particle of each process that has some."""
 

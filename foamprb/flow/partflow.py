@@ -361,9 +361,10 @@ class PartFlow(MeshFlow):
                 np.maximum.at(most, cells, passed)
         return float((most / mesh.volumes)[part.own].max(initial=0.0))
 
-    def places_in_whole(self) -> tuple[Ints, Labels, Ints]:
-        """Return nodes and first tetrahedra of the cells in the whole mesh, and the first ones here."""
-        return self.halo.part.node, self._first_tet, self.mesh.cell_start
+    def places_in_whole(self) -> tuple[Ints, Labels, Ints, Ints]:
+        """Return nodes and first tetrahedra of cells in the whole mesh, the first ones here, and folders."""
+        halo = self.halo
+        return halo.part.node, self._first_tet, self.mesh.cell_start, halo.folders.of_cells
 
     def own_patch_faces(self, name: str, t: float) -> tuple[Labels, PatchFaces]:
         """Return the triangles of a patch at own cells with the numbers of their faces and of their hosts."""

@@ -19,6 +19,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import find_file
 from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
 from foamprb.flow.read.density import keeps_volume
+from foamprb.flow.read.parts import ends_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.timeline import Timeline
@@ -29,7 +30,7 @@ log = logging.getLogger("foamprb")
 LEAST_LAYERS = 3
 """Smallest number of layers around the cells of a node."""
 Summaries: TypeAlias = Sequence[Summary | None]
-OpenParts: TypeAlias = Callable[[int], Summaries]
+OpenParts: TypeAlias = Callable[[int, NDArray[np.int64] | None], Summaries]
 _MOST_NODES = 1_000_000
 """Number of nodes up to which :meth:`DistributedFlow.at_nodes` returns all."""
 
@@ -84,7 +85,8 @@ class DistributedFlow:
     order
         Lets all processes call a method of their worker; see :meth:`foamprb.parallel.ranks.Ranks.order`.
     open_parts
-        Lets all nodes read their parts with a number of layers around their cells in which bodies may move.
+        Lets all nodes read their parts with a number of layers around their cells in which bodies may move,
+        and a load of the processor folders.
         Returns the summaries of all processes; None for those that are not the first of a node.
     step
         Time between two points where particles can change nodes, s.
@@ -95,12 +97,15 @@ class DistributedFlow:
     kernels = MeshFlow.kernels
     nothing: Callable[[], Any] = staticmethod(MeshFlow.nothing)
     lists_walls = True
+    seconds = 0.0
+    """Duration of the last reading."""
     span = (-math.inf, math.inf)
 
     def __init__(
         self, order: Callable[..., list[Any]], open_parts: OpenParts, step: float, summaries: Summaries
     ) -> None:
         self._order, self._open_parts, self._step = order, open_parts, step
+        self._load: NDArray[np.int64] | None = None
         self._shared: tuple[Any, ...] | None = None
         self.depth, self.shared_bytes = LEAST_LAYERS, 0
         self._slip = 0.0
@@ -122,8 +127,12 @@ class DistributedFlow:
             return
         while self.depth < layers:
             self.depth = layers
-            self._summarise(self._open_parts(layers))
+            self._summarise(self._open_parts(layers, self._load))
             layers = self._layers
+        self._share_again()
+
+    def _share_again(self) -> None:
+        """Let all nodes list walls as before, after they have read their parts."""
         walls, self._shared = self._shared, None
         if walls is not None:
             self.arrays(*walls)
@@ -146,6 +155,23 @@ class DistributedFlow:
     def _layers(self) -> int:
         """Return the number of layers that no body crosses in a step."""
         return 2 + math.ceil(self.rate * self._step)
+
+    @property
+    def folders(self) -> NDArray[np.int64]:
+        """Number of cells of each processor folder."""
+        return np.concatenate([summary.folders for summary in self.summaries])
+
+    def loads(self, load: NDArray[np.int64], again: bool) -> NDArray[np.int64]:
+        """Return the sum of a load of folders on each node, with its folders or with those taken again."""
+        counts = [0, *(len(summary.folders) for summary in self.summaries)]
+        ends = ends_of(self.folders, load, len(self.summaries)) if again else np.cumsum(counts)
+        return np.diff(np.concatenate([[0], np.cumsum(load)])[ends])
+
+    def regroup(self, load: NDArray[np.int64]) -> None:
+        """Let the nodes take processor folders again, by the cells and by the load of each."""
+        self._load = load
+        self._summarise(self._open_parts(self.depth, load))
+        self._share_again()
 
     def owners(self, hosts: NDArray[Any]) -> list[NDArray[np.intp]]:
         """Return the rows of the hosts that each node owns."""
@@ -309,6 +335,6 @@ class DistributedSeries(Timeline, DistributedFlow):
 
 def distributed_flow(order: Callable[..., list[Any]], open_parts: OpenParts, step: float) -> DistributedFlow:
     """Return the flow of which all nodes hold parts; see :class:`DistributedFlow`."""
-    summaries = open_parts(LEAST_LAYERS)
+    summaries = open_parts(LEAST_LAYERS, None)
     several = any(summary is not None and summary.times for summary in summaries)
     return (DistributedSeries if several else DistributedFlow)(order, open_parts, step, summaries)

@@ -59,6 +59,8 @@ class PlacesInWhole(NamedTuple):
     """(n_cells,) the first tetrahedron of each cell in the whole mesh."""
     start: Ints
     """(n_cells + 1,) and here."""
+    folder: Ints
+    """(n_cells,) the processor folder of each own cell."""
 
 
 class Shared(NamedTuple):
@@ -85,6 +87,8 @@ class Summary(NamedTuple):
     notes: tuple[str, ...]
     counts: tuple[int, int, int]
     """Cells, points and tetrahedra of the whole mesh."""
+    folders: tuple[int, ...]
+    """Number of own cells in each processor folder of the node."""
     own: int
     """Number of own cells."""
     held: int
@@ -105,10 +109,12 @@ class Summary(NamedTuple):
 def summary_of(flow: PartFlow) -> Summary:
     """Return the summary of a part; all nodes call it together."""
     halo, time = flow.halo, flow.at_nodes()[0]
-    own = halo.part.own
+    own, chosen = halo.part.own, halo.folders.chosen
+    folders = np.bincount(halo.folders.of_cells[own] - chosen.start, minlength=len(chosen))
     return Summary(
-        flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts, int(own.sum()), len(own),
-        max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)), flow.field_columns, time,
+        flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts, tuple(folders.tolist()),
+        int(own.sum()), len(own), max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)),
+        flow.field_columns, time,
         *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
     )  # fmt: skip
 
@@ -168,12 +174,18 @@ class Part:
         return self.mesh if self._loaded is None else self._loaded._replace(mesh=self.mesh)
 
     def open(
-        self, root: Path, region: str, times: FlowTimes, source: FlowSource, depth: int
+        self,
+        root: Path,
+        region: str,
+        times: FlowTimes,
+        source: FlowSource,
+        depth: int,
+        load: Labels | None = None,
     ) -> Summary | None:
         """Read the flow; return a summary on the first process of the node."""
 
         def read(team: MpiTeam) -> Summary:
-            flow = flow_of(PartCase(root, region, team, depth), times, source)
+            flow = flow_of(PartCase(root, region, team, depth, load), times, source)
             assert isinstance(flow, PartFlow)
             self.flow = flow
             flow.move(self._publisher.move)

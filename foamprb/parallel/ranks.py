@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import logging
 import pickle
+import time as clock
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -25,7 +26,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import PART, Cloud, Stepper, Value, parts_in_order
 from foamprb.cloud.measures import largest_slip
-from foamprb.cloud.state import Status
+from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields, columns_of
@@ -114,7 +115,9 @@ class Ranks:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             return None
         open_parts = partial(self.order, "open_part", case, source.region, times, source)
+        started = clock.perf_counter()
         flow = distributed_flow(self.order, open_parts, step)
+        flow.seconds = clock.perf_counter() - started
         for number, summary in enumerate(flow.summaries):
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,
                      summary.held - summary.own)  # fmt: skip
@@ -321,20 +324,45 @@ class PartStepper(RankStepper):
     _order = "advance_part"
 
     def _begin(self) -> None:
-        cloud, ranks, flow = self.cloud, self.ranks, self._flow
-        flow.expect(largest_slip(cloud.particles, cloud.medium))
+        cloud, ranks = self.cloud, self.ranks
+        self._flow.expect(largest_slip(cloud.particles, cloud.medium))
         cloud.make_ready()
         numbers = ranks.order("node_number")
         self._ranks_of = [[r for r, n in enumerate(numbers) if n == k] for k in range(max(numbers) + 1)]
-        hosts = cloud.particles.host
-        self._node_of = np.zeros(len(hosts), dtype=np.int32)
-        for number, rows in enumerate(flow.owners(hosts)):
-            self._node_of[rows] = number
+        self._seconds, self._lost = 0.0, 0.0
         log.info("    %-24s %d", "steps between exchanges", self._few)
 
     def _set_out(self) -> None:
-        self.ranks.order("set_out", self._ranks_of, own=(self._node_of,))
-        del self._node_of
+        hosts = np.concatenate(self.at_homes(_hosts_of))
+        node_of = np.zeros(len(hosts), dtype=np.int32)
+        for number, rows in enumerate(self._flow.owners(hosts)):
+            node_of[rows] = number
+        self.ranks.order("set_out", self._ranks_of, own=(node_of,))
+
+    def regroup(self) -> None:
+        """Let the nodes take other processor folders, if the most loaded one then has fewer particles.
+
+        They do when as much time has been lost as reading the parts takes. This is at most twice the time
+        that the best choice in hindsight would take.
+        """
+        flow = self._flow
+        load = sum(self.ranks.order("load_of_folders", len(flow.folders)))
+        before, after = (int(flow.loads(load, again).max()) for again in (False, True))
+        self._lost += self._seconds * max(0.0, 1.0 - after / max(before, 1))
+        self._seconds = 0.0
+        if not self._pays():
+            return
+        log.info("Nodes take processor folders again: one has at most %d particles, instead of %d",
+                 after, before)  # fmt: skip
+        started, self._lost = clock.perf_counter(), 0.0
+        self.ranks.order("go_home")
+        flow.regroup(load)
+        self._set_out()
+        self._counts = [share.counts for share in self.ranks.order("share")]
+        flow.seconds = clock.perf_counter() - started
+
+    def _pays(self) -> bool:
+        return self._lost > self._flow.seconds
 
     @property
     def _few(self) -> int:
@@ -360,12 +388,14 @@ class PartStepper(RankStepper):
     def _carry(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:  # noqa: ARG002
         """Advance all shares by few steps at a time, and hand particles over after each call."""
         step, last, few, outcome = self.cloud.step, self.cloud.step + steps, self._few, Outcome()
+        started = clock.perf_counter()
         while step < last and outcome.finished:
             self._balance()
             # Calls end at multiples, as strides of several tracking steps do.
             end = min(last, (step // few + 1) * few)
             outcome += self._advance(step, end - step, stop)
             step = end
+        self._seconds += clock.perf_counter() - started
         return outcome
 
     def _balance(self) -> None:
@@ -389,6 +419,10 @@ def stepper_of(cloud: Cloud, ranks: Ranks, functions: CloudFunctions) -> RankSte
     """
     flow: Any = cloud.flow
     return (PartStepper if isinstance(flow, DistributedFlow) else RankStepper)(cloud, ranks, functions)
+
+
+def _hosts_of(p: Particles) -> NDArray[np.int64]:
+    return np.asarray(p.host)
 
 
 MOST_AT_ONCE = 1000

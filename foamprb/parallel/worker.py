@@ -243,7 +243,13 @@ class Worker:
         return ShareState(counts)
 
     def open_part(
-        self, root: Path, region: str, times: FlowTimes, source: FlowSource, depth: int
+        self,
+        root: Path,
+        region: str,
+        times: FlowTimes,
+        source: FlowSource,
+        depth: int,
+        load: NDArray[np.int64] | None = None,
     ) -> Summary | None:
         """Read the flow on the cells of this node; return a summary on its first process."""
         if self._part is not None:
@@ -253,7 +259,17 @@ class Worker:
             self._part = None
             gc.collect()
         self._part = Part(self._MPI, self.windows)
-        return self._part.open(root, region, times, source, depth)
+        return self._part.open(root, region, times, source, depth, load)
+
+    def load_of_folders(self, n: int) -> NDArray[np.int64]:
+        """Return the number of active particles in each of n processor folders."""
+        p, part = self.particles, self._held
+        cells = part.cells_of(p.host[p.status == Status.ACTIVE])
+        return np.bincount(part.places.folder[cells], minlength=n)
+
+    def go_home(self) -> None:
+        """Leave all particles to their homes, which have gathered them."""
+        self.own = self.own.take(slice(0))
 
     def share_part(self, *walls: Any) -> int:
         """Place the arrays of the node's flow, with some walls, in its memory; return bytes shared once."""

@@ -95,6 +95,7 @@ def execute(
                     break
                 results.write(stepper)
                 log.write_time(stepper)
+                stepper.regroup()
                 if following is not None:
                     following.release(results.earliest_restart)
         if following is not None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from foam_writer import decompose, header, write_case
+from hypothesis import given
+from hypothesis import strategies as st
 from threads_team import together
 from transient_case import scaled
 
@@ -16,7 +18,7 @@ from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.fluid import _NU, ViscosityField
 from foamprb.flow.read.foamfile import FoamFile
 from foamprb.flow.read.openfoam import flow_of, steady_flow
-from foamprb.flow.read.parts import PartCase
+from foamprb.flow.read.parts import PartCase, ends_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.parallel.distributed import distributed_flow, why_whole
 from foamprb.parallel.parts import summary_of
@@ -59,7 +61,7 @@ def distributed(case, times, source=FlowSource()):  # noqa: B008
         assert name == "ask_part"
         return together(2, lambda team: getattr(found[team.rank][0], arguments[0])(*arguments[1:]))
 
-    return distributed_flow(order, lambda _: [summary for _, summary in found], 0.0)
+    return distributed_flow(order, lambda *_: [summary for _, summary in found], 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -193,3 +195,22 @@ def test_an_error_on_one_node_is_raised_on_all():
 )
 def test_the_reason_for_a_whole_mesh_is_given(changes, nodes, reason, case):
     assert why_whole(case, FlowTimes("1"), FlowSource(**changes), nodes) == reason
+
+
+@given(st.lists(st.tuples(st.integers(1, 1000), st.integers(1, 1000)), min_size=4, max_size=30))
+def test_folders_are_shared_by_cells_and_particles(folders):
+    """A node has at most two even shares of either, and one folder."""
+    shares = np.array(folders) / np.sum(folders, axis=0)
+    cells, load = np.array(folders).T
+    ends = np.array(ends_of(cells, load, 4))
+    assert (ends[0], ends[-1]) == (0, len(folders))
+    assert (np.diff(ends) > 0).all()
+    assert np.add.reduceat(shares, ends[:-1]).max() <= 2.0 / 4 + shares.sum(axis=1).max() + 1e-6
+    assert ends_of(cells, np.zeros_like(load), 4) == ends_of(cells, None, 4)
+
+
+def test_loads_of_nodes(flow):
+    """Of two folders each node has one."""
+    assert flow.folders.sum() == flow.mesh.n_cells
+    load = np.array([5, 7])
+    assert flow.loads(load, again=False).tolist() == flow.loads(load, again=True).tolist() == [5, 7]

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Patch
+from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.fragment import Grown, Labels, Team, places_of
@@ -201,6 +201,15 @@ class _LocalCoupling:
         return named, tuple(kept)
 
 
+class Folders(NamedTuple):
+    """Processor folders that a node has read."""
+
+    chosen: range
+    """Which of all."""
+    of_cells: Ints
+    """(n_cells,) the folder of each own cell."""
+
+
 class Halo:
     """Exchange of values between the nodes that hold a mesh.
 
@@ -210,10 +219,13 @@ class Halo:
         Cells of this node.
     team
         The nodes.
+    folders
+        Processor folders that this node has read, if there are several.
     """
 
-    def __init__(self, part: SubMesh, team: Team) -> None:
+    def __init__(self, part: SubMesh, team: Team, folders: Folders | None = None) -> None:
         self.part, self.team = part, team
+        self.folders = folders or Folders(range(1), np.zeros(len(part.cells), dtype=np.int32))
         mesh, cells = part.mesh, part.cells
         everyone = range(team.size)
         n_boundary = int(mesh.patch_start[-2])

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import Transform
-from foamprb.flow.mesh.fragment import Team, grow
+from foamprb.flow.mesh.fragment import Labels, Team, grow
 from foamprb.flow.mesh.lists import even_ends
-from foamprb.flow.mesh.submesh import CUT, RINGS, Halo, assemble_part, partners_of
+from foamprb.flow.mesh.submesh import CUT, RINGS, Folders, Halo, assemble_part, partners_of
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
 from foamprb.flow.read.case import MissingFieldError, mesh_files
 from foamprb.flow.read.checks import notes_of_types, require_patch_shapes, require_volumes
@@ -35,6 +35,7 @@ REMEDY = "Run reconstructPar, or use one computer."
 _REFUSED = frozenset(
     {"cyclicAMI", "cyclicACMI", "cyclicPeriodicAMI", "cyclicRepeatAMI", "nonConformalCyclic", "overset"}
 )
+_FINE = 1e9
 _OF_WHOLE_PATCH = "flowRateInletVelocity"
 """Condition whose value, if the file has none, depends on the area of the whole patch."""
 
@@ -52,14 +53,16 @@ class PartCase(DecomposedCase):
         The nodes.
     depth
         Number of layers in which bodies may move.
+    load
+        (n,) particles in each of all processor folders, if they count.
     """
 
-    def __init__(self, root: Path, region: str, team: Team, depth: int) -> None:
+    def __init__(self, root: Path, region: str, team: Team, depth: int, load: Labels | None = None) -> None:
         super().__init__(root, region)
         self._team, self._depth = team, depth
         self._whole: CaseMesh | None = None
         folder = self.mesh_folder(self._times[-1]).relative_to(self._first)
-        ends = even_ends(self.processors.cells(folder), team.size) if team.rank == 0 else None
+        ends = ends_of(self.processors.cells(folder), load, team.size) if team.rank == 0 else None
         self.processors.chosen = range(*team.spread(ends)[team.rank :][:2])
 
     def mesh(self, time: str) -> CaseMesh:
@@ -102,7 +105,10 @@ class PartCase(DecomposedCase):
         trim()
         part = assemble_part(grown, surfaces, ranges, n_internal, team, str(folder))
         trim()
-        self.halo, mesh = Halo(part, team), part.mesh
+        of_cells = np.zeros(len(part.cells), dtype=np.int32)
+        for number, own in zip(self.processors.chosen, parts, strict=True):
+            of_cells[np.searchsorted(part.cells, own.cells)] = number
+        self.halo, mesh = Halo(part, team, Folders(self.processors.chosen, of_cells)), part.mesh
         counts, first = np.diff(mesh.patch_start).tolist(), (mesh.n_internal + mesh.patch_start).tolist()
         infos = [*self._patches, PatchInfo(CUT.name, CUT.type, 0, 0, "", Transform(), {})]
         patches = tuple(p._replace(faces=n, start=k) for p, n, k in zip(infos, counts, first, strict=False))
@@ -182,3 +188,20 @@ class PartCase(DecomposedCase):
         cells = self.halo.part.cells
         nothing = np.empty(0, dtype=np.int64)
         return {name: np.searchsorted(cells, zones.get(name, nothing)) for name in sorted(names)}
+
+
+def ends_of(cells: Labels, load: Labels | None, nodes: int) -> list[int]:
+    """Return where the processor folders of each node end; see :func:`even_ends`.
+
+    Parameters
+    ----------
+    cells, load
+        Cells and particles of each folder. Without particles the cells count alone. Otherwise all cells count
+        as much as all particles, so that no node has more than about two even shares of either.
+    nodes
+        Number of nodes.
+    """
+    if load is None or not load.any():
+        return even_ends(cells, nodes)
+    shares = cells / max(int(cells.sum()), 1) + load / load.sum()
+    return even_ends(np.rint(_FINE * shares).astype(np.int64), nodes)
