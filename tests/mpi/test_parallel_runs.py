@@ -456,9 +456,9 @@ def test_eddies_are_the_same_on_several_processes(tmp_path):
     kill = after_hook(tmp_path, at_write("os.kill(os.getpid(), signal.SIGKILL)", 1))
     assert run(3, case, script=kill).returncode != 0
     saved = {file.name for file in (folder_of(case) / "checkpoint").iterdir()}
-    assert saved == {f"{t}.checkpoint{part}" for t in ("0.001", "0.002") for part in ("", ".103", ".206")}
+    assert saved == {f"{t}.checkpoint{part}" for t in ("0.001", "0.002") for part in ("", ".104", ".207")}
     # A part that is cut gives way to the checkpoint before.
-    part = folder_of(case) / "checkpoint/0.002.checkpoint.103"
+    part = folder_of(case) / "checkpoint/0.002.checkpoint.104"
     part.write_bytes(part.read_bytes()[:-1])
     assert "Continuing from the checkpoint at t = 0.001 s" in finish(2, case, "-resume")
     assert_same(case, alone, functions=False)
