@@ -15,7 +15,7 @@ from transient_case import SCALE, write_transient_case
 
 import foamprb
 from foamprb.cli import main
-from foamprb.flow import fluxes
+from foamprb.flow import balance, fluxes
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.meshfile import read_mesh_series
 from foamprb.flow.read.openfoam import read_case, read_series
@@ -68,8 +68,9 @@ def test_velocity_is_linear_between_times(case, random):
 
 @pytest.mark.parametrize(("kind", "first"), [("case", "0"), ("file", "0.5")])
 def test_the_first_time_without_balanced_fluxes_is_told(kind, first, case, tmp_path, monkeypatch, caplog):
-    monkeypatch.setattr(fluxes, "_MOST_ITERATIONS", 0)
-    monkeypatch.setattr(fluxes, "_BALANCED", 0.0)
+    monkeypatch.setattr(balance, "MOST_ITERATIONS", 0)
+    for module in (balance, fluxes):
+        monkeypatch.setattr(module, "BALANCED", 0.0)
     flow = read_series(case)
     if kind == "file":
         mesh = pyvista.ImageData(dimensions=(3, 3, 3)).cast_to_unstructured_grid()
