@@ -313,13 +313,19 @@ class PartFlow(MeshFlow):
         further = [
             values for values in (self.turbulence_at_nodes(), self.viscosity_at_nodes()) if len(values)
         ]
-        table = np.concatenate([u, l, *(values[:n].reshape(n, -1) for values in further)], axis=1)[rows]
-        l = table[:, 3:12]
-        speeds = np.linalg.norm(table[:, :3], axis=1)
-        rates = np.linalg.norm(l + l.reshape(-1, 3, 3).transpose(0, 2, 1).reshape(-1, 9), axis=1)
-        ends = [f(values) for values in (speeds, rates, *table[:, 12:].T) for f in (np.argmin, np.argmax)]
+        columns = [u, l, *(values[:n].reshape(n, -1) for values in further)]
+        compared = []
+        for begin in range(0, len(rows), AT_ONCE // 16):
+            # Part by part, for the memory.
+            table = np.concatenate([a[rows[begin : begin + AT_ONCE // 16]] for a in columns], axis=1)
+            l = table[:, 3:12]
+            speeds = np.linalg.norm(table[:, :3], axis=1)
+            rates = np.linalg.norm(l + l.reshape(-1, 3, 3).transpose(0, 2, 1).reshape(-1, 9), axis=1)
+            compared.append(np.column_stack([speeds, rates, table[:, 12:]]))
+        whole = np.concatenate(compared)
+        ends = np.concatenate([whole.argmin(axis=0), whole.argmax(axis=0)])
         chosen = np.union1d(np.flatnonzero(numbers % stride == 0), ends)
-        return numbers[chosen], table[chosen]
+        return numbers[chosen], np.concatenate([a[rows[chosen]] for a in columns], axis=1)
 
     @property
     def rate(self) -> float:
