@@ -317,6 +317,13 @@ def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
     assert_same(case, alone, functions=False)
 
 
+REGROUPING = """
+# Nodes read their parts again at each write time.
+from foamprb.parallel.ranks import PartStepper
+PartStepper._pays = lambda self: True
+"""
+
+
 def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(tmp_path, monkeypatch):
     monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
     case = write_transient_case(tmp_path / "case")
@@ -331,8 +338,9 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(tmp_path, monkeyp
     alone = Path(shutil.copytree(case, tmp_path / "alone"))
     assert main(["run", "-case", str(alone)]) == 0
     # However small the mesh is, its arrays are shared.
-    done = run(2, case, script=after_hook(tmp_path, "shared_memory._SMALLEST = 100"))
+    done = run(2, case, script=after_hook(tmp_path, "shared_memory._SMALLEST = 100\n" + REGROUPING))
     assert done.returncode == 0, done.stderr
+    assert "Nodes take processor folders again" in done.stdout
     assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
     assert_same(case, alone, functions=False)
 
@@ -499,10 +507,8 @@ def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_pa
     decomposed(case, 5)
     kill = after_hook(
         tmp_path,
-        """
-from foamprb.parallel.ranks import PartStepper
-# Folders change their nodes at each write time.
-PartStepper._pays = lambda self: True
+        REGROUPING
+        + """
 hand_over = Worker._hand_over
 def hooked(self):
     if rank == 1 and max(self.particles.t, default=0.0) > 0.0115:
