@@ -34,7 +34,7 @@ functions = CloudFunctions(models, ObservedCloud(cloud, ("cells",), ()))
 with tempfile.TemporaryDirectory() as folder:
     for step in range(1, 1001):
         cloud.advance(1)
-        functions.sample()
+        functions.sample(functions.due)
         if step % 5 == 0:
             functions.write(Path(folder))
     damage = {

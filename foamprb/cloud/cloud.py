@@ -32,7 +32,7 @@ __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 
 Value = TypeVar("Value")
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
-PART = 1 << 16
+PART = 1 << 14
 """Particles in a part of :meth:`Stepper.in_order`."""
 _FIRST_CHECK = 4
 """Steps before the stability of ``paper`` is first checked; it is again whenever they have doubled."""

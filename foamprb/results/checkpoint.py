@@ -131,7 +131,8 @@ class Checkpoints:
 
 def parts_of(file: Path) -> list[Path]:
     """Return the files with the further rows of a checkpoint."""
-    return sorted(file.parent.glob(f"{file.name}.*"))
+    # Another file of such a name may be unfinished.
+    return sorted(part for part in file.parent.glob(f"{file.name}.*") if part.suffix[1:].isdigit())
 
 
 def part_file(file: Path, first: int) -> Path:

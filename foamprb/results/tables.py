@@ -22,7 +22,7 @@ Column = Sequence[object] | NDArray[Any]
 
 # Rows that are converted to text or from it together; their cells fit into the processor's cache.
 _CHUNK = 2048
-_AT_ONCE = 1 << 16
+_AT_ONCE = 1 << 14
 """Rows of a table whose text is in memory together."""
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 _QUOTE = '"'

@@ -354,7 +354,7 @@ class Results:
                 read_pvd(self._job.folder.pvd)
             except InputError as error:
                 log.warning("%s It is replaced.", error)
-        remove_unfinished({*manifest.files, manifest.path})
+        remove_unfinished({*manifest.files, manifest.path, *self._last_tables()})
         # Checkpoints first: after an interrupted removal they would resemble an unfinished run.
         files = sorted(manifest.files)
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
@@ -401,7 +401,7 @@ class Results:
         except InputError as error:
             log.warning("%s It is rebuilt; files of later times may remain.", error)
             manifest = Manifest(job.folder.path)
-        remove_unfinished({*manifest.files, manifest.path})
+        remove_unfinished({*manifest.files, manifest.path, *self._last_tables()})
         manifest.remove(file for file in self._last_tables() if file in manifest.files)
         self._series.relist(entries)
         renew_record(job.folder.record, job.description)

@@ -12,6 +12,7 @@ from foamprb.results.checkpoint import (
     Checkpoints,
     DamagedError,
     part_file,
+    parts_of,
     read_checkpoint,
     write_checkpoint,
 )
@@ -144,13 +145,16 @@ def test_a_damaged_missing_or_foreign_part_damages_the_whole(tmp_path: Path) -> 
 
 
 def test_parts_go_with_their_checkpoint(tmp_path: Path) -> None:
-    """Those of 2 s are not those of 2.5 s."""
+    """Those of 2 s are not those of 2.5 s, nor an unfinished file."""
     for time in (2.5, 2.0, 3.0):
         store, _, _ = in_parts(tmp_path, time)
     names = {f"{time}.checkpoint{part}" for time in ("2.5", "3") for part in ("", ".1", ".3")}
     assert {file.name for file in tmp_path.iterdir()} == names
+    unfinished = tmp_path / "3.checkpoint.x1.tmp"
+    unfinished.touch()
+    assert parts_of(store.file(3.0)) == [part_file(store.file(3.0), n) for n in (1, 3)]
     store.truncate(after=0.0)
-    assert not list(tmp_path.iterdir())
+    assert list(tmp_path.iterdir()) == [unfinished]
 
 
 def test_the_last_two_are_kept(tmp_path: Path) -> None:

@@ -241,6 +241,13 @@ def test_a_damaged_checkpoint_costs_one_write_interval(stopped, truth, capsys):
     assert results(stopped) == truth
 
 
+def test_an_unfinished_table_of_fates_is_removed(stopped, truth):
+    """No manifest lists it yet."""
+    (stopped / "postProcessing/softCloud/.fates.csv.0123abcd.tmp").touch()
+    go_on(stopped)
+    assert results(stopped) == truth
+
+
 @pytest.mark.parametrize(
     ("number", "status"), [(signal.SIGINT, 130), (signal.SIGHUP, 129), (signal.SIGXCPU, 152)]
 )
