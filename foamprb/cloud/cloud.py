@@ -364,6 +364,9 @@ class Stepper:
         The cloud; its arrays change in place.
     """
 
+    firsts: tuple[int, ...] = (0,)
+    """Number of the first gathered particle of each process that has some."""
+
     def __init__(self, cloud: Cloud) -> None:
         self.cloud = cloud
 
@@ -413,9 +416,6 @@ class Stepper:
 
     def regroup(self) -> None:
         """Distribute the gathered particles again if that pays; no-op on one process."""
-
-    firsts: tuple[int, ...] = (0,)
-    """Number of the first gathered particle of each process that has some."""
 
     def at_homes(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
         """Return what a function finds of the gathered particles of each process.

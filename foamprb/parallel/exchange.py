@@ -85,6 +85,11 @@ def homes_of(n: int, size: int, whole: bool) -> NDArray[np.int64]:
     return -(-np.arange(size + 1, dtype=np.int64) * n // size)
 
 
+def idle_share(before: int, after: int) -> float:
+    """Return the share of a step that is saved if the largest of all loads changes; 0 if it grows."""
+    return max(0, before - after) / max(before, 1)
+
+
 def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:
     """Who gives how many active particles to whom, so that all have as many; None if it does not pay.
 

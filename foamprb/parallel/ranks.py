@@ -32,7 +32,7 @@ from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields, columns_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.parallel.distributed import DistributedFlow, distributed_flow, why_whole
-from foamprb.parallel.exchange import Share, homes_of, plan_exchange
+from foamprb.parallel.exchange import Share, homes_of, idle_share, plan_exchange
 from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.shared_memory import Publisher
 from foamprb.parallel.worker import Answer, Worker, piece_file
@@ -348,7 +348,7 @@ class PartStepper(RankStepper):
         flow = self._flow
         load = sum(self.ranks.order("load_of_folders", len(flow.folders)))
         before, after = (int(flow.loads(load, again).max()) for again in (False, True))
-        self._lost += self._seconds * max(0.0, 1.0 - after / max(before, 1))
+        self._lost += self._seconds * idle_share(before, after)
         self._seconds = 0.0
         if not self._pays():
             return

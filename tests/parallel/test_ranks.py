@@ -14,7 +14,7 @@ from pipe_case import copy_of_pipe, message
 
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
-from foamprb.parallel.exchange import Share, homes_of, pack, plan_exchange, record, unpack
+from foamprb.parallel.exchange import Share, homes_of, idle_share, pack, plan_exchange, record, unpack
 
 
 @given(st.lists(st.integers(0, 40 * LANES), min_size=2, max_size=9))
@@ -43,6 +43,13 @@ def test_every_particle_has_one_home(n, size, whole):
     # The first process writes the first rows of a checkpoint.
     assert (counts[0] > 0) == (n > 0)
     assert counts[0] == n if whole else counts.max() - counts.min() <= 1
+
+
+def test_without_particles_no_time_is_lost():
+    """Nodes read their folders again in vain where all particles were pending or had ended."""
+    assert idle_share(0, 0) == 0.0
+    assert idle_share(10, 10) == idle_share(10, 12) == 0.0
+    assert idle_share(10, 4) == pytest.approx(0.6, rel=1e-15)
 
 
 def test_records_hold_every_bit_of_a_particle(random):
