@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from observing import observed, pipe_cloud
 
+from foamprb.cloudfunctions.base import Memory
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.haemolysis import Haemolysis
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
@@ -32,7 +33,8 @@ def test_samples_of_shares_are_those_of_the_whole():
     assert names == ["loads", "plane", "camera", "blood"]
     whole = CloudFunctions({name: FUNCTIONS[name] for name in names}, observed(cloud))
     sampling = Sampling.of(functions, cloud.medium)
-    carried, apart = functions.with_particles(names), []
+    carried: Memory = functions.with_particles(names)
+    events: list[Memory] = [{}, {}, {}]
     for _ in range(40):
         cloud.advance(5)
         whole.sample(names)
@@ -41,11 +43,12 @@ def test_samples_of_shares_are_those_of_the_whole():
             rows = np.flatnonzero(share_of == number)
             own = Share(cloud.particles, np.arange(cloud.particles.size), carried).take(rows)
             p, memory = own.particles, own.memory
-            found = sampling.sample(names, memory, p, cloud.flow, cloud.tracker, cloud.time, sampling.events)
-            apart.append(found)
+            events[number] = sampling.sample(
+                names, memory, p, cloud.flow, cloud.tracker, cloud.time, events[number]
+            )
             for name, array in memory.items():
                 carried[name][rows] = array
-    functions.add_events(apart)
+    functions.add_events(events)
     expected, state = whole.state(), functions.state()
     assert len(expected["plane/crossings"]) > 20
     for name, array in expected.items():
