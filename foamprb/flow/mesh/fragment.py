@@ -48,11 +48,6 @@ class Team:
                 raise parcel.error
         return found
 
-    def collect(self, value: Any) -> list[Any]:
-        """Return the values of all nodes on node 0, and an empty list on the others."""
-        found = self.exchange([value] + (self.size - 1) * [None])
-        return found if self.rank == 0 else []
-
     def spread(self, value: Any) -> Any:
         """Return the value of node 0."""
         return self.exchange(self.size * [value if self.rank == 0 else None])[0]
