@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.turbulence import fluctuation_size
-from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.folds import FOLDED
-from foamprb.flow.mesh.fragment import Labels
+from foamprb.flow.mesh.fragment import Labels, UndividedError
 from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
 from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.locator import cell_boxes
@@ -170,7 +169,7 @@ class PartFlow(MeshFlow):
         )
 
     def _refuse_far_folds(self) -> None:
-        """Raise InputError if boundary triangles that are not here lie in the box of a folded cell."""
+        """Raise UndividedError if boundary triangles that are not here lie in the box of a folded cell."""
         mesh, part = self.mesh, self.halo.part
         folded = np.flatnonzero((self._arrays.folds == FOLDED) & (part.layer <= part.depth))
         if not self.halo.any(len(folded) > 0):
@@ -184,10 +183,7 @@ class PartFlow(MeshFlow):
         far = far[~np.isin(faces, part.faces)]
         near = len(folded) > 0 and len(pairs_near(boxes[folded], build_tree(boxes[folded]), far)[1]) > 0
         if self.halo.any(near):
-            raise InputError(
-                "the mesh is folded at a boundary that lies on several computers: it cannot be distributed. "
-                "Run reconstructPar, or use one computer."
-            )
+            raise UndividedError("the mesh is folded at a boundary that lies on several nodes")
 
     def _walls(self, patches: Sequence[int], reach: float) -> tuple[Ints, Walls, Walls | None]:
         """See :meth:`MeshFlow._walls`; the walls of all nodes, in the order of the whole mesh."""

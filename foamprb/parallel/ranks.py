@@ -30,6 +30,7 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields, columns_of
+from foamprb.flow.mesh.fragment import UndividedError
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.parallel.distributed import DistributedFlow, distributed_flow, why_whole
 from foamprb.parallel.exchange import Share, homes_of, idle_share, plan_exchange
@@ -116,7 +117,11 @@ class Ranks:
             return None
         open_parts = partial(self.order, "open_part", case, source.region, times, source)
         started = clock.perf_counter()
-        flow = distributed_flow(self.order, open_parts, step)
+        try:
+            flow = distributed_flow(self.order, open_parts, step)
+        except UndividedError as error:
+            log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, error)
+            return None
         flow.seconds = clock.perf_counter() - started
         for number, summary in enumerate(flow.summaries):
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,

@@ -324,7 +324,9 @@ PartStepper._pays = lambda self: True
 """
 
 
-def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(tmp_path, monkeypatch):
+@pytest.fixture
+def halves(tmp_path, monkeypatch):
+    """A flow that changes in time in two processor folders, for two nodes."""
     monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
     case = write_transient_case(tmp_path / "case")
     mesh = read_fields(case)[0]
@@ -334,6 +336,24 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(tmp_path, monkeyp
         for file in case.glob(f"processor*/{time_of}/U"):
             file.write_text(scaled(file.read_text(), factor))
     shutil.rmtree(case / "constant/polyMesh")
+    return case
+
+
+def test_nodes_hold_the_whole_mesh_if_it_cannot_be_held_in_parts(halves, tmp_path):
+    hook = """
+from foamprb.flow.read import parts
+def refuse(*_):
+    raise parts.UndividedError("of a test")
+parts.assemble_part = refuse
+"""
+    done = run(2, halves, script=after_hook(tmp_path, hook))
+    assert done.returncode == 0, done.stderr
+    assert "Each of 2 nodes holds the whole mesh: of a test." in done.stdout
+    assert "among 2 processes" in done.stdout
+
+
+def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(halves, tmp_path):
+    case = halves
     edit(case, "^solution", "cloudFunctions { fields { type fieldSampling; fields (U); } } solution")
     alone = Path(shutil.copytree(case, tmp_path / "alone"))
     assert main(["run", "-case", str(alone)]) == 0

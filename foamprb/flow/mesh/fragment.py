@@ -21,6 +21,10 @@ from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, take_lists
 Labels = NDArray[np.int64]
 
 
+class UndividedError(InputError):
+    """Mesh that nodes cannot hold in parts; the message is the reason."""
+
+
 class Team:
     """Nodes that hold a mesh together; all call the same methods in the same order."""
 

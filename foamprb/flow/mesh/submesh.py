@@ -13,11 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
 from foamprb.flow.mesh.coupling import Coupling, couple
-from foamprb.flow.mesh.fragment import Grown, Labels, Team, places_of
+from foamprb.flow.mesh.fragment import Grown, Labels, Team, UndividedError, places_of
 from foamprb.flow.mesh.geometry import faces_of
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
 from foamprb.flow.mesh.mesh import Mesh, assemble
@@ -98,10 +97,7 @@ def assemble_part(
     local = _LocalCoupling(team, patch_start, boundary - n_internal, own_faces)
     mesh = assemble(poly, source, local)
     if max(team.exchange([len(mesh.points) - n_points] * team.size)) > 0:
-        raise InputError(
-            f"{source}: the mesh has baffles, walls without thickness between cells, which cannot yet be "
-            "distributed over computers. Run reconstructPar, or use one computer."
-        )
+        raise UndividedError("the mesh has baffles, walls without thickness between cells")
     patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
     layer, node, layers = cells
     return SubMesh(replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, layers - RINGS)

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import Transform
-from foamprb.flow.mesh.fragment import Labels, Team, grow
+from foamprb.flow.mesh.fragment import Labels, Team, UndividedError, grow
 from foamprb.flow.mesh.lists import even_ends
 from foamprb.flow.mesh.submesh import CUT, RINGS, Folders, Halo, assemble_part, partners_of
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
@@ -31,7 +30,6 @@ from foamprb.flow.read.processors import (
 )
 from foamprb.memory import trim
 
-REMEDY = "Run reconstructPar, or use one computer."
 _REFUSED = frozenset(
     {"cyclicAMI", "cyclicACMI", "cyclicPeriodicAMI", "cyclicRepeatAMI", "nonConformalCyclic", "overset"}
 )
@@ -74,10 +72,7 @@ class PartCase(DecomposedCase):
         pieces = read_pieces(self.processors, files, self.root)
         parts = read_addresses(self.processors, files[1].parent, pieces)
         if parts is None:
-            raise InputError(
-                f"{folder}: without files *ProcAddressing a mesh cannot be distributed over computers. "
-                f"{REMEDY}"
-            )
+            raise UndividedError("the processor folders have no files *ProcAddressing")
         self._parts = parts
         nothing: Any = np.empty(0, dtype=np.int64)
         named = [(part.patches, part.of_patches) for part in parts]
@@ -89,10 +84,7 @@ class PartCase(DecomposedCase):
         self._patches, self._ranges = whole_patches(self.root, everywhere)
         for patch in self._patches:
             if patch.type in _REFUSED:
-                raise InputError(
-                    f"{folder}: patch {patch.name} is of type {patch.type}, with which a mesh cannot yet be "
-                    f"distributed over computers. {REMEDY}"
-                )
+                raise UndividedError(f"patch {patch.name} is of type {patch.type}")
         most = max(int(part.faces.max(initial=-1)) for part in parts)
         n_internal = 1 + max(team.exchange([most] * team.size)) - int(self._ranges[-1])
         fragments = [fragment_of(piece, part) for piece, part in zip(pieces, parts, strict=True)]
@@ -164,10 +156,8 @@ class PartCase(DecomposedCase):
             return None
         keys = sorted(set.intersection(*(set(entry.fields) for entry in filled)))
         if filled[0].type == _OF_WHOLE_PATCH and "value" not in keys:
-            raise InputError(
-                f"{fields[0].path}: patch {self._patches[index].name} is of type {_OF_WHOLE_PATCH} without a "
-                f"value, which cannot be distributed over computers. {REMEDY}"
-            )
+            name = self._patches[index].name
+            raise UndividedError(f"patch {name} is of type {_OF_WHOLE_PATCH} without a value")
         mesh, values = halo.part.mesh, {}
         numbers = halo.part.faces[mesh.n_internal :][: mesh.patch_start[-2]]
         for key in keys:

@@ -11,6 +11,7 @@ from foam_writer import decompose, header, write_case
 from threads_team import together
 
 from foamprb.errors import InputError
+from foamprb.flow.mesh.fragment import UndividedError
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.openfoam import steady_flow
@@ -72,7 +73,7 @@ def test_parts_without_addressing_are_refused(written, tmp_path):
     shutil.copytree(written, case)
     for path in case.glob("processor*/constant/polyMesh/faceProcAddressing"):
         path.unlink()
-    with pytest.raises(InputError, match=r"without files \*ProcAddressing a mesh cannot be distributed"):
+    with pytest.raises(UndividedError, match=r"the processor folders have no files \*ProcAddressing"):
         read(case, 2)
 
 
