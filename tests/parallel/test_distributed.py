@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
+from contextlib import suppress
+
 import numpy as np
 import pytest
 from foam_writer import decompose, header, write_case
@@ -183,6 +187,23 @@ def test_an_error_on_one_node_is_raised_on_all():
         return team.exchange([team.rank, team.rank])
 
     assert together(2, work) == [[0, 1], [0, 1]]
+
+
+def test_an_error_that_is_caught_holds_no_arrays_of_its_callers():
+    def read(team):
+        array = np.zeros(9)
+        with suppress(InputError), team.united():
+            raise InputError("a field that may be missing")
+        return weakref.ref(array)
+
+    def work(team):
+        gc.disable()
+        found = read(team)
+        team.exchange([None])
+        gc.enable()
+        return found() is None
+
+    assert together(1, work) == [True]
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,9 @@ from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, take_lists
 
 Labels = NDArray[np.int64]
 
+_OF_ALL = "_of_all_nodes"
+"""Attribute of an error that all nodes raise."""
+
 
 class UndividedError(InputError):
     """Mesh that nodes cannot hold in parts; the message is the reason."""
@@ -30,8 +33,6 @@ class Team:
 
     rank: int
     size: int
-    _failure: Exception | None = None
-    """Error that all nodes raise."""
 
     def swap(self, parcels: Sequence[Any]) -> list[Any]:
         """Send parcel i to node i; return the parcel from each node."""
@@ -48,8 +49,12 @@ class Team:
         found = self.swap(parcels)
         for parcel in found:
             if isinstance(parcel, _Failure):
-                self._failure = parcel.error
-                raise parcel.error
+                parcel.error.__dict__[_OF_ALL] = True
+                try:
+                    raise parcel.error
+                finally:
+                    # The error refers to this frame, and by it to those of all callers with their arrays.
+                    del found, parcel, parcels
         return found
 
     def spread(self, value: Any) -> Any:
@@ -63,11 +68,10 @@ class Team:
         The node that fails sends the error instead of the next parcels, so that all agree on what comes next.
         An error that is caught amid the context must be raised by a context within.
         """
-        self._failure = None
         try:
             yield
         except Exception as error:
-            if error is self._failure:
+            if _OF_ALL in error.__dict__:
                 raise
             known = isinstance(error, InputError | RunStopped | OSError | RankError)
             text = f"node {self.rank}: {type(error).__name__}: {error}"
