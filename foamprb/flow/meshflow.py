@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -109,6 +108,7 @@ LISTS = ("near", "wall_", "seen")
 """Prefixes of the names of arrays for lists of walls."""
 AT_ONCE = 1 << 20
 """Number of tetrahedra per chunk when volumes are computed."""
+_CELLS_AT_ONCE = 1 << 15
 
 
 class Numbering(NamedTuple):
@@ -332,15 +332,21 @@ class MeshFlow:
         return names, walls, images_of_walls(mesh, walls, reach) if mesh.couplings else None
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """Replace the constant arrays, without the lists of walls, by the copies that ``place`` returns."""
-        fixed: dict[str, Any] = {
-            name: place(array)
-            for name, array in self._arrays._asdict().items()
-            if isinstance(array, np.ndarray) and not name.startswith(LISTS)
-        }
-        self._arrays = self._arrays._replace(**fixed)
-        held = {field.name for field in fields(self.mesh)}
-        self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
+        """Replace the constant arrays, without the lists of walls, by the copies that ``place`` returns.
+
+        The arrays are replaced one by one, so that each is freed before the next is copied.
+        """
+        for name in self._arrays._fields:
+            array = getattr(self._arrays, name)
+            if not isinstance(array, np.ndarray) or name.startswith(LISTS):
+                continue
+            moved: dict[str, Any] = {name: place(array)}
+            self._arrays = self._arrays._replace(**moved)
+            if getattr(self.mesh, name, None) is array:
+                # Readers of further times hold the same mesh.
+                setattr(self.mesh, name, moved[name])
+            if self._near is not None and getattr(self._near[1], name) is array:
+                self._near = self._near[0], self._near[1]._replace(**moved)
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
@@ -369,11 +375,15 @@ class MeshFlow:
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return sums over mesh and velocities by name; parts of a mesh add up to those of the whole."""
         arrays, mesh, whole = self._arrays, self.mesh, self._numbering()
-        corners = np.repeat(whole.own, np.diff(mesh.cell_point_start))
-        cells = np.repeat(whole.cells, np.diff(mesh.cell_point_start))[corners]
         tables = {"nodes": arrays.nodes, "turbulence": arrays.turbulence, "viscosity": arrays.viscosity}
+        corners = np.zeros(1, dtype=np.uint64)
+        for cells in self._some_cells():
+            rows, sizes = _lists_of(mesh.cell_point_start, cells)
+            own = np.repeat(whole.own[cells], sizes)
+            points = whole.nodes[mesh.cell_points[rows][own]]
+            corners += of_pairs(np.repeat(whole.cells[cells], sizes)[own], points)
         return {
-            "cells": of_pairs(cells, whole.nodes[mesh.cell_points[corners]]),
+            "cells": corners,
             "patches": of_pairs(whole.faces, mesh.triangle_patch[whole.triangles]),
             **{name: self._node_sums(table) for name, table in tables.items()},
             "correction": self._tet_sums(arrays.correction),
@@ -400,17 +410,28 @@ class MeshFlow:
     def _node_sums(self, table: Floats) -> Floats:
         """Return :func:`of_rows` of values at nodes, where each own cell counts its points and its centre."""
         mesh, whole = self.mesh, self._numbering()
-        corners = mesh.cell_points[np.repeat(whole.own, np.diff(mesh.cell_point_start))]
-        counts = np.concatenate([np.bincount(corners, minlength=mesh.n_points), whole.own]).astype(np.float64)
+        counts = np.concatenate([np.zeros(mesh.n_points), whole.own])
+        for cells in self._some_cells():
+            rows, sizes = _lists_of(mesh.cell_point_start, cells)
+            np.add.at(counts, mesh.cell_points[rows][np.repeat(whole.own[cells], sizes)], 1.0)
         return of_rows(table[: len(counts)], whole.nodes, counts)
 
     def _tet_sums(self, table: NDArray[np.float32]) -> Floats:
         """Return :func:`of_rows` of values in the tetrahedra of own cells."""
         mesh, whole = self.mesh, self._numbering()
+        total = np.zeros((2, table.shape[1]))
         # There are no rows for no correction.
-        sizes = np.diff(mesh.cell_start) if len(table) else np.zeros(mesh.n_cells, dtype=np.int32)
-        numbers = np.arange(len(table)) + np.repeat(whole.first_tet - mesh.cell_start[:-1], sizes)
-        return of_rows(table, numbers, np.repeat(whole.own, sizes).astype(np.float64))
+        for cells in self._some_cells() if len(table) else ():
+            rows, sizes = _lists_of(mesh.cell_start, cells)
+            before = whole.first_tet[cells] - mesh.cell_start[cells]
+            numbers = np.arange(rows.start, rows.stop) + np.repeat(before, sizes)
+            total += of_rows(table[rows], numbers, np.repeat(whole.own[cells], sizes).astype(np.float64))
+        return total
+
+    def _some_cells(self) -> Iterable[slice]:
+        """Yield ranges of cells, whose lists need little memory."""
+        n = self.mesh.n_cells
+        return (slice(begin, min(begin + _CELLS_AT_ONCE, n)) for begin in range(0, n, _CELLS_AT_ONCE))
 
     def locate(self, points: Floats) -> Ints:
         """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""
@@ -497,6 +518,13 @@ class MeshFlow:
         cells = require_cells(name, zones[name], self.mesh.n_cells)
         start, end = self.mesh.cell_start[cells], self.mesh.cell_start[cells + 1]
         return np.concatenate([np.empty(0, dtype=np.int32), *map(np.arange, start, end)]).astype(np.int32)
+
+
+def _lists_of(start: Ints, cells: slice) -> tuple[slice, Ints]:
+    """Return the rows of the lists of a range of cells, and their lengths."""
+    return slice(int(start[cells.start]), int(start[cells.stop])), np.diff(
+        start[cells.start : cells.stop + 1]
+    )
 
 
 def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,7 @@ from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import BEYOND, Halo, Homes
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
-from foamprb.flow.meshflow import AT_ONCE, LISTS, MeshFlow, Numbering, end_triangles, shortest_extent
+from foamprb.flow.meshflow import AT_ONCE, MeshFlow, Numbering, end_triangles, shortest_extent
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
 
@@ -209,16 +208,8 @@ class PartFlow(MeshFlow):
         return found
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """See :meth:`MeshFlow.move`; array by array, so that one at a time is there twice."""
-        # The arrays have further triangles, which the mesh does not know.
-        held = {field.name for field in fields(self.mesh) if not field.name.startswith("triangle")}
-        for name in self._arrays._fields:
-            if isinstance(getattr(self._arrays, name), np.ndarray) and not name.startswith(LISTS):
-                moved: dict[str, Any] = {name: place(getattr(self._arrays, name))}
-                self._arrays = self._arrays._replace(**moved)
-                if name in held:
-                    # Readers of further times hold the same mesh.
-                    setattr(self.mesh, name, moved[name])
+        """See :meth:`MeshFlow.move`; with the fields that are sampled."""
+        super().move(place)
         self.field_table = place(self.field_table)
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
