@@ -137,6 +137,20 @@ def box_patches(mesh_grid):
     return boundary(mesh_grid, name, {"floor": "wall", "lid": "patch", "sides": "wall"})
 
 
+def baffle(n, whole=True):
+    """A box of n³ cells with a wall of two patches on the faces at x = ½, or on half of these."""
+    shape = block(n, 0.0)
+    points, hexes = np.asarray(shape.points), shape.cells.reshape(-1, 9)[:, 1:]
+    middle = points[hexes].mean(axis=1)
+    before = np.abs(middle[:, 0] - 0.5 + 0.5 / n) < 1e-9
+    front = hexes[before & (whole | (middle[:, 1] < 0.5))][:, [1, 2, 6, 5]]
+    patches = [
+        PatchSurface(name, "wall", pyvista.PolyData(points, np.column_stack([np.full(len(f), 4), f]).ravel()))
+        for name, f in {"west": front, "east": front[:, ::-1]}.items()
+    ]
+    return build_mesh(shape, [*box_patches(shape), *patches])
+
+
 def merged(grids):
     """Grids of hexahedra side by side, points in the same place made one."""
     points = np.concatenate([np.asarray(g.points) for g in grids])

@@ -10,8 +10,6 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse import csgraph
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
@@ -173,55 +171,6 @@ def find_baffles(
     codes = np.add.reduceat(mix(place[lists]), start[:-1])
     found: Mask = inside & np.isin(codes, np.concatenate(wanted))
     return found
-
-
-def part_points(points: Floats, faces: Faces, start: Ints, cell_points: Ints) -> tuple[Floats, Faces, Ints]:
-    """Duplicate points of baffles, so that each side has its own unless cells join the sides around a point.
-
-    Cells around a point are joined by the faces between them that hold the point. A point whose cells form
-    several groups is copied for each group except the first.
-
-    Parameters
-    ----------
-    points, faces
-        Points and faces of the mesh.
-    start, cell_points
-        Points of each cell.
-    """
-    n_internal = len(faces.neighbour)
-    outer, outer_points = take_lists(faces.start, faces.points, np.arange(n_internal, len(faces.owner)))
-    codes = np.add.reduceat(mix(outer_points), outer[:-1])
-    if len(np.unique(codes)) == len(codes):
-        return points, faces, cell_points
-    on_wall = np.zeros(len(points), dtype=bool)
-    on_wall[outer_points] = True
-    sizes = np.diff(faces.start)
-    # A corner is a cell and one of its points on a wall.
-    cells = np.repeat(np.arange(len(start) - 1), np.diff(start))
-    at = np.flatnonzero(on_wall[cell_points])
-    keys = cells[at] * len(points) + cell_points[at]
-    order = np.argsort(keys)
-    keys = keys[order]
-    shared = faces.points[: faces.start[n_internal]]
-    held = on_wall[shared]
-    joined = [
-        np.searchsorted(keys, np.repeat(side, sizes[:n_internal])[held] * len(points) + shared[held])
-        for side in (faces.owner[:n_internal].astype(np.intp), faces.neighbour.astype(np.intp))
-    ]
-    graph = sparse.coo_array((np.ones(len(joined[0]), dtype=np.int8), joined), shape=(len(keys), len(keys)))
-    groups = csgraph.connected_components(graph, directed=False)[1]
-    point = cell_points[at[order]].astype(np.intp)
-    pairs, place = np.unique(np.stack([point, groups]), axis=1, return_inverse=True)
-    copy = np.concatenate([[False], pairs[0, 1:] == pairs[0, :-1]])
-    names = np.where(copy, len(points) + np.cumsum(copy) - 1, pairs[0])
-    named = names[place.reshape(-1)]
-    moved = cell_points.copy()
-    moved[at[order]] = named
-    lists = faces.points.copy()
-    on_lists = np.flatnonzero(on_wall[lists])
-    of_face = np.repeat(faces.owner.astype(np.intp), sizes)[on_lists]
-    lists[on_lists] = named[np.searchsorted(keys, of_face * len(points) + lists[on_lists])]
-    return np.concatenate([points, points[pairs[0, copy]]]), faces._replace(points=lists), moved
 
 
 def with_surface(patch: PatchSurface, points: Floats, faces: Faces, part: slice) -> PatchSurface:

@@ -61,6 +61,10 @@ class Team:
         """Return the value of node 0."""
         return self.exchange(self.size * [value if self.rank == 0 else None])[0]
 
+    def of_all(self, value: Any) -> list[Any]:
+        """Return the values of all nodes."""
+        return self.exchange([value] * self.size)
+
     @contextmanager
     def united(self) -> Iterator[None]:
         """Raise an error of one node on all of them.
@@ -108,6 +112,8 @@ class Fragment(NamedTuple):
 
 def merged(parts: Sequence[Fragment]) -> Fragment:
     """Return the cells of several fragments."""
+    if len(parts) == 1:
+        return parts[0]
     points, first = np.unique(np.concatenate([part.points for part in parts]), return_index=True)
     places = np.concatenate([part.places for part in parts])[first]
     faces = np.concatenate([part.faces for part in parts])
@@ -182,6 +188,18 @@ def places_of(numbers: Labels, wanted: Labels) -> Index:
     return np.where(numbers[at] == wanted, at, -1)
 
 
+NO_COPIES = np.empty((2, 0), dtype=np.int64)
+"""Copies of points of a mesh without baffles."""
+
+
+def with_copies(points: Labels, copies: Labels) -> Labels:
+    """Return points, and the others at the same places; ``copies`` (2, n) are points and their originals."""
+    if copies.size == 0:
+        return points
+    originals = np.append(points, copies[1][np.isin(copies[0], points)])
+    return np.unique(np.append(originals, copies[0][np.isin(copies[1], originals)]))
+
+
 class Grown(NamedTuple):
     """Cells of a node and layers of cells around them."""
 
@@ -194,13 +212,20 @@ class Grown(NamedTuple):
     """Number of layers that were added."""
 
 
-def grow(pieces: list[Fragment], team: Team, layers: int, partners: Labels, n_internal: int) -> Grown:
-    """Add layers of cells around the own cells, which share a point, also across coupled faces.
+def grow(
+    pieces: list[Fragment],
+    team: Team,
+    layers: int,
+    partners: Labels,
+    n_internal: int,
+    copies: Labels = NO_COPIES,
+) -> Grown:
+    """Add layers of cells around the own cells, which share a point, also across coupled faces and baffles.
 
     Parameters
     ----------
     pieces
-        The own cells; the list is emptied.
+        The own cells; the list is emptied, to free them early.
     team
         The nodes.
     layers
@@ -209,6 +234,8 @@ def grow(pieces: list[Fragment], team: Team, layers: int, partners: Labels, n_in
         (n_boundary,) boundary face that continues each boundary face, −1 for none.
     n_internal
         Number of faces between cells in the whole mesh.
+    copies
+        See :func:`with_copies`.
     """
     own = merged(pieces)
     pieces.clear()
@@ -220,7 +247,7 @@ def grow(pieces: list[Fragment], team: Team, layers: int, partners: Labels, n_in
     def fetch(points: Labels, number: int) -> None:
         """Find the cells of each node that touch some points, without those that it has sent before."""
         parcels = []
-        for k, wanted in enumerate(team.exchange([points for _ in everyone])):
+        for k, wanted in enumerate(team.of_all(with_copies(points, copies))):
             touched = search.touching(wanted) & ~sent[k]
             sent[k] |= touched
             parcels.append(search.take(touched))

@@ -17,7 +17,8 @@ import numpy as np
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, Patch
-from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, part_points, with_surface
+from foamprb.flow.mesh.baffles import part_points
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, with_surface
 from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.faces import OPEN, TWISTED, number_tetrahedra, split_cells
@@ -139,7 +140,9 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     return assemble(poly_of_grid(grid, surfaces, source), source)
 
 
-def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) -> Mesh:
+def assemble(
+    poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple, *, parted: bool = False
+) -> Mesh:
     """Find neighbours, tetrahedra and coupled patches of a mesh.
 
     Parameters
@@ -148,6 +151,8 @@ def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) 
         Points, faces and patches; the name of the mesh for messages.
     coupled
         Finds the coupled patches as :func:`foamprb.flow.mesh.coupling.couple` does.
+    parted
+        True if each side of a baffle has points of its own already.
 
     Raises
     ------
@@ -157,8 +162,9 @@ def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) 
     points, faces, *_ = poly
     announce("cells", len(faces.first) - 1, CELL_BYTES)
     cell_start, cell_points = points_of_cells(faces, len(points))
-    points, faces, cell_points = part_points(points, faces, cell_start, cell_points)
-    poly = poly._replace(points=points, faces=faces)
+    if not parted:
+        points, faces, cell_points = part_points(points, faces, cell_start, cell_points)
+        poly = poly._replace(points=points, faces=faces)
     for _ in range(_MOST_TURNS):
         mesh, astray = _assemble(poly, (cell_start, cell_points), source, coupled)
         if len(astray) == 0:

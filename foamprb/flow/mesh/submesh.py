@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
 from foamprb.flow.mesh.coupling import Coupling, couple
-from foamprb.flow.mesh.fragment import Grown, Labels, Team, UndividedError, places_of
+from foamprb.flow.mesh.fragment import Grown, Labels, Team, places_of
 from foamprb.flow.mesh.geometry import faces_of
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
 from foamprb.flow.mesh.mesh import Mesh, assemble
@@ -84,7 +84,7 @@ def assemble_part(
     Parameters
     ----------
     pieces
-        Its cells; the list is emptied, to free them early.
+        Its cells, parted at baffles; the list is emptied, to free them early.
     patches, patch_start
         Patches of the whole mesh, and the first boundary face of each.
     n_internal
@@ -93,11 +93,9 @@ def assemble_part(
         The nodes; the name of the mesh for messages.
     """
     poly, numbers, own_faces, cells = _local_poly(pieces.pop(), patches, patch_start, n_internal)
-    n_points, boundary = len(poly.points), numbers[2][len(poly.faces.neighbour) :][: len(own_faces)]
+    boundary = numbers[2][len(poly.faces.neighbour) :][: len(own_faces)]
     local = _LocalCoupling(team, patch_start, boundary - n_internal, own_faces)
-    mesh = assemble(poly, source, local)
-    if max(team.exchange([len(mesh.points) - n_points] * team.size)) > 0:
-        raise UndividedError("the mesh has baffles, walls without thickness between cells")
+    mesh = assemble(poly, source, local, parted=True)
     patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
     layer, node, layers = cells
     return SubMesh(replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, layers - RINGS)
@@ -183,7 +181,7 @@ class _LocalCoupling:
         # The faces of coupled patches alone.
         faces = ragged(self._start[:-1], counts)
         own = np.flatnonzero(self._own & np.isin(self._boundary, faces))
-        everywhere = self._team.exchange([(self._boundary[own], centres[own], areas[own])] * self._team.size)
+        everywhere = self._team.of_all((self._boundary[own], centres[own], areas[own]))
         both = np.zeros((2, len(faces), 3))
         for numbers, *values in everywhere:
             both[:, np.searchsorted(faces, numbers)] = values
@@ -252,7 +250,7 @@ class Halo:
 
     def of_all(self, value: Any) -> list[Any]:
         """Return the values of all nodes."""
-        return self.team.exchange([value] * self.team.size)
+        return self.team.of_all(value)
 
     def any(self, value: bool) -> bool:
         """Return True if the value is true on any node."""

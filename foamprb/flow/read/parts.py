@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats
+from foamprb.flow.mesh.baffles import part_fragment
 from foamprb.flow.mesh.boundary import Transform
-from foamprb.flow.mesh.fragment import Labels, Team, UndividedError, grow
+from foamprb.flow.mesh.fragment import Labels, Team, UndividedError, grow, merged
 from foamprb.flow.mesh.lists import even_ends
 from foamprb.flow.mesh.submesh import CUT, RINGS, Folders, Halo, assemble_part, partners_of
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
@@ -78,7 +79,7 @@ class PartCase(DecomposedCase):
         named = [(part.patches, part.of_patches) for part in parts]
         everywhere = [
             Address(patches, nothing, nothing, nothing, nothing, of_patches)
-            for listed in team.exchange([named] * team.size)
+            for listed in team.of_all(named)
             for patches, of_patches in listed
         ]
         self._patches, self._ranges = whole_patches(self.root, everywhere)
@@ -86,20 +87,23 @@ class PartCase(DecomposedCase):
             if patch.type in _REFUSED:
                 raise UndividedError(f"patch {patch.name} is of type {patch.type}")
         most = max(int(part.faces.max(initial=-1)) for part in parts)
-        n_internal = 1 + max(team.exchange([most] * team.size)) - int(self._ranges[-1])
+        n_internal = 1 + max(team.of_all(most)) - int(self._ranges[-1])
         fragments = [fragment_of(piece, part) for piece, part in zip(pieces, parts, strict=True)]
         del pieces
         # What fields need of them.
         self._parts = parts = [part._replace(points=nothing, turned=nothing) for part in parts]
         surfaces, ranges = patches_of_mesh(self._patches), self._ranges.astype(np.intp)
         partners = partners_of(surfaces, ranges)
-        grown = [grow(fragments, team, self._depth + RINGS, partners, n_internal)]
+        own, copies = part_fragment(merged(fragments), team, n_internal)
+        fragments[:] = [own]
+        del own
+        grown = [grow(fragments, team, self._depth + RINGS, partners, n_internal, copies)]
         trim()
         part = assemble_part(grown, surfaces, ranges, n_internal, team, str(folder))
         trim()
         of_cells = np.zeros(len(part.cells), dtype=np.int32)
-        for number, own in zip(self.processors.chosen, parts, strict=True):
-            of_cells[np.searchsorted(part.cells, own.cells)] = number
+        for number, address in zip(self.processors.chosen, parts, strict=True):
+            of_cells[np.searchsorted(part.cells, address.cells)] = number
         self.halo, mesh = Halo(part, team, Folders(self.processors.chosen, of_cells)), part.mesh
         counts, first = np.diff(mesh.patch_start).tolist(), (mesh.n_internal + mesh.patch_start).tolist()
         infos = [*self._patches, PatchInfo(CUT.name, CUT.type, 0, 0, "", Transform(), {})]
@@ -150,7 +154,7 @@ class PartCase(DecomposedCase):
             (len(faces) > 0, entry._replace(fields={key: v[:0] for key, v in entry.fields.items()}))
             for faces, entry in pieces
         ]
-        everywhere = [piece for listed in team.exchange([own] * team.size) for piece in listed]
+        everywhere = [piece for listed in team.of_all(own) for piece in listed]
         filled = [entry for some, entry in everywhere if some] or [entry for _, entry in everywhere]
         if not filled:
             return None
@@ -174,7 +178,7 @@ class PartCase(DecomposedCase):
         """Read the own cells of each zone by name; see :meth:`~foamprb.flow.read.openfoam.Case.zones`."""
         assert self.halo is not None
         zones = join_zones(self.processors, self.mesh_folder(time), self._parts)
-        names = {name for listed in self._team.exchange([list(zones)] * self._team.size) for name in listed}
+        names = {name for listed in self._team.of_all(list(zones)) for name in listed}
         cells = self.halo.part.cells
         nothing = np.empty(0, dtype=np.int64)
         return {name: np.searchsorted(cells, zones.get(name, nothing)) for name in sorted(names)}

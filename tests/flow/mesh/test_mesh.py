@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from mesh_shapes import (
     HEXAHEDRON_FACES,
     KINDS,
+    baffle,
     block,
     box_patches,
     corners,
@@ -163,19 +164,8 @@ def test_two_patches_on_the_same_points_are_told_apart():
 @pytest.mark.parametrize(("whole", "copies"), [(True, 25), (False, 10)])
 def test_a_baffle_parts_the_cells_on_its_two_sides(whole, copies, random):
     """Two patches on the same interior faces, across the whole box or half of it."""
-    shape = block(4, 0.0)
-    points = np.asarray(shape.points)
-    hexes = shape.cells.reshape(-1, 9)[:, 1:]
-    middle = points[hexes].mean(axis=1)
-    at = np.flatnonzero((np.abs(middle[:, 0] - 0.375) < 1e-9) & (whole | (middle[:, 1] < 0.5)))
-    front = hexes[at][:, [1, 2, 6, 5]]
-    sides = {"west": front, "east": front[:, ::-1]}
-    patches = [
-        PatchSurface(name, "wall", pyvista.PolyData(points, np.column_stack([np.full(len(f), 4), f]).ravel()))
-        for name, f in sides.items()
-    ]
-    mesh = build_mesh(shape, [*box_patches(shape), *patches])
-    assert np.diff(mesh.patch_start)[3:].tolist() == [len(at), len(at)]
+    mesh = baffle(4, whole)
+    assert np.diff(mesh.patch_start)[3:].tolist() == [16 if whole else 8] * 2
     assert mesh.n_points == 125 + copies
     assert mesh.inverted == 0
     normals = mesh.triangle_normals[:, 0]

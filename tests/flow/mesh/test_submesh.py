@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mesh_shapes import block, box_patches, cyclic_row, pipe, pipe_patches, wedge, wedge_patches
+from mesh_shapes import baffle, block, box_patches, cyclic_row, pipe, pipe_patches, wedge, wedge_patches
 from threads_team import together
 
 from foamprb.compile.link import link
 from foamprb.flow import balance
 from foamprb.flow.fluxes import Conservation
+from foamprb.flow.mesh.baffles import part_fragment
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
 from foamprb.flow.mesh.fragment import CellSearch, Fragment, grow
 from foamprb.flow.mesh.geometry import faces_of
@@ -35,16 +36,19 @@ def whole_of(poly):
 def poly_of(mesh):
     """Points, faces and patches of a mesh, as they are read from a case."""
     sides = mesh.owner.copy(), mesh.neighbour.copy()
-    faces = faces_of(mesh.face_start, mesh.face_points.copy(), *sides, mesh.n_cells)
+    # Copies at baffles are behind all points.
+    first, place = np.unique(mesh.points, axis=0, return_index=True, return_inverse=True)[1:]
+    lists = first[place.reshape(-1)][mesh.face_points].astype(np.int32)
+    faces = faces_of(mesh.face_start, lists, *sides, mesh.n_cells)
     patches = [PatchSurface(p.name, p.type, None, p.neighbour) for p in mesh.patches]
-    return PolyMesh(mesh.points, faces, patches, mesh.patch_start.astype(np.intp))
+    return PolyMesh(mesh.points[: len(first)], faces, patches, mesh.patch_start.astype(np.intp))
 
 
 def part_of(poly, cells, team, layers):
     """The sub-mesh of a node that owns some cells and does not know what lies beyond them."""
-    own = CellSearch(whole_of(poly)).take(cells)
     n = len(poly.faces.neighbour)
-    grown = grow([own], team, layers, partners_of(poly.patches, poly.patch_start), n)
+    own, copies = part_fragment(CellSearch(whole_of(poly)).take(cells), team, n)
+    grown = grow([own], team, layers, partners_of(poly.patches, poly.patch_start), n, copies)
     return assemble_part([grown], poly.patches, poly.patch_start, n, team, "mesh")
 
 
@@ -63,6 +67,8 @@ SHAPES = {
     "polyhedra": lambda: build_mesh(shape := block(8, kind="polyhedra"), box_patches(shape)),
     "tetrahedra": lambda: build_mesh(shape := block(6, kind="tetrahedra"), box_patches(shape)),
     "cyclics": lambda: cyclic_row(30.0, 2, cells=6),
+    "baffle": lambda: baffle(8),
+    "half a baffle": lambda: baffle(8, whole=False),
     "wedge": lambda: build_mesh(shape := wedge(24), wedge_patches(shape)),
 }
 
@@ -86,8 +92,9 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
     near = [k for k, patch in enumerate(mesh.patches) if patch.type == "wall"]
     reach = 0.1 * float(np.ptp(mesh.points, axis=0).max())
     gaps = gaps_at(flow.arrays(reach, near), points, hosts, 0.1 * reach)
-    # Slices, with a cell of another node in one of them.
-    parts = np.clip((3 * (x - x.min()) / np.ptp(x)).astype(int), 0, 2)
+    # Slices, across baffles too, with a cell of another node in one of them.
+    along = x + 0.3 * y + 0.1 * z
+    parts = np.clip((3 * (along - along.min()) / np.ptp(along)).astype(int), 0, 2)
     parts[random.integers(mesh.n_cells)] = 0
 
     def work(team):

@@ -1,0 +1,139 @@
+"""Points of baffles: each side of a wall without thickness has points of its own.
+
+Cells around a point are joined by the faces between them that hold the point. A point on the boundary whose
+cells form several groups is copied for each group except the one with the lowest cell. The copies are
+numbered behind all points: by their points, then by the lowest cells of their groups.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse import csgraph
+
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.boundary import mix
+from foamprb.flow.mesh.fragment import NO_COPIES, Fragment, Team, grow, places_of
+from foamprb.flow.mesh.geometry import Faces
+from foamprb.flow.mesh.lists import Index, Labels, int32, take_lists
+
+
+def part_points(points: Floats, faces: Faces, start: Ints, cell_points: Ints) -> tuple[Floats, Faces, Ints]:
+    """Duplicate the points of baffles.
+
+    Parameters
+    ----------
+    points, faces
+        Points and faces of the mesh.
+    start, cell_points
+        Points of each cell.
+    """
+    n, outer = len(points), np.arange(len(faces.neighbour), len(faces.owner))
+    codes = _codes(faces.start, faces.points, outer)
+    if len(np.unique(codes)) == len(codes):
+        return points, faces, cell_points
+    neighbour = np.full(len(faces.owner), -1, dtype=np.int32)
+    neighbour[: outer[0]] = faces.neighbour
+    corners, groups = _groups(n, faces.start, faces.points, outer, faces.owner, neighbour)
+    pairs, place = np.unique(np.stack([corners % n, groups]), axis=1, return_inverse=True)
+    copy = np.append(False, pairs[0, 1:] == pairs[0, :-1])
+    names = np.where(copy, n - 1 + np.cumsum(copy), pairs[0])[place.reshape(-1)]
+
+    def renamed(cells: Labels, sizes: Labels, lists: Ints) -> Ints:
+        wanted = np.repeat(cells.astype(np.int64), sizes) * n + lists
+        return int32(_looked_up(corners, names, wanted, lists))
+
+    lists = renamed(faces.owner, np.diff(faces.start), faces.points)
+    moved = renamed(np.arange(len(start) - 1), np.diff(start), cell_points)
+    return np.concatenate([points, points[pairs[0, copy]]]), faces._replace(points=lists), moved
+
+
+def part_fragment(own: Fragment, team: Team, n_internal: int) -> tuple[Fragment, NDArray[np.int64]]:
+    """Duplicate the points of baffles in the own cells of a node; see :func:`part_points`.
+
+    Parameters
+    ----------
+    own
+        The cells.
+    team
+        The nodes.
+    n_internal
+        Number of faces between cells in the whole mesh.
+
+    Returns
+    -------
+    The cells, and (2, n) the copies of all nodes and their originals.
+    """
+    codes, size = _codes(own.start, own.lists, np.flatnonzero(own.faces >= n_internal)), team.size
+    found = np.concatenate(team.exchange([codes[codes % np.uint64(size) == k] for k in range(size)]))
+    if not any(team.of_all(len(np.unique(found)) < len(found))):
+        return own, NO_COPIES
+    # All cells around the points of own cells.
+    around = grow([own], team, 1, np.empty(0, dtype=np.int64), n_internal).fragment
+    n, lists = len(around.points), places_of(around.points, around.lists)
+    sides = [places_of(around.cells, side) for side in (around.owner, around.neighbour)]
+    corners, groups = _groups(n, around.start, lists, np.flatnonzero(around.faces >= n_internal), *sides)
+    # The lowest cell of each group, and its point.
+    cells, points = np.divmod(corners[np.unique(groups, return_index=True)[1]], n)
+    order = np.lexsort([cells, points])
+    copy = order[1:][points[order[1:]] == points[order[:-1]]]
+    ends = team.of_all((int(own.points.max(initial=-1)), int(own.cells.max(initial=-1))))
+    n_points, n_cells = (1 + max(column) for column in zip(*ends, strict=True))
+    keys = around.points[points] * n_cells + around.cells[cells]
+    complete = copy[np.isin(around.points[points[copy]], own.points)]
+    copies = np.unique(np.concatenate(team.of_all(keys[complete])))
+    place = places_of(copies, keys)
+    names = np.where(place < 0, around.points[points], n_points + place)[groups]
+    side = places_of(around.cells, np.where(own.owner < 0, own.neighbour, own.owner))
+    wanted = np.repeat(side, np.diff(own.start)) * n + places_of(around.points, own.lists)
+    parted = _looked_up(corners, names, wanted, own.lists).astype(np.int64)
+    held, first = np.unique(parted, return_index=True)
+    places = own.places[np.searchsorted(own.points, own.lists[first])]
+    numbers = n_points + np.arange(len(copies)), copies // n_cells
+    return own._replace(points=held, places=places, lists=parted), np.stack(numbers)
+
+
+def _codes(start: Labels, lists: Labels, faces: Index) -> NDArray[np.uint64]:
+    """Return a hash of the points of each of some faces, the same in any order of the points."""
+    outer, points = take_lists(start, lists, faces)
+    return np.add.reduceat(mix(points), outer[:-1]) if len(faces) else np.empty(0, dtype=np.uint64)
+
+
+def _groups(
+    n_points: int, start: Labels, lists: Labels, outer: Index, owner: Labels, neighbour: Labels
+) -> tuple[NDArray[np.int64], Index]:
+    """Return the corners, each a cell and one of its points on the boundary, and their groups.
+
+    Parameters
+    ----------
+    n_points
+        Number of points.
+    start, lists, outer
+        Points of the faces; the faces of the boundary.
+    owner, neighbour
+        (n_faces,) cells, −1 for none.
+
+    Returns
+    -------
+    corners, groups
+        cell · n_points + point, rising; numbers of groups in the order of their first corners.
+    """
+    on_wall = np.zeros(n_points, dtype=bool)
+    on_wall[take_lists(start, lists, outer)[1]] = True
+    at = np.flatnonzero(on_wall[lists])
+    face = np.repeat(np.arange(len(start) - 1), np.diff(start))[at]
+    one, other = (side[face].astype(np.int64) * n_points + lists[at] for side in (owner, neighbour))
+    corners = np.unique(np.concatenate([one, other]))
+    corners = corners[corners >= 0]
+    both = np.minimum(one, other) >= 0
+    joined = [np.searchsorted(corners, side[both]) for side in (one, other)]
+    ones = np.ones(np.count_nonzero(both), dtype=np.int8)
+    graph = sparse.coo_array((ones, joined), shape=2 * (len(corners),))
+    return corners, csgraph.connected_components(graph, directed=False)[1].astype(np.intp)
+
+
+def _looked_up(keys: Labels, values: Labels, wanted: Labels, otherwise: Labels) -> Labels:
+    """Return the value of each wanted one of rising keys, or else the entry of ``otherwise``."""
+    at = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
+    return np.where(keys[at] == wanted, values[at], otherwise)
