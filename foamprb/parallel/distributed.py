@@ -16,8 +16,8 @@ from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, FieldValues, by_name, width
 from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import find_file
-from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
+from foamprb.flow.read.case import find_file, is_only_decomposed
+from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.density import keeps_volume
 from foamprb.flow.read.parts import ends_of
 from foamprb.flow.read.source import FlowSource, FlowTimes

@@ -19,9 +19,8 @@ from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import WALLS, Patch
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import available_times
+from foamprb.flow.read.case import available_times, is_only_decomposed
 from foamprb.flow.read.caveats import is_steady, turbulence_fields
-from foamprb.flow.read.decomposed import is_only_decomposed
 from foamprb.flow.read.flows import check_region, read_flow
 from foamprb.flow.read.fluid import (
     CaseViscosity,

@@ -172,6 +172,17 @@ def processor_folders(case: Path) -> list[Path]:
     ]
 
 
+def is_only_decomposed(case: Path, region: str = "") -> bool:
+    """Return True if only the processor folders hold the solution: no mesh beside them, or no time but 0."""
+    folders = processor_folders(case)
+    if not folders:
+        return False
+    last = (available_times(case) or (None,))[-1]
+    if existing(mesh_folder(case, last, region) / "faces") is None:
+        return not regions(case) or bool(region)
+    return float(last or 0) == 0.0 and float((available_times(folders[0]) or (0,))[-1]) != 0.0
+
+
 def later_times(case: Path) -> tuple[str, ...]:
     """Return a note if processor folders have later times than the case."""
     folders, names = processor_folders(case), available_times(case)

@@ -13,10 +13,8 @@ from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.case import (
     MissingFieldError,
-    available_times,
     mesh_files,
     mesh_folder,
-    processor_folders,
     regions,
     require_choice,
     require_region,
@@ -39,17 +37,6 @@ from foamprb.flow.read.processors import (
 from foamprb.flow.read.times import choose_times, pick_time
 
 _JOINED = "The parts have no files *ProcAddressing: they were joined over their processor patches."
-
-
-def is_only_decomposed(case: Path, region: str = "") -> bool:
-    """Return True if only the processor folders hold the solution: no mesh beside them, or no time but 0."""
-    folders = processor_folders(case)
-    if not folders:
-        return False
-    last = (available_times(case) or (None,))[-1]
-    if existing(mesh_folder(case, last, region) / "faces") is None:
-        return not regions(case) or bool(region)
-    return float(last or 0) == 0.0 and float((available_times(folders[0]) or (0,))[-1]) != 0.0
 
 
 class DecomposedCase(Case):

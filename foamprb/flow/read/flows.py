@@ -8,8 +8,8 @@ from pathlib import Path
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import later_times, processor_folders, regions, require_region
-from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
+from foamprb.flow.read.case import is_only_decomposed, later_times, processor_folders, regions, require_region
+from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.describe import describe, describe_file
 from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
 from foamprb.flow.read.mrf import Rotation, read_rotations

@@ -16,15 +16,15 @@ from numpy.typing import NDArray
 from foamprb.body.viscosity import LAWS
 from foamprb.dictionary.constraints import Choice, Positive
 from foamprb.dictionary.dimensions import DYNAMIC_VISCOSITY, KINEMATIC_VISCOSITY
-from foamprb.dictionary.files import existing
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.schema import read_entry
 from foamprb.dictionary.tree import Dictionary, DictionaryList, Stream
 from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
-from foamprb.flow.read.case import available_times, find_dictionary, find_file, word_of
-from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, Kind, read_field
+from foamprb.flow.read.case import find_dictionary, find_file, word_of
+from foamprb.flow.read.cell_values import cell_values, has_field, solution_times
+from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, Kind
 from foamprb.flow.read.times import pick_time
 
 _NU = Kind("volScalarField", "scalar", (KINEMATIC_VISCOSITY,), "a kinematic viscosity")
@@ -237,16 +237,15 @@ class _Fields(NamedTuple):
 
     def viscosity(self, kind: Kind, *names: str, law: Any = None) -> ViscosityField | None:
         """Return the first of some fields that is there; None if there is none."""
-        if self.time is None or not self.case.is_dir():
+        if self.time is None:
             return None
-        found = available_times(self.case)
+        found = solution_times(self.case, self.region)
         if not found:
             return None
         chosen = found if self.transient else (found[pick_time(self.case, found, self.time)],)
         for name in names:
-            paths = [self.case / time / self.region / name for time in chosen]
-            if all(existing(path) is not None for path in paths):
-                values = read_field(paths[-1], kind, self.case).cells
+            if all(has_field(self.case, self.region, time, name) for time in chosen):
+                values = cell_values(self.case, self.region, chosen[-1], name, kind)
                 return ViscosityField(name, kind, float((values if law is None else law(values)).mean()), law)
         return None
 
@@ -408,14 +407,13 @@ def density_of_state(root: Dictionary, p: Values, T: Values) -> Values | float |
 
 
 def _mean(case: Path, region: str, time: float | str, field: str, kind: Kind) -> tuple[float, str] | None:
-    names = available_times(case) if case.is_dir() else ()
+    names = solution_times(case, region)
     if not names:
         return None
     name = names[pick_time(case, names, time)]
-    path = case / name / region / field
-    if existing(path) is None:
+    if not has_field(case, region, name, field):
         return None
-    mean = float(read_field(path, kind, case).cells.mean())
+    mean = float(cell_values(case, region, name, field, kind).mean())
     return (mean, name) if 0.0 < mean < math.inf else None
 
 

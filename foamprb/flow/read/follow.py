@@ -23,8 +23,7 @@ from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.schema import read_entry
 from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
-from foamprb.flow.read.case import available_times, processor_folders, word_of
-from foamprb.flow.read.decomposed import is_only_decomposed
+from foamprb.flow.read.case import available_times, is_only_decomposed, processor_folders, word_of
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.times import names_in
 

@@ -14,7 +14,8 @@ from foam_writer import Format, decompose, header, rows, write_case
 from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.flow.read.boundary import read_boundary
-from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
+from foamprb.flow.read.case import is_only_decomposed
+from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import VELOCITY_FIELD, read_field
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.foamfile import read_labels
