@@ -33,7 +33,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
     """Execute the command; return the exit status."""
-    from foamprb.run.sweep import execute_run, read_study
+    from foamprb.run.sweep import execute_run, read_study, require_entries
     from foamprb.view.report.compare import write_comparison
     from foamprb.view.runs import open_runs
 
@@ -45,6 +45,7 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
     if arguments.run is not None and not 1 <= arguments.run <= n:
         raise InputError(f"-run {arguments.run}: the study has the runs 1 to {n}.")
+    require_entries(study, arguments.outsideLibs)
     numbers = range(1, n + 1) if arguments.run is None else [arguments.run]
     if arguments.list:
         for number in numbers:

@@ -185,10 +185,8 @@ def prepare(
     case = Path(case)
     source = source or FlowSource()
     check_region(case, source)
-    # A transient flow, of a range of times, has the density of the latest.
-    single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
     # The latest time may be unfinished, and is another one when the run continues.
-    fluid_time = None if follow is not None else single
+    fluid_time = None if follow is not None else time_of_fluid(time)
     settings = read_settings(case, dictionary, source.region, fluid_time, outside_libs, overrides)
     turbulent = any(type(model).needs_turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
@@ -232,6 +230,11 @@ def prepare(
         if compilation is not None:
             compilation.stop()
         raise
+
+
+def time_of_fluid(time: float | str | None) -> float | str:
+    """Return the time of the fluid's density and viscosity: of a range of times the latest."""
+    return "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
 
 
 def _why_whole(settings: Settings) -> str | None:

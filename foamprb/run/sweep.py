@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import math
+import os
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -18,11 +19,12 @@ from foamprb.errors import InputError, RunStopped, suggestion
 from foamprb.flow.base import Flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.folder import ResultsFolder
-from foamprb.run.job import Job, prepare
+from foamprb.run.job import Job, prepare, time_of_fluid
 from foamprb.run.loop import execute_until_signal
+from foamprb.settings.settings import read_settings
 from foamprb.settings.solution import StartFrom
 
-__all__ = ["Study", "execute_run", "read_study"]
+__all__ = ["Study", "execute_run", "read_study", "require_entries"]
 
 log = logging.getLogger("foamprb")
 
@@ -215,6 +217,28 @@ def execute_run(
             log.error("%s", error)
             raise
     return job
+
+
+def require_entries(study: Study, outside_libs: bool = False) -> None:
+    """Check the settings of the first and the last run; a misspelt entry is wrong in both.
+
+    Raises
+    ------
+    InputError
+        If both are wrong: the mistakes of the first.
+    """
+    numbers, faults = {1, len(study)}, []
+    with _logged_to(Path(os.devnull)):
+        for number in sorted(numbers):
+            given = study.overrides(number)
+            try:
+                read_settings(
+                    study.case, study.dictionary, study.region, time_of_fluid(study.time), outside_libs, given
+                )
+            except InputError as fault:
+                faults.append(fault)
+    if len(faults) == len(numbers):
+        raise faults[0]
 
 
 def _require_same(folder: ResultsFolder, job: Job) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
+from foamprb.results.folder import ResultsFolder
 from foamprb.view.results import Run, Table, frame_of, open_run
 
 __all__ = ["Runs", "open_runs", "results_at"]
@@ -100,8 +101,8 @@ def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
     Parameters
     ----------
     patterns
-        Cases, or folders of results as of ``foamprb run -output``; ``*`` stands for any name. What a pattern
-        finds that has no results is left out.
+        Cases, folders of results as of ``foamprb run -output``, or folders of one cloud in these. ``*`` is
+        any name. A match without results is left out.
 
     Raises
     ------
@@ -128,11 +129,18 @@ def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
 
 def results_at(path: Path) -> Path | None:
     """Return the folder of results for :func:`~foamprb.view.results.open_run`; None if it is in a case."""
-    return None if (path / "postProcessing").is_dir() else path
+    if (path / "postProcessing").is_dir():
+        return None
+    return path.parent if _is_of_cloud(path) else path
 
 
 def _open(path: Path) -> Run:
-    return open_run(path, results=results_at(path))
+    return open_run(path, path.name if _is_of_cloud(path) else None, results=results_at(path))
+
+
+def _is_of_cloud(path: Path) -> bool:
+    """Return whether a folder is that of one cloud, in a folder of results."""
+    return ResultsFolder(path, path.name).pvd.is_file()
 
 
 def _plain(text: str) -> str:

@@ -118,6 +118,9 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
     assert before == after
     runs = foamprb.open_runs(tmp_path / "study/*")
     assert list(runs) == ["001", "002"]
+    clouds = foamprb.open_runs(tmp_path / "study/*/softCloud")
+    assert list(clouds) == ["001/softCloud", "002/softCloud"]
+    np.testing.assert_array_equal(clouds.table()["D"], runs.table()["D"])
     table = runs.table()
     assert sorted(set(table[STIFFNESS].tolist())) == [0.1, 0.5]
     n = len(runs["001"].table()["id"])
@@ -155,6 +158,17 @@ def test_a_run_that_cannot_start_does_not_stop_the_others(case, tmp_path, capsys
     assert "Run 1 of 2: deltaT -1: " in out
     assert "Run 2 of 2: deltaT 2e-05: " in out
     assert not (case / "postProcessing").exists()
+
+
+@pytest.mark.parametrize("options", [[], ["-list"], ["-run", "2"]])
+def test_a_misspelt_entry_is_reported_once_and_starts_no_run(case, tmp_path, capsys, options):
+    path = study(tmp_path, 'case = "pipe"\n[entries]\n"solution/deltaTT" = [1e-5, 2e-5]\n')
+    assert main(["sweep", str(path), *options]) == 1
+    captured = capsys.readouterr()
+    assert captured.err.count("solution/deltaTT") == 1
+    assert "Did you mean 'deltaT'?" in captured.err
+    assert not captured.out
+    assert not (tmp_path / "study").exists()
 
 
 def test_a_signal_ends_the_study_and_the_same_command_continues(case, tmp_path, monkeypatch, capsys):
