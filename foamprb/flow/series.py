@@ -309,18 +309,9 @@ class SeriesFlow(Timeline, MeshFlow):
         return self._time_of(self._levels[-1])
 
     def extend(self, names: Sequence[str], usable: int) -> None:
-        """Add the times that a solver has written meanwhile.
-
-        Parameters
-        ----------
-        names
-            Names of all times, the present ones first.
-        usable
-            Number of times that the flow goes through. Those after it serve the rates of change at the last.
-        """
+        """See :meth:`Timeline.extend`."""
         self._names[:] = names
-        self.times = self._ends = tuple(float(name) for name in names[:usable])
-        self.span = self.times[0], self.times[-1]
+        super().extend(names, usable)
 
     def arrays(  # type: ignore[override]
         self,

@@ -40,6 +40,19 @@ class Timeline:
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
 
+    def extend(self, names: Sequence[str], usable: int) -> None:
+        """Add the times that a solver has written meanwhile to a flow without period.
+
+        Parameters
+        ----------
+        names
+            Names of all times, the present ones first.
+        usable
+            Number of times that the flow goes through. Those after it serve the rates of change at the last.
+        """
+        self.times = self._ends = tuple(float(name) for name in names[:usable])
+        self.span = self.times[0], self.times[-1]
+
     def _levels_for(self, start: float, end: float) -> range:
         """Return the levels from the last one up to ``start`` to the first one from ``end`` on.
 

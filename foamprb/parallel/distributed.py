@@ -314,6 +314,11 @@ class DistributedSeries(Timeline, DistributedFlow):
         first = self.summaries[0]
         self._set_times(first.times, first.period)
 
+    def extend(self, names: Sequence[str], usable: int) -> None:
+        """See :meth:`Timeline.extend`."""
+        self._ask("extend", names, usable)
+        super().extend(names, usable)
+
     def load(self, start: float, end: float) -> float:
         """Let all nodes load times; see :meth:`foamprb.flow.series.SeriesFlow.load`.
 

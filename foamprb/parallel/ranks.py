@@ -17,7 +17,6 @@ import logging
 import pickle
 import time as clock
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -115,7 +114,12 @@ class Ranks:
         if reason is not None:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             return None
-        open_parts = partial(self.order, "open_part", case, source.region, times, source)
+
+        def open_parts(depth: int, load: NDArray[np.int64] | None) -> list[Any]:
+            # Further times may have become known.
+            now = times._replace(known=tuple(times.known))
+            return self.order("open_part", case, source.region, now, source, depth, load)
+
         started = clock.perf_counter()
         try:
             flow = distributed_flow(self.order, open_parts, step)
@@ -127,6 +131,11 @@ class Ranks:
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,
                      summary.held - summary.own)  # fmt: skip
         return flow
+
+    def signal(self) -> int:
+        """Return a signal that any process has received, while all wait for something; 0 for none."""
+        self.order("wait_for_all")
+        return next(iter(self.signals), 0)
 
     def dismiss(self, status: int) -> None:
         """End all processes with an exit status."""

@@ -9,15 +9,18 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any, TypeAlias
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.tracker import never
-from foamprb.errors import InputError, RunStopped
+from foamprb.errors import InputError, RunInterrupted, RunStopped
+from foamprb.flow.base import Flow
 from foamprb.flow.read.density import may_vary
-from foamprb.flow.read.flows import open_case, read_transient_flow
+from foamprb.flow.read.flows import open_case
 from foamprb.flow.read.follow import FollowedCase
-from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.series import SeriesFlow
+from foamprb.parallel.distributed import DistributedSeries
 from foamprb.results.atomic import only_writer
 from foamprb.results.checkpoint import Checkpoints
 from foamprb.results.folder import ResultsFolder
@@ -26,11 +29,13 @@ from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
 
+FollowedFlow: TypeAlias = SeriesFlow | DistributedSeries
 _ROUND_OFF = 1e-9
 _PAUSE, _LONG_PAUSE, _SHARE = 0.1, 1.0, 0.02
 """Shortest and longest time between two looks at the case, s; and its share of the time waited so far."""
 _FIRST_LINE, _LONGEST = 5.0, 3600.0
 """Wait before the first line in the log, s; the time between lines doubles, up to the longest."""
+_BEFORE_START = "stopped before the first step."
 
 
 @dataclass(frozen=True)
@@ -56,11 +61,15 @@ class Following:
         Number of times at the end that only serve the rates of change before them.
     patience
         See :class:`Follow`.
+    signal
+        Called several times a second while the run waits; returns a signal that ends the wait, 0 for none.
     """
 
-    def __init__(self, case: FollowedCase, flow: SeriesFlow, lag: int, patience: float) -> None:
+    def __init__(
+        self, case: FollowedCase, flow: FollowedFlow, lag: int, patience: float, signal: Callable[[], int]
+    ) -> None:
         self.flow = flow
-        self._case, self._lag, self._patience = case, lag, patience
+        self._case, self._lag, self._patience, self._signal = case, lag, patience, signal
         self._kept = 2
         self.ended = False
         """Whether the flow has all times that its solver writes."""
@@ -74,9 +83,10 @@ class Following:
         Raises
         ------
         RunStopped
-            The solver has written no time for too long.
+            The solver has written no time for too long, or a signal ended the wait.
         """
-        self._wait(lambda: self.flow.span[1] >= t, never, f"the flow until {t:.12g} s, {purpose}")
+        if not self._wait(lambda: self.flow.span[1] >= t, never, f"the flow until {t:.12g} s, {purpose}"):
+            raise RunInterrupted(_BEFORE_START, self._signal())
         self._kept = max(self._kept, len(self.flow.times_until(min(t, self.flow.span[1]))))
 
     def wait(self, cloud: Cloud, stop: Callable[[], bool]) -> bool:
@@ -119,7 +129,7 @@ class Following:
             self._extend()
             return ready()
 
-        return wait(self._case, extended, stop, self._patience, what)
+        return wait(self._case, extended, lambda: stop() or self._signal() > 0, self._patience, what)
 
     def _extend(self) -> None:
         # In this order: another thread may add the last time meanwhile.
@@ -131,7 +141,13 @@ class Following:
 
 
 def begin_to_follow(
-    case: Path, folder: ResultsFolder, options: Follow, selection: str | None, source: FlowSource
+    case: Path,
+    folder: ResultsFolder,
+    options: Follow,
+    selection: str | None,
+    source: FlowSource,
+    read: Callable[[Path, FlowTimes, FlowSource], Flow],
+    signal: Callable[[], int] = lambda: 0,
 ) -> Following:
     """Wait for the first times of a case whose solver is running, and return its flow.
 
@@ -145,6 +161,10 @@ def begin_to_follow(
         Options of the run.
     selection
         Range of times.
+    read
+        Returns the flow of a folder that is a case with the times until now.
+    signal
+        See :class:`Following`.
 
     Raises
     ------
@@ -152,7 +172,7 @@ def begin_to_follow(
         The solver ends before its second time; another run writes to the folder; or see
         :class:`FollowedCase` and :func:`foamprb.flow.read.flows.read_transient_flow`.
     RunStopped
-        The solver has written no time for too long.
+        The solver has written no time for too long, or a signal ended the wait.
     """
     if source.file is not None:
         raise InputError(f"{source.file}: -follow goes with a case of OpenFOAM, not with a mesh file.")
@@ -163,21 +183,28 @@ def begin_to_follow(
             checkpoints = Checkpoints(folder.checkpoints).files()
             resumed = options.start_from == "latestTime"
             followed.begin(max(checkpoints, default=-math.inf) if resumed else None)
-        lag, first = 0, "the first times of the flow"
-        wait(followed, lambda: len(followed.times) > 1, never, options.patience, first)
+
+        def wait_for(n: int) -> None:
+            what = "the first times of the flow"
+            ready, stop = (lambda: len(followed.times) >= n), (lambda: signal() > 0)
+            if not wait(followed, ready, stop, options.patience, what):
+                raise RunInterrupted(_BEFORE_START, signal())
+
+        lag = 0
+        wait_for(2)
         if len(followed.times) > 1:
             source = replace(source, decomposed=followed.decomposed)
             opened = open_case(followed.folder, source)
             lag = int(may_vary(opened.root, opened.region, partial(opened.field, followed.times[-1])))
-            wait(followed, lambda: len(followed.times) > 1 + lag, never, options.patience, first)
+            wait_for(2 + lag)
         if len(followed.times) < 2:
             raise InputError(
                 f"{case}: the solver has ended (system/controlDict) with {len(followed.times)} time of the "
                 "flow in the selected range. Allowed: two or more."
             )
-        flow = read_transient_flow(followed.folder, selection, None, source)
-        assert isinstance(flow, SeriesFlow)
-        return Following(followed, flow, lag, options.patience)
+        times = FlowTimes(selection, transient=True, known=followed.times)
+        flow: Any = read(followed.folder, times, source)
+        return Following(followed, flow, lag, options.patience, signal)
     except BaseException:
         followed.close()
         raise

@@ -8,7 +8,7 @@ import re
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -201,18 +201,12 @@ def prepare(
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = None if flows is None or settings.solution.transient else flows.get(source)
         if follow is not None:
-            following = _follow(settings, time, source, output, follow)
-            flow = following.flow
-        if flow is None and ranks is not None:
-            solution = settings.solution
-            step = solution.deltaT * stretch_of(solution.stride)
-            times = FlowTimes(time, solution.transient, solution.period)
-            parts: Any = ranks.open_flow(case, times, source, step, _why_whole(settings))
-            flow = parts
+            following = _follow(settings, time, source, output, follow, ranks)
+            given: Any = following.flow
+            flow = given
         if flow is None:
-            flow = _read_flow(settings, time, source)
-            if isinstance(flow, MeshFlow):
-                flow.notes += tuple(flow.overlap())
+            times = FlowTimes(time, settings.solution.transient, settings.solution.period)
+            flow = _open_flow(settings, ranks, case, times, source)
         if flows is not None and not settings.solution.transient:
             flows[source] = flow
         for note in flow.notes:
@@ -314,22 +308,42 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
     )
 
 
-def _read_flow(settings: Settings, time: float | str | None, source: FlowSource) -> Flow:
-    solution = settings.solution
-    if solution.transient:
-        return read_transient_flow(
-            settings.case, None if time is None else str(time), solution.period, source
-        )
+def _open_flow(
+    settings: Settings, ranks: Ranks | None, case: Path, times: FlowTimes, source: FlowSource
+) -> Flow:
+    """Return the flow of a case, with a part on each of several nodes if it can be."""
+    if ranks is not None:
+        solution = settings.solution
+        step = solution.deltaT * stretch_of(solution.stride)
+        parts: Any = ranks.open_flow(case, times, source, step, _why_whole(settings))
+        if parts is not None:
+            found: Flow = parts
+            return found
+    flow = _read_flow(settings, case, times, source)
+    if isinstance(flow, MeshFlow):
+        flow.notes += tuple(flow.overlap())
+    return flow
+
+
+def _read_flow(settings: Settings, case: Path, times: FlowTimes, source: FlowSource) -> Flow:
+    time = times.selection
+    if times.transient:
+        return read_transient_flow(case, times.several, times.period, source)
     if isinstance(time, str) and re.search(r"[:,\s]", time):
         raise InputError(
             f"{settings.file}: solution/transient is no, but -time '{time}' selects several times: set "
             "transient yes, or select one time."
         )
-    return read_flow(settings.case, "latestTime" if time is None else time, source)
+    return read_flow(case, times.steady, source)
 
 
 def _follow(
-    settings: Settings, time: float | str | None, source: FlowSource, output: Path | None, options: Follow
+    settings: Settings,
+    time: float | str | None,
+    source: FlowSource,
+    output: Path | None,
+    options: Follow,
+    ranks: Ranks | None,
 ) -> Following:
     """Return the flow of a solver that is running."""
     solution = settings.solution
@@ -342,16 +356,17 @@ def _follow(
         raise InputError(f"{settings.case}: rotating zones (MRFProperties) are seen in steady flows only.")
     folder = ResultsFolder.of_case(settings.case, settings.name, settings.region, output)
     options = replace(options, start_from=options.start_from or solution.startFrom)
-    found = begin_to_follow(settings.case, folder, options, None if time is None else str(time), source)
-    found.flow.notes += tuple(found.flow.overlap())
-    return found
+    selection, read = None if time is None else str(time), partial(_open_flow, settings, ranks)
+    signal = (lambda: 0) if ranks is None else ranks.signal
+    return begin_to_follow(settings.case, folder, options, selection, source, read, signal)
 
 
 def _wait_for_injections(settings: Settings, following: Following) -> None:
     """Wait until the flow covers the times that the injections read before the run."""
+    flow: Any = following.flow
     for injection in settings.injections:
         model = injection.model
-        until = start_of_injection(model, following.flow)
+        until = start_of_injection(model, flow)
         if isinstance(model, PatchFlowRateInjection):
             until += model.duration
         elif not isinstance(model, PatchInjection) and injection.solid.referenceShearRate is not None:

@@ -95,7 +95,8 @@ def execute(
                     break
                 results.write(stepper)
                 log.write_time(stepper)
-                stepper.regroup()
+                if cloud.step < job.steps:
+                    stepper.regroup()
                 if following is not None:
                     following.release(results.earliest_restart)
         if following is not None:
@@ -103,6 +104,7 @@ def execute(
         results.end(stepper)
         failing = _failing(job, stepper)
         log.end(stepper, finished=not failing)
+        results.remove_links()
     if failing:
         raise RunStopped(f"{failing} The results until then are in {job.folder.path}.")
     return stepper.counts()

@@ -251,7 +251,6 @@ class Results:
         further = self._job.functions.fates()
         rows = stepper.in_order(_fates_of, self._job.patch_names, self._job.tables, own=(further,))
         write_rows(self._fates, rows, finish)
-        self._remove_links()
 
     def _sample(self, stepper: Stepper, names: list[str]) -> None:
         """Let some cloud functions record a sample."""
@@ -374,8 +373,8 @@ class Results:
         )
         return ended and self._fates.exists()
 
-    def _remove_links(self) -> None:
-        """Remove the links to the times of a flow whose solver is running."""
+    def remove_links(self) -> None:
+        """Remove the links to the times of a flow whose solver is running, which is not read again."""
         if self._job.following is not None:
             self._job.following.close()
         remove_links(self._job.folder.links)
@@ -389,7 +388,7 @@ class Results:
         entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
         restore(job.cloud, job.functions, checkpoint, where)
         if self.finished:
-            self._remove_links()
+            self.remove_links()
             log.info("The run has ended at t = %.12g s: there is nothing to continue.", job.cloud.time)
             return
         self._sums = checkpoint.header["sums"]

@@ -324,6 +324,26 @@ PartStepper._pays = lambda self: True
 """
 
 
+CONTROL = "deltaT 0.1; endTime 1.5; writeControl runTime; writeInterval 1;"
+SOLVER = """
+# Each wait for the solver brings the next time.
+import math
+from pathlib import Path
+from types import SimpleNamespace
+from foamprb.flow.read import follow as links
+from foamprb.run import follow
+late = ["0.5", "1.5"]
+def solve(_):
+    # The last time is complete when its files are.
+    links._QUIET = math.inf if late else 0.0
+    name = late.pop(0) if late else "1.5"
+    for folder in Path(sys.argv[sys.argv.index("-case") + 1]).glob("processor*"):
+        if not (folder / name).exists():
+            (folder / ("late" + name)).rename(folder / name)
+follow.clock = SimpleNamespace(monotonic=lambda: 0.0, sleep=solve)
+"""
+
+
 @pytest.fixture
 def halves(tmp_path, monkeypatch):
     """A flow that changes in time in two processor folders, for two nodes."""
@@ -334,7 +354,8 @@ def halves(tmp_path, monkeypatch):
     for time_of, factor in SCALE.items():
         shutil.rmtree(case / time_of)
         for file in case.glob(f"processor*/{time_of}/U"):
-            file.write_text(scaled(file.read_text(), factor))
+            file.write_text(scaled(file.read_text(), factor) + "\n// ***** //\n")
+    (case / "system/controlDict").write_text(header("dictionary", "controlDict") + CONTROL)
     shutil.rmtree(case / "constant/polyMesh")
     return case
 
@@ -352,13 +373,19 @@ parts.assemble_part = refuse
     assert "among 2 processes" in done.stdout
 
 
-def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(halves, tmp_path):
+@pytest.mark.parametrize("following", [False, True])
+def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves, tmp_path):
     case = halves
     edit(case, "^solution", "cloudFunctions { fields { type fieldSampling; fields (U); } } solution")
     alone = Path(shutil.copytree(case, tmp_path / "alone"))
     assert main(["run", "-case", str(alone)]) == 0
     # However small the mesh is, its arrays are shared.
-    done = run(2, case, script=after_hook(tmp_path, "shared_memory._SMALLEST = 100\n" + REGROUPING))
+    hook = "shared_memory._SMALLEST = 100\n" + REGROUPING
+    if following:
+        for folder in [f / t for f in case.glob("processor*") for t in ("0.5", "1.5")]:
+            folder.rename(folder.with_name("late" + folder.name))
+        hook += SOLVER
+    done = run(2, case, *["-follow"] * following, script=after_hook(tmp_path, hook))
     assert done.returncode == 0, done.stderr
     assert "Nodes take processor folders again" in done.stdout
     assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)

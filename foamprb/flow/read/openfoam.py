@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -213,7 +213,7 @@ def read_series(
 def flow_of(case: Case, times: FlowTimes, source: FlowSource) -> MeshFlow:
     """Read the flow of a case; see :func:`steady_flow` and :func:`transient_flow`."""
     if times.transient:
-        return transient_flow(case, times.several, times.period, source)
+        return transient_flow(case, times.several, times.period, source, times.known)
     return steady_flow(case, times.steady, source)
 
 
@@ -261,12 +261,14 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     return flow
 
 
-def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
-    """Prepare the flow of a case at several times; see :func:`read_series`."""
-    names = list(case.select_times(times))
+def transient_flow(
+    case: Case, times: str | None, period: float | None, source: FlowSource, known: Sequence[str] = ()
+) -> MeshFlow:
+    """Prepare the flow of a case at several times; see :func:`read_series` and :class:`FlowTimes`."""
+    names = list(known or case.select_times(times))
     if len(names) == 1:
         return steady_flow(case, names[0], source)
-    kinds = kinds_of(source.sampled, case.fields, names)
+    kinds = kinds_of(source.sampled, case.fields, [n for n in names if not known or case.folder(n).is_dir()])
     for name in names[1:]:
         _refuse_moving(case, name)
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)

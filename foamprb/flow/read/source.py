@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -28,6 +29,8 @@ class FlowTimes(NamedTuple):
     transient: bool = False
     period: float | None = None
     """Duration after which a transient flow repeats itself, s."""
+    known: Sequence[str] = ()
+    """Names of all times of a transient flow whose solver is running; the first ones must be there."""
 
     @property
     def steady(self) -> float | str:
