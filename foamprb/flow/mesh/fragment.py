@@ -83,6 +83,16 @@ class Team:
         self.exchange(self.size * [None])
 
 
+class Alone(Team):
+    """The only node."""
+
+    rank, size = 0, 1
+
+    def swap(self, parcels: Sequence[Any]) -> list[Any]:
+        """See :meth:`Team.swap`."""
+        return list(parcels)
+
+
 class _Failure(NamedTuple):
     """Sent in place of a parcel by a node that has failed."""
 
@@ -114,8 +124,9 @@ def merged(parts: Sequence[Fragment]) -> Fragment:
     """Return the cells of several fragments."""
     if len(parts) == 1:
         return parts[0]
-    points, first = np.unique(np.concatenate([part.points for part in parts]), return_index=True)
-    places = np.concatenate([part.places for part in parts])[first]
+    # Places of a point may differ in round-off: the last counts.
+    points, last = np.unique(np.concatenate([part.points for part in parts])[::-1], return_index=True)
+    places = np.concatenate([part.places for part in parts])[::-1][last]
     faces = np.concatenate([part.faces for part in parts])
     order = np.argsort(faces, kind="stable")
     begins = np.flatnonzero(np.diff(faces[order], prepend=-1))
@@ -272,6 +283,7 @@ def grow(
         new = [piece.points for piece, _, _ in found[latest:]]
         points = np.setdiff1d(np.concatenate([asked[:0], *new]), asked)
         asked = np.union1d(asked, points)
+    found.sort(key=lambda part: part[1])
     order = np.argsort(np.concatenate([piece.cells for piece, _, _ in found]))
     counts = [len(piece.cells) for piece, _, _ in found]
     node, layer = (np.repeat(np.array([row[k] for row in found]), counts)[order] for k in (1, 2))

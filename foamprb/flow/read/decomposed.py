@@ -23,6 +23,7 @@ from foamprb.flow.read.field import FoamField, Kind, read_field
 from foamprb.flow.read.foamfile import Labels
 from foamprb.flow.read.openfoam import Case
 from foamprb.flow.read.processors import (
+    JOINED,
     Address,
     Processors,
     checked,
@@ -35,8 +36,6 @@ from foamprb.flow.read.processors import (
     whole_patches,
 )
 from foamprb.flow.read.times import choose_times, pick_time
-
-_JOINED = "The parts have no files *ProcAddressing: they were joined over their processor patches."
 
 
 class DecomposedCase(Case):
@@ -129,7 +128,7 @@ class DecomposedCase(Case):
             return
         pieces = read_pieces(self.processors, files, self.root)
         parts = read_addresses(self.processors, files[1].parent, pieces)
-        self._mesh_notes = [] if parts else [_JOINED]
+        self._mesh_notes = [] if parts else [JOINED]
         parts = parts or found_addresses(pieces)
         self._patches, self._ranges = whole_patches(self.root, parts)
         self._poly = join_meshes(self.root, pieces, parts, self._patches, self._ranges)

@@ -21,8 +21,10 @@ from foamprb.flow.read.checks import notes_of_types, require_patch_shapes, requi
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import FoamField, Kind, PatchField, read_field
 from foamprb.flow.read.processors import (
+    JOINED,
     Address,
     checked,
+    found_addresses,
     fragment_of,
     join_zones,
     read_addresses,
@@ -72,9 +74,9 @@ class PartCase(DecomposedCase):
             return self._whole
         pieces = read_pieces(self.processors, files, self.root)
         parts = read_addresses(self.processors, files[1].parent, pieces)
-        if parts is None:
-            raise UndividedError("the processor folders have no files *ProcAddressing")
-        self._parts = parts
+        lacking = any(team.of_all(parts is None))
+        if parts is None or lacking:
+            parts = found_addresses(pieces, team)
         nothing: Any = np.empty(0, dtype=np.int64)
         named = [(part.patches, part.of_patches) for part in parts]
         everywhere = [
@@ -111,7 +113,8 @@ class PartCase(DecomposedCase):
         self._local = patches
         require_volumes(mesh, folder)
         require_patch_shapes(mesh, folder)
-        self._whole, self._files = CaseMesh(mesh, patches, tuple(notes_of_types(patches))), files
+        notes = *([JOINED] if lacking else []), *notes_of_types(patches)
+        self._whole, self._files = CaseMesh(mesh, patches, notes), files
         return self._whole
 
     def field(self, time: str, name: str, kind: Kind) -> FoamField:

@@ -13,14 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse import csgraph
 
 from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PolyMesh
-from foamprb.flow.mesh.fragment import Fragment
+from foamprb.flow.mesh.fragment import Alone, Fragment, Team
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts, take_lists
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
@@ -31,6 +29,7 @@ from foamprb.flow.read.polymesh import checked_poly
 from foamprb.flow.read.times import listed
 
 _ADDRESSING = ("pointProcAddressing", "faceProcAddressing", "cellProcAddressing", "boundaryProcAddressing")
+JOINED = "The parts have no files *ProcAddressing: they were joined over their processor patches."
 _APART = 1e-6
 """Largest distance of a point between two parts, as a fraction of the extent of the mesh."""
 
@@ -111,16 +110,17 @@ class Processors:
     def cells(self, folder: Path) -> Labels:
         """Return the number of cells of each chosen processor, from the beginnings of its addressing files.
 
+        Without these files it is the number of faces.
+
         Parameters
         ----------
         folder
             The folder of the mesh in that of a processor.
 
-        Returns
-        -------
-        Ones without these files.
         """
-        files = self.files(folder / _ADDRESSING[2], HEADER_BYTES)
+        files = self.files(folder / _ADDRESSING[2], HEADER_BYTES) or self.files(
+            folder / "owner", HEADER_BYTES
+        )
         return np.array([file.count() for file in files]) if files else np.ones(len(self.chosen), np.int64)
 
     def times(self) -> tuple[tuple[str, ...], str]:
@@ -240,105 +240,175 @@ def read_addresses(processors: Processors, folder: Path, pieces: Sequence[Piece]
     return found
 
 
-def found_addresses(pieces: Sequence[Piece]) -> list[Address]:
+class _Outline(NamedTuple):
+    """Sizes and patches of a piece, which all nodes hold of all pieces."""
+
+    faces_file: Path
+    boundary_file: Path
+    cells: int
+    points: int
+    internal: int
+    """Number of faces between its cells."""
+    patches: Sequence[PatchInfo]
+
+
+def found_addresses(pieces: Sequence[Piece], team: Team | None = None) -> list[Address]:
     """Return a numbering of the whole mesh by which the pieces meet at their processor patches.
+
+    Parameters
+    ----------
+    pieces
+        The pieces; of several nodes each has consecutive ones.
+    team
+        The nodes, which call it together.
 
     Raises
     ------
     InputError
         A processor patch has no counterpart with the same faces.
     """
-    cells = starts(np.array([piece.n_cells for piece in pieces]))
-    first_point = starts(np.array([len(piece.points) for piece in pieces]))
-    between = {
-        (own, int(patch.entries["neighbProcNo"])): patch
-        for own, piece in enumerate(pieces)
-        for patch in piece.patches
-        if patch.type == "processor"
-    }
-    faces = [np.full(len(piece.owner), -1, dtype=np.int64) for piece in pieces]
-    turned = [np.zeros(len(piece.owner), dtype=bool) for piece in pieces]
-    joined: list[tuple[Index, Index]] = []
-    n = 0
-    for own, piece in enumerate(pieces):
-        faces[own][: len(piece.neighbour)] = np.arange(n, n + len(piece.neighbour))
-        n += len(piece.neighbour)
-    for (own, other), patch in sorted(between.items()):
-        beyond = between.get((other, own))
+    team = team or Alone()
+    own = [
+        _Outline(p.paths[1], p.paths[4], p.n_cells, len(p.points), len(p.neighbour), p.patches)
+        for p in pieces
+    ]
+    listed = team.of_all(own)
+    outlines = [outline for part in listed for outline in part]
+    node_of = np.repeat(np.arange(team.size), [len(part) for part in listed]).tolist()
+    begin = node_of.index(team.rank)
+    internal = starts(np.array([outline.internal for outline in outlines]))
+    between, n = _between(outlines, int(internal[-1]))
+    outer = _boundary_starts(outlines, n)
+    points = _found_points(pieces, outlines, node_of, team)
+    cells, found = starts(np.array([outline.cells for outline in outlines])), []
+    for k, piece in enumerate(pieces, begin):
+        faces = np.full(len(piece.owner), -1, dtype=np.int64)
+        turned = np.zeros(len(piece.owner), dtype=bool)
+        faces[: len(piece.neighbour)] = np.arange(internal[k], internal[k + 1])
+        for patch in piece.patches:
+            part, other = slice(patch.start, patch.start + patch.faces), _other(patch)
+            first = outer[k, patch.name] if other < 0 else between[min(k, other), max(k, other)]
+            faces[part], turned[part] = np.arange(first, first + patch.faces), 0 <= other < k
+        of_patches = [-1 if "neighbProcNo" in p.entries else i for i, p in enumerate(piece.patches)]
+        found.append(
+            Address(
+                piece.patches, points[k - begin], faces, turned, np.arange(cells[k], cells[k + 1]),
+                np.array(of_patches, dtype=np.int64),
+            )
+        )  # fmt: skip
+    return found
+
+
+def _other(patch: PatchInfo) -> int:
+    """Return the piece on the other side of a processor patch; −1 for any other patch."""
+    return int(patch.entries["neighbProcNo"]) if patch.type == "processor" else -1
+
+
+def _between(outlines: Sequence[_Outline], n: int) -> tuple[dict[tuple[int, int], int], int]:
+    """Number the faces of processor patches from n on.
+
+    Returns
+    -------
+    The first face of each pair of pieces, and the number behind the last face.
+    """
+    patches = {(k, _other(p)): p for k, outline in enumerate(outlines) for p in outline.patches}
+    first = {}
+    for (own, other), patch in sorted(patches.items()):
+        if other < 0:
+            continue
+        beyond = patches.get((other, own))
         if beyond is None or beyond.faces != patch.faces:
             raise InputError(
-                f"{pieces[own].paths[4]}: patch {patch.name} has {patch.faces} faces, but the patch of "
-                f"processor {other} to it has {beyond.faces if beyond else 0}."
+                f"{outlines[own].boundary_file}: patch {patch.name} has {patch.faces} faces, but the patch "
+                f"of processor {other} to it has {beyond.faces if beyond else 0}."
             )
         if own < other:
-            here, there = (slice(p.start, p.start + p.faces) for p in (patch, beyond))
-            faces[own][here] = faces[other][there] = np.arange(n, n + patch.faces)
-            turned[other][there] = True
+            first[own, other] = n
             n += patch.faces
-            joined.append(
-                _pairs((pieces[own], here, first_point[own]), (pieces[other], there, first_point[other]))
-            )
-    _number_boundary(pieces, faces, n)
-    ends = [
-        np.concatenate([np.empty(0, dtype=np.intp), *side]) for side in zip(*joined, strict=True)
-    ] or 2 * [np.empty(0, dtype=np.intp)]
-    ones, shape = np.ones(len(ends[0]), dtype=np.int8), 2 * (int(first_point[-1]),)
-    groups = csgraph.connected_components(sparse.coo_array((ones, tuple(ends)), shape=shape), directed=False)[
-        1
-    ]
-    _, first, place = np.unique(groups, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), dtype=np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))
-    points = rank[place.reshape(-1)]
-    return [
-        Address(
-            piece.patches,
-            points[first_point[k] : first_point[k + 1]],
-            faces[k],
-            turned[k],
-            np.arange(cells[k], cells[k + 1]),
-            np.array(
-                [-1 if "neighbProcNo" in p.entries else i for i, p in enumerate(piece.patches)],
-                dtype=np.int64,
-            ),
-        )
-        for k, piece in enumerate(pieces)
-    ]
+    return first, n
 
 
-def _pairs(own: tuple[Piece, slice, int], other: tuple[Piece, slice, int]) -> tuple[Index, Index]:
-    """Return the points of faces on one side, and the same points on the other, where the faces turn back."""
-    sides = []
-    for (piece, part, first), back in ((own, False), (other, True)):
-        begin, size = piece.start[part].astype(np.intp), np.diff(piece.start)[part].astype(np.intp)
-        order = ragged(np.zeros(len(size), dtype=np.intp), size)
-        if back:
-            order = -order % np.repeat(size, size)
-        sides.append((size, piece.lists[np.repeat(begin, size) + order] + first))
-    if not np.array_equal(sides[0][0], sides[1][0]):
-        raise InputError(
-            f"{own[0].paths[1]}: the faces of a processor patch differ from those of {other[0].paths[1]}."
-        )
-    return sides[0][1].astype(np.intp), sides[1][1].astype(np.intp)
+def _boundary_starts(outlines: Sequence[_Outline], n: int) -> dict[tuple[int, str], int]:
+    """Number the boundary faces from n on, patch by patch; those of two cyclic patches in the same order.
 
-
-def _number_boundary(pieces: Sequence[Piece], faces: Sequence[Labels], n: int) -> None:
-    """Number the boundary faces from n on, patch by patch; those of two cyclic patches in the same order."""
+    Returns
+    -------
+    The first face of each patch of each piece.
+    """
     segments: dict[str, list[tuple[tuple[int, int], int, PatchInfo]]] = {}
-    names = [patch.name for piece in pieces[:1] for patch in piece.patches]
-    for own, piece in enumerate(pieces):
-        for patch in piece.patches:
+    names = [patch.name for outline in outlines[:1] for patch in outline.patches]
+    for own, outline in enumerate(outlines):
+        for patch in outline.patches:
             if patch.type == "processor":
                 continue
             name = patch.entries.get("referPatch", patch.name)
-            whole = next((p for p in piece.patches if p.name == name), patch)
+            whole = next((p for p in outline.patches if p.name == name), patch)
             other = int(patch.entries.get("neighbProcNo", own))
             first = whole.neighbour not in names or names.index(name) < names.index(whole.neighbour)
             segments.setdefault(name, []).append(((own, other) if first else (other, own), own, patch))
+    found = {}
     for _, lists in sorted(segments.items(), key=lambda item: names.index(item[0])):
         for _, own, patch in sorted(lists, key=lambda segment: segment[0]):
-            faces[own][patch.start : patch.start + patch.faces] = np.arange(n, n + patch.faces)
+            found[own, patch.name] = n
             n += patch.faces
+    return found
+
+
+def _found_points(
+    pieces: Sequence[Piece],
+    outlines: Sequence[_Outline],
+    node_of: Sequence[int],
+    team: Team,
+) -> list[Labels]:
+    """Return the numbers of the points of each piece: those that coincide have one.
+
+    Points are numbered by the first piece that has them, in its order.
+    """
+    begin, ends = node_of.index(team.rank), starts(np.array([len(piece.points) for piece in pieces]))
+    rows: dict[tuple[int, int], Index] = {}
+    sizes: dict[tuple[int, int], Ints] = {}
+    for k, piece in enumerate(pieces, begin):
+        for patch in piece.patches:
+            other = _other(patch)
+            if other < 0:
+                continue
+            start = piece.start[patch.start : patch.start + patch.faces + 1].astype(np.intp)
+            sizes[k, other] = np.diff(start)
+            order = ragged(np.zeros(patch.faces, dtype=np.intp), np.diff(start))
+            if other < k:
+                # There the faces turn the other way.
+                order = -order % np.repeat(np.diff(start), np.diff(start))
+            rows[k, other] = piece.lists[np.repeat(start[:-1], np.diff(start)) + order] + ends[k - begin]
+    nodes = range(team.size)
+    sent = [sorted(pair for pair in rows if node_of[pair[1]] == node) for node in nodes]
+    taken = [sorted(pairs, key=lambda pair: pair[::-1]) for pairs in sent]
+    asked = team.exchange([[sizes[pair] for pair in pairs] for pairs in sent])
+    for pairs, others in zip(taken, asked, strict=True):
+        for pair, other in zip(pairs, others, strict=True):
+            if not np.array_equal(sizes[pair], other):
+                own, beyond = (outlines[k].faces_file for k in pair)
+                raise InputError(f"{own}: the faces of a processor patch differ from those of {beyond}.")
+    nothing = np.empty(0, dtype=np.intp)
+    out, back = (
+        [np.concatenate([nothing, *(rows[pair] for pair in pairs)]) for pairs in way] for way in (sent, taken)
+    )
+
+    def least(values: Labels) -> Labels:
+        """Return the least of the values of coinciding points."""
+        changed = True
+        while any(team.of_all(changed)):
+            before = values.copy()
+            for own, found in zip(back, team.exchange([values[own] for own in out]), strict=True):
+                np.minimum.at(values, own, found)
+            changed = not np.array_equal(values, before)
+        return values
+
+    first = int(starts(np.array([outline.points for outline in outlines]))[begin])
+    everything = np.arange(first, first + int(ends[-1]), dtype=np.int64)
+    leading = least(everything.copy()) == everything
+    before = sum(team.of_all(int(leading.sum()))[: team.rank])
+    numbers = np.where(leading, before - 1 + np.cumsum(leading), np.iinfo(np.int64).max)
+    return np.split(least(numbers), ends[1:-1])
 
 
 def whole_patches(case: Path, parts: Sequence[Address]) -> tuple[list[PatchInfo], Labels]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +12,6 @@ from foam_writer import decompose, header, write_case
 from threads_team import together
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh.fragment import UndividedError
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.openfoam import steady_flow
@@ -36,13 +36,26 @@ def read(case, n, depth=1):
     return together(n, lambda team: steady_flow(PartCase(case, "", team, depth), "1", FlowSource()))
 
 
-def test_nodes_read_the_flow_of_the_whole(written, random):
-    flow = steady_flow(DecomposedCase(written), "1", FlowSource())
+@pytest.fixture(scope="module")
+def unaddressed(written, tmp_path_factory):
+    """The same processor folders without files that give places in the whole."""
+    case = tmp_path_factory.mktemp("unaddressed") / "case"
+    shutil.copytree(written, case)
+    for path in case.glob("processor*/constant/polyMesh/*Addressing"):
+        path.unlink()
+    return case
+
+
+@pytest.mark.parametrize("case", ["written", "unaddressed"])
+def test_nodes_read_the_flow_of_the_whole(case, request, random):
+    case = request.getfixturevalue(case)
+    flow = steady_flow(DecomposedCase(case), "1", FlowSource())
     points = random.uniform(0.0, 1.0, (500, 3))
     hosts = flow.locate(points)
     u, l = flow.sample(points, hosts, 0.0)
     located = 0
-    for part in read(written, 2):
+    for part in read(case, 2):
+        assert part.notes == flow.notes
         assert part.counts == (flow.mesh.n_cells, flow.mesh.n_points, len(flow.mesh.tets))
         assert (part.width, [p.name for p in part.patches[:-1]]) == (
             flow.width,
@@ -68,13 +81,10 @@ def test_nodes_take_folders_by_their_cells(written, tmp_path):
     assert chosen == [range(3), range(3, 4)]
 
 
-def test_parts_without_addressing_are_refused(written, tmp_path):
-    case = tmp_path / "case"
-    shutil.copytree(written, case)
-    for path in case.glob("processor*/constant/polyMesh/faceProcAddressing"):
-        path.unlink()
-    with pytest.raises(UndividedError, match=r"the processor folders have no files \*ProcAddressing"):
-        read(case, 2)
+def test_without_addressing_nodes_take_folders_by_their_faces(unaddressed):
+    case = DecomposedCase(unaddressed)
+    sizes = [len(file.labels()) for file in case.processors.files(Path("constant/polyMesh/owner"))]
+    assert case.processors.cells(Path("constant/polyMesh")).tolist() == sizes
 
 
 FAULTS = {
