@@ -25,7 +25,7 @@ class ThreadTeam(Team):
 
 def together(size: int, work: Callable[[ThreadTeam], Any]) -> list[Any]:
     """Return the results of all nodes; raise the first error."""
-    desk, barrier, results, errors = [None] * size, threading.Barrier(size), [None] * size, []
+    desk, barrier, results, errors = [None] * size, threading.Barrier(size, timeout=100), [None] * size, []
 
     def run(rank: int) -> None:
         try:
@@ -43,4 +43,5 @@ def together(size: int, work: Callable[[ThreadTeam], Any]) -> list[Any]:
         thread.join()
     if errors:
         raise errors[0]
+    assert not barrier.broken, "a node waits for another, which does something else"
     return results

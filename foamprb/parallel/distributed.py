@@ -18,9 +18,8 @@ from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import find_file, is_only_decomposed
 from foamprb.flow.read.decomposed import DecomposedCase
-from foamprb.flow.read.density import keeps_volume
 from foamprb.flow.read.parts import ends_of
-from foamprb.flow.read.source import FlowSource, FlowTimes
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.timeline import Timeline
 from foamprb.parallel.parts import Summary
@@ -58,7 +57,7 @@ class WholeCounts(NamedTuple):
     tets: range
 
 
-def why_whole(case: Path, times: FlowTimes, source: FlowSource, nodes: int) -> str | None:
+def why_whole(case: Path, source: FlowSource, nodes: int) -> str | None:
     """Return why each node must hold the whole mesh of a case; None if each can hold a part."""
     if source.file is not None:
         return "a mesh file is read"
@@ -67,9 +66,6 @@ def why_whole(case: Path, times: FlowTimes, source: FlowSource, nodes: int) -> s
     opened = DecomposedCase(case, source.region)
     if opened.processors.n < nodes:
         return f"the case has {opened.processors.n} processor folders for {nodes} nodes"
-    names = opened.select_times(times.several) if times.transient else [opened.select_time(times.steady)]
-    if not all(keeps_volume(case, source.region, opened.folder(name)) for name in names):
-        return "its density may vary"
     if source.relative and find_file(case, source.region, "MRFProperties") is not None:
         return "it has rotating zones (MRFProperties)"
     return None

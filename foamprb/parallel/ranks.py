@@ -110,7 +110,7 @@ class Ranks:
         nodes = self.worker.windows.nodes
         if nodes == 1:
             return None
-        reason = whole or why_whole(case, times, source, nodes)
+        reason = whole or why_whole(case, source, nodes)
         if reason is not None:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             return None

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import gc
+import shutil
 import weakref
 from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -144,6 +146,50 @@ def test_bodies_that_settle_pass_more_cells(flow):
     flow.expect(0.0)
 
 
+def put(case, name, unit, values, kind="volScalarField"):
+    """Write a field of the processors; ``values`` returns those of cells, by their numbers, at a time."""
+    for folder in case.glob("processor*/[01]"):
+        cells = FoamFile(folder.parent / "constant/polyMesh/cellProcAddressing").labels()
+        found = values(cells, float(folder.name))
+        (folder / name).write_text(
+            f"{header(kind, name)} dimensions {unit};\n"
+            f"internalField nonuniform List<scalar> {len(found)} ({' '.join(map(str, found))});\n"
+            'boundaryField { ".*" { type calculated; value uniform 1; } }\n'
+        )
+
+
+GAS = "thermoType { equationOfState perfectGas; } mixture { specie { molWeight 28.9; } }"
+
+
+@pytest.mark.parametrize("times", [FlowTimes("1"), FlowTimes(None, True)])
+@pytest.mark.parametrize("known", ["rho", "p and T", "T on one node"])
+def test_a_flow_of_varying_density_is_that_of_the_whole(known, times, case, random, tmp_path):
+    """On each node alone the density is constant; where it is not known, cells keep what they make."""
+    plain = flow_of(DecomposedCase(case), times, FlowSource())
+    case = Path(shutil.copytree(case, tmp_path / "case"))
+    half = FoamFile(case / "processor0/constant/polyMesh/cellProcAddressing").labels()
+    # The fluxes between cells, which are fewer than cells here, are not used.
+    put(case, "phi", "[1 0 -1 0 0 0 0]", lambda *_: [7.0], "surfaceScalarField")
+    if known == "rho":
+        put(case, "rho", "[1 -3 0 0 0 0 0]", lambda cells, t: (1.0 + t) * (1.0 + 2.0 * np.isin(cells, half)))
+    else:
+        (case / "constant/thermophysicalProperties").write_text(
+            header("dictionary", "thermophysicalProperties") + GAS
+        )
+        put(case, "p", "[1 -1 -2 0 0 0 0]", lambda cells, t: 1e5 * (1.0 + t + cells))
+        other = 310.0 if known == "p and T" else -1.0
+        put(case, "T", "[0 0 0 1 0 0 0]", lambda cells, _: np.where(np.isin(cells, half), 300.0, other))
+    whole, flow = flow_of(DecomposedCase(case), times, FlowSource()), distributed(case, times)
+    assert flow.notes == whole.notes
+    assert any("density is from" in note for note in flow.notes) == (known == "rho")
+    x = random.uniform(0.0, 1.0, (100, 3))
+    hosts = flow.locate(x)
+    u = whole.sample(x, hosts, 0.6)[0]
+    np.testing.assert_array_equal(flow.sample(x, hosts, 0.6)[0], u)
+    # Linear as it is, the interpolated velocity keeps volume.
+    assert np.array_equal(u, plain.sample(x, hosts, 0.6)[0]) == (known == "T on one node")
+
+
 @pytest.mark.parametrize("times", [FlowTimes("1"), FlowTimes(None, True)])
 def test_further_fields_are_those_of_the_whole(times, case, random):
     for name, unit in (
@@ -151,13 +197,7 @@ def test_further_fields_are_those_of_the_whole(times, case, random):
         ("epsilon", "[0 2 -3 0 0 0 0]"),
         ("nu", "[0 2 -1 0 0 0 0]"),
     ):
-        for folder in case.glob("processor*/[01]"):
-            cells = 1.0 + FoamFile(folder.parent / "constant/polyMesh/cellProcAddressing").labels()
-            (folder / name).write_text(
-                f"{header('volScalarField', name)} dimensions {unit};\n"
-                f"internalField nonuniform List<scalar> {len(cells)} ({' '.join(map(str, cells))});\n"
-                'boundaryField { ".*" { type zeroGradient; } }\n'
-            )
+        put(case, name, unit, lambda cells, _: 1.0 + cells)
     source = FlowSource(turbulent=True, viscosity=ViscosityField("nu", _NU, 1.0), sampled=("k", "U"))
     whole, flow = flow_of(DecomposedCase(case), times, source), distributed(case, times, source)
     x = random.uniform(0.0, 1.0, (100, 3))
@@ -215,7 +255,7 @@ def test_an_error_that_is_caught_holds_no_arrays_of_its_callers():
     ],
 )
 def test_the_reason_for_a_whole_mesh_is_given(changes, nodes, reason, case):
-    assert why_whole(case, FlowTimes("1"), FlowSource(**changes), nodes) == reason
+    assert why_whole(case, FlowSource(**changes), nodes) == reason
 
 
 @given(st.lists(st.tuples(st.integers(1, 1000), st.integers(1, 1000)), min_size=4, max_size=30))

@@ -14,10 +14,10 @@ from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
-from foamprb.flow.mesh.submesh import Halo, alone
+from foamprb.flow.mesh.submesh import CUT, Halo, alone
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
-from foamprb.flow.read.density import FLUX_FIELD, densities, varies
+from foamprb.flow.read.density import FLUX_FIELD, densities, extremes, varies
 from foamprb.flow.read.field import FoamField, Kind
 
 _STATIC = "staticFvMesh"
@@ -39,6 +39,7 @@ def caveats_of_case(
     moving: bool = True,
     turbulent: bool = False,
     relative: bool = False,
+    halo: Halo | None = None,
 ) -> list[Caveat]:
     """Return warnings from the dictionaries of a case, and from the fields beside the velocity.
 
@@ -54,10 +55,12 @@ def caveats_of_case(
         True if a model of the eddies acts, so that they need no warning.
     relative
         True if rotating zones are described in the frames of their rotors, so that they need no warning.
+    halo
+        The nodes that hold a part of the mesh each, if this is a part.
     """
     found = [*_rotating(case, region, relative), *_porous(case, region)]
     found += () if turbulent else _turbulent(folder)
-    found += [*_compressible(read), *_phases(folder)]
+    found += [*_compressible(read, halo), *_phases(folder)]
     return [*found, *([*_moving(case, region, folder), *_frozen(case, region)] if moving else ())]
 
 
@@ -115,16 +118,16 @@ def caveat_of_flux(
         The nodes that hold a part of the mesh each, if this is a part.
     """
     mesh = whole.mesh
-    phi = _flux(read, whole.patches) if velocity == "U" else None
-    if phi is None and varies(densities(read)):
+    of_all = alone if halo is None else halo.of_all
+    phi = _flux(read, whole.patches, of_all) if velocity == "U" else None
+    if phi is None and varies(extremes(densities(read), halo)):
         # Without phi the flux of mass is unknown.
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
     flux = phi[0] if phi else np.einsum("ni,ni->n", boundary, mesh.boundary_areas)
     areas, speeds = np.linalg.norm(mesh.boundary_areas, axis=1), np.linalg.norm(cells, axis=1)
-    of_all: Callable[[float], list[float]] = alone
     if halo is not None:
-        own, of_all = halo.part.own[mesh.owner[mesh.n_internal :]], halo.of_all
+        own = halo.part.own[mesh.owner[mesh.n_internal :]]
         own[mesh.patch_start[-2] :] = False
         flux, areas = flux[own], areas[own]
     outflow, inflow = sum(of_all(float(flux[flux > 0.0].sum()))), sum(of_all(float(-flux[flux < 0.0].sum())))
@@ -193,11 +196,11 @@ def is_not_zero(path: Path) -> bool:
     return found is not None and not _ZERO.search(read_bytes(found, _HEAD))
 
 
-def _compressible(read: Callable[[str, Kind], FoamField]) -> Iterator[Caveat]:
-    values = densities(read)
-    if varies(values):
+def _compressible(read: Callable[[str, Kind], FoamField], halo: Halo | None) -> Iterator[Caveat]:
+    low, high = extremes(densities(read), halo)
+    if varies((low, high)):
         yield Caveat(
-            f"the fluid's density is from {values.min():.4g} to {values.max():.4g} kg/m3 (there is rho), but "
+            f"the fluid's density is from {low:.4g} to {high:.4g} kg/m3 (there is rho), but "
             "to particles it is constant, rhoInf."
         )
 
@@ -242,21 +245,24 @@ def _zones(
 
 
 def _flux(
-    read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo]
+    read: Callable[[str, Kind], FoamField],
+    patches: Sequence[PatchInfo],
+    of_all: Callable[[bool], list[bool]],
 ) -> tuple[Floats, str, str] | None:
     """Return the flux out of the boundary faces (n,), its name and its unit; None if ``phi`` is missing."""
     try:
         phi = read("phi", FLUX_FIELD)
     except InputError:
         return None
-    values = []
+    values, missing = [], False
     for patch in patches:
         entry = phi.of(patch)
         found = entry.fields.get("value") if entry else None
         if found is None or len(found) not in (1, patch.faces):
-            if patch.faces and patch.type != "empty":
-                return None
+            missing |= patch.faces > 0 and patch.type != "empty" and patch.name != CUT.name
             found = np.zeros((1, 1))
         values.append(np.broadcast_to(found, (patch.faces, 1))[:, 0])
+    if any(of_all(missing)):
+        return None
     unit = "kg/s" if phi.dimensions == MASS_FLUX else "m3/s"
     return np.concatenate([np.empty(0), *values]), "phi", unit

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from foamprb.dictionary.dimensions import MASS_FLUX, VOLUME_FLUX
-from foamprb.dictionary.files import existing
 from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.balance import CONSTANT, Mass
 from foamprb.flow.base import Floats
+from foamprb.flow.mesh.submesh import Halo, alone
 from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.case import find_dictionary
 from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, FoamField, Kind
@@ -29,7 +30,13 @@ _ROUND_OFF = 1e-6
 
 
 def mass_of(
-    case: Path, region: str, whole: CaseMesh, times: Sequence[str], reads: Sequence[Read], index: int
+    case: Path,
+    region: str,
+    whole: CaseMesh,
+    times: Sequence[str],
+    reads: Sequence[Read],
+    index: int,
+    halo: Halo | None = None,
 ) -> Mass | None:
     """Return the density of a flow at one of its times; None if it varies, but is not known.
 
@@ -46,6 +53,8 @@ def mass_of(
         The times of the flow, and the functions that read a field there.
     index
         Which of them.
+    halo
+        The nodes that hold a part of the mesh each, if this is a part.
     """
     root, read = _mixture(case, region), reads[index]
     if root is None and not len(densities(read)):
@@ -54,11 +63,12 @@ def mass_of(
     if flux == VOLUME_FLUX:
         return CONSTANT
     near = sorted({max(index - 1, 0), index, min(index + 1, len(reads) - 1)})
-    found = {i: _values(reads[i], whole, root) for i in near}
+    found = {i: _values(reads[i], whole, root, halo) for i in near}
     values = {i: pair for i, pair in found.items() if pair is not None}
     if len(values) < len(near):
         return None
-    if not varies(np.concatenate([array for pair in values.values() for array in pair])):
+    every = np.concatenate([array for pair in values.values() for array in pair])
+    if not varies(extremes(every, halo)):
         return CONSTANT
     if flux is None and root is None:
         return None
@@ -82,14 +92,17 @@ def densities(read: Read) -> Floats:
         return np.empty((0, 1))
 
 
-def varies(values: Floats) -> bool:
-    """Return True if values differ by more than round-off."""
-    return bool(np.ptp(values) > _ROUND_OFF * np.abs(values).max(initial=0.0)) if len(values) else False
+def extremes(values: Floats, halo: Halo | None = None) -> tuple[float, float]:
+    """Return the smallest and the largest of values, of all nodes; (∞, −∞) for none."""
+    ends = values.min(initial=np.inf), values.max(initial=-np.inf)
+    lows, highs = zip(*(alone if halo is None else halo.of_all)(ends), strict=True)
+    return float(min(lows)), float(max(highs))
 
 
-def keeps_volume(case: Path, region: str, folder: Path) -> bool:
-    """Return True if a flow keeps volume, as it has neither a mixture nor a density in its time directory."""
-    return _mixture(case, region) is None and existing(folder / "rho") is None
+def varies(ends: tuple[float, float]) -> bool:
+    """Return True if the smallest and the largest value differ by more than round-off."""
+    low, high = ends
+    return high - low > _ROUND_OFF * max(abs(low), abs(high))
 
 
 def _mixture(case: Path, region: str) -> Dictionary | None:
@@ -108,15 +121,23 @@ def _dimensions(read: Read) -> Any:
         return None
 
 
-def _values(read: Read, whole: CaseMesh, root: Dictionary | None) -> tuple[Floats, Floats] | None:
+def _values(
+    read: Read, whole: CaseMesh, root: Dictionary | None, halo: Halo | None
+) -> tuple[Floats, Floats] | None:
     """Return the density at cells (n_cells,) and boundary faces (n_boundary,); None if it is not known."""
+
+    def of(name: str, kind: Kind) -> tuple[Floats, Floats]:
+        # The error of one node is that of all.
+        with nullcontext() if halo is None else halo.team.united():
+            return values_of(read(name, kind), whole)
+
     try:
-        rho, outside = values_of(read("rho", DENSITY_FIELD), whole)
+        rho, outside = of("rho", DENSITY_FIELD)
     except InputError:
         if root is None:
             return None
         try:
-            p, T = (values_of(read(*field), whole) for field in _STATE)
+            p, T = (of(*field) for field in _STATE)
         except InputError:
             return None
         found = density_of_state(root, np.concatenate(p), np.concatenate(T))
@@ -124,6 +145,4 @@ def _values(read: Read, whole: CaseMesh, root: Dictionary | None) -> tuple[Float
             return None
         both = np.broadcast_to(found, len(p[0]) + len(p[1]))
         rho, outside = both[: len(p[0])], both[len(p[0]) :]
-    if not (min(rho.min(initial=1.0), outside.min(initial=1.0)) > 0.0):
-        return None
-    return rho, outside
+    return (rho, outside) if extremes(np.concatenate([rho, outside]), halo)[0] > 0.0 else None

@@ -237,7 +237,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     # Its arrays take half as much memory as the flow.
     del reconstruct
     conserve = Conservation(whole.mesh, halo=case.halo)
-    correction = conserve(u, l, mass_of(case.root, case.region, whole, (name,), [read], 0))
+    correction = conserve(u, l, mass_of(case.root, case.region, whole, (name,), [read], 0, case.halo))
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms([case.folder(name) / source.velocity])
     if float(name) == 0.0:
@@ -287,7 +287,7 @@ def transient_flow(
         reads = [partial(case.field, name) for name in names]
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
-        mass = mass_of(case.root, case.region, whole, names, reads, names.index(name))
+        mass = mass_of(case.root, case.region, whole, names, reads, names.index(name), case.halo)
         correction = conserve(u, l, mass)
         conserve.warn(name)
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
@@ -326,7 +326,8 @@ def _at_nodes(
 
 
 def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:
-    return caveats_of_case(case.root, case.region, case.folder(time), partial(case.field, time), **options)
+    read = partial(case.field, time)
+    return caveats_of_case(case.root, case.region, case.folder(time), read, halo=case.halo, **options)
 
 
 def _refuse_moving(case: Case, time: str) -> None:

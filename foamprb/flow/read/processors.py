@@ -530,7 +530,12 @@ def join_zones(
 
 
 def checked(field: FoamField, part: Address) -> FoamField:
-    """Return the field of a part if it fits the part's mesh; InputError otherwise."""
+    """Return the field of a part if it fits the part's mesh; InputError otherwise.
+
+    Of a field of faces those of the patches are kept.
+    """
+    if field.kind.name.startswith("surface"):
+        field = field._replace(cells=np.zeros((1, field.cells.shape[1])))
     if len(field.cells) not in (1, len(part.cells)):
         raise InputError(f"{field.path}: {len(field.cells)} cells, but the mesh there has {len(part.cells)}.")
     require_numbers(field.cells, field.path, "value", "at cell")
