@@ -109,7 +109,7 @@ class Balance:
 
         Returns
         -------
-        What cells still make or lose, over the fluxes through faces; root mean squares.
+        What cells still make or lose, over the fluxes through faces and into the cells; root mean squares.
         """
         mesh, weight, n = self._mesh, self._weight, self._mesh.n_internal
         owner, neighbour, cells = mesh.owner, mesh.neighbour, mesh.n_cells
@@ -127,7 +127,8 @@ class Balance:
         if self._closed:
             rest -= volumes * (self._equations.total(rest) / self._equations.total(volumes))
         squares = total_of(fluxes[self._faces] ** 2, self._of_all)
-        size = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells)
+        gained = total_of(stored[self._cells] ** 2, self._of_all)
+        size = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells + gained)
         y, left = self._equations.solve(rest, BALANCED * size)
         if self._halo is not None:
             y = self._held.get(y)
