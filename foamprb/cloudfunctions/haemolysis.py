@@ -29,7 +29,6 @@ from foamprb.cloudfunctions.base import (
 )
 from foamprb.dictionary.constraints import Choice, Meaning, Positive
 from foamprb.errors import InputError
-from foamprb.flow.rotating import RotatingFlow
 from foamprb.results.tables import write_table
 
 __all__ = [
@@ -188,7 +187,7 @@ class Haemolysis(SampledFunction):
 
     def begin(self, cloud: ObservedCloud) -> Memory:
         """Return the first sample, and cells at rest; raise InputError for a turning frame."""
-        if self.stress == "morphology" and isinstance(cloud.cloud.flow, RotatingFlow):
+        if self.stress == "morphology" and bool(getattr(cloud.cloud.flow, "rotating", ())):
             raise InputError("stress morphology does not turn with rotating zones: use KelvinVoigt")
         return super().begin(cloud)
 

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from foamprb.body.turbulence import fluctuation_size
 from foamprb.flow.base import Floats, Ints, PatchFaces
-from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.folds import FOLDED
 from foamprb.flow.mesh.fragment import Labels, UndividedError
 from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
@@ -20,6 +19,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import BEYOND, Halo, Homes
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.meshflow import AT_ONCE, MeshFlow, Numbering, end_triangles, shortest_extent
+from foamprb.flow.rotating import RotatingArrays, RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
 
@@ -41,15 +41,14 @@ class PartFlow(MeshFlow):
     ----------
     halo
         The part, and the other nodes.
-    mesh
-        The mesh of the part.
     given, options
-        See :class:`MeshFlow`.
+        See :class:`MeshFlow`, with the mesh of the part.
     """
 
-    def __init__(self, halo: Halo, mesh: Mesh, *given: Any, **options: Any) -> None:
+    def __init__(self, halo: Halo, *given: Any, **options: Any) -> None:
         self.halo = halo
-        super().__init__(mesh, *given, **options)
+        super().__init__(*given, **options)
+        mesh = self.mesh
         self._close(*_ends(halo))
         own = halo.part.own
         totals = halo.of_all((int(own.sum()), int(halo.part.points.max(initial=-1)) + 1))
@@ -218,8 +217,8 @@ class PartFlow(MeshFlow):
         n = self.mesh.n_points + self.mesh.n_cells
         return time, u[:n], l[:n]
 
-    def in_space(self, *walls: Any) -> MeshArrays:
-        """Return the mesh for the kernels, with the fields of a steady flow; see :meth:`MeshFlow.arrays`."""
+    def in_space(self, *walls: Any) -> Any:
+        """Return the arrays for the kernels, without fields of several times; see :meth:`MeshFlow.arrays`."""
         return MeshFlow.arrays(self, *walls)
 
     def forget_walls(self) -> None:
@@ -368,6 +367,21 @@ class PartFlow(MeshFlow):
         own = PatchFaces(v.vertices[mine], v.areas[mine], v.normals[mine], v.velocity[mine], v.hosts[mine])
         numbers: Any = self.numbers_of(own.hosts)
         return self._faces_of(mesh, at[mine]), own._replace(hosts=numbers)
+
+
+class RotatingPart(PartFlow, RotatingFlow):
+    """Steady flow with rotating zones on a part of a mesh."""
+
+    def in_space(self, *walls: Any) -> RotatingArrays:
+        """See :meth:`PartFlow.in_space`."""
+        return RotatingFlow.arrays(self, *walls)
+
+    @property
+    def rate(self) -> float:
+        """See :class:`PartFlow`; relative to the frames of the cells."""
+        u, cells = self.at_nodes()[1].copy(), slice(self.mesh.n_points, None)
+        u[cells] -= np.cross(self._omega[self._zone], self.mesh.centres - self._origin[self._zone])
+        return self._rate_of(u, self.turbulence_at_nodes())
 
 
 class PartSeries(PartFlow, SeriesFlow):

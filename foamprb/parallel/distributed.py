@@ -16,10 +16,11 @@ from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, FieldValues, by_name, width
 from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import find_file, is_only_decomposed
+from foamprb.flow.read.case import is_only_decomposed
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.parts import ends_of
 from foamprb.flow.read.source import FlowSource
+from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.timeline import Timeline
 from foamprb.parallel.parts import Summary
@@ -66,8 +67,6 @@ def why_whole(case: Path, source: FlowSource, nodes: int) -> str | None:
     opened = DecomposedCase(case, source.region)
     if opened.processors.n < nodes:
         return f"the case has {opened.processors.n} processor folders for {nodes} nodes"
-    if source.relative and find_file(case, source.region, "MRFProperties") is not None:
-        return "it has rotating zones (MRFProperties)"
     return None
 
 
@@ -289,11 +288,23 @@ class DistributedFlow:
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return those of the flow on one node, but for round-off."""
         first, *others = self._ask("traits")
-        fixed = ("times", "period")
+        fixed = ("times", "period", "omega", "origin")
         return {
             name: value if name in fixed else sum((own[name] for own in others), start=value)
             for name, value in first.items()
         }
+
+
+class DistributedRotating(DistributedFlow):
+    """Steady flow with rotating zones, see :class:`DistributedFlow`."""
+
+    kernels = RotatingFlow.kernels
+    nothing = staticmethod(RotatingFlow.nothing)
+
+    @property
+    def rotating(self) -> tuple[RotatingZone, ...]:
+        """Rotating zones, without their cells."""
+        return self.summaries[0].rotating
 
 
 class DistributedSeries(Timeline, DistributedFlow):
@@ -337,5 +348,6 @@ class DistributedSeries(Timeline, DistributedFlow):
 def distributed_flow(order: Callable[..., list[Any]], open_parts: OpenParts, step: float) -> DistributedFlow:
     """Return the flow of which all nodes hold parts; see :class:`DistributedFlow`."""
     summaries = open_parts(LEAST_LAYERS, None)
-    several = any(summary is not None and summary.times for summary in summaries)
-    return (DistributedSeries if several else DistributedFlow)(order, open_parts, step, summaries)
+    first = next(summary for summary in summaries if summary is not None)
+    kind = DistributedSeries if first.times else DistributedRotating if first.rotating else DistributedFlow
+    return kind(order, open_parts, step, summaries)

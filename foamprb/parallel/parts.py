@@ -19,6 +19,7 @@ from foamprb.flow.partflow import PartFlow, PartSeries
 from foamprb.flow.read.openfoam import flow_of
 from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
+from foamprb.flow.rotating import RotatingArrays, RotatingZone
 from foamprb.flow.series import SeriesArrays
 from foamprb.memory import returned_at_once
 from foamprb.parallel.shared_memory import Publisher, Windows, wait_for_all
@@ -66,7 +67,7 @@ class PlacesInWhole(NamedTuple):
 class Shared(NamedTuple):
     """Arrays that the processes of a node share."""
 
-    flow: MeshArrays
+    flow: MeshArrays | RotatingArrays
     places: PlacesInWhole
     sampled: Fields
 
@@ -104,6 +105,8 @@ class Summary(NamedTuple):
     times: tuple[float, ...]
     """Times of a flow that changes, s; none of a steady one."""
     period: float | None
+    rotating: tuple[RotatingZone, ...]
+    """Rotating zones, without their cells."""
 
 
 def summary_of(flow: PartFlow) -> Summary:
@@ -116,6 +119,7 @@ def summary_of(flow: PartFlow) -> Summary:
         int(own.sum()), len(own), max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)),
         flow.field_columns, time,
         *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
+        tuple(zone._replace(cells=zone.cells[:0]) for zone in getattr(flow, "rotating", ())),
     )  # fmt: skip
 
 
@@ -171,7 +175,13 @@ class Part:
     @property
     def arrays(self) -> Any:
         """Return the arrays for the kernels; see :meth:`foamprb.flow.base.Flow.arrays`."""
-        return self.mesh if self._loaded is None else self._loaded._replace(mesh=self.mesh)
+        return self._in_space if self._loaded is None else self._loaded._replace(mesh=self.mesh)
+
+    @property
+    def mesh(self) -> MeshArrays:
+        """Return the arrays of the mesh."""
+        found: MeshArrays = getattr(self._in_space, "mesh", self._in_space)
+        return found
 
     def open(
         self,
@@ -210,7 +220,7 @@ class Part:
             self.flow.forget_walls()
             return placed
 
-        self.mesh, self.places, self.sampled = self.shared.find(self._tell(self._lead(place)))
+        self._in_space, self.places, self.sampled = self.shared.find(self._tell(self._lead(place)))
         return self.size
 
     def load(self, start: float, end: float) -> tuple[float, float] | None:

@@ -395,7 +395,7 @@ def assemble(
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     solution = settings.solution
-    models = _models(settings, solution.integrationSchemes.shape, isinstance(flow, RotatingFlow))
+    models = _models(settings, solution.integrationSchemes.shape, bool(getattr(flow, "rotating", ())))
     by_name = {patch.name: i for patch, i in zip(flow.patches, interactions, strict=True)}
     needed = any(function.needs_rebounds(by_name) for function in settings.functions.values())
     models = replace(models, rebounds=needed)

@@ -158,6 +158,39 @@ def put(case, name, unit, values, kind="volScalarField"):
         )
 
 
+def test_rotating_zones_are_those_of_the_whole(case, random, tmp_path):
+    """One zone has cells of both nodes; a wall turns with it."""
+    case = Path(shutil.copytree(case, tmp_path / "case"))
+    for folder in case.glob("processor*"):
+        n = len(FoamFile(folder / "constant/polyMesh/cellProcAddressing").labels())
+        cells = range(n // 2, n)
+        (folder / "constant/polyMesh/cellZones").write_text(
+            header("regIOobject", "cellZones") + "1\n(\nsome\n{\n type cellZone;\n cellLabels "
+            f"List<label> {len(cells)}({' '.join(map(str, cells))});\n}}\n)\n"
+        )
+    (case / "constant/MRFProperties").write_text(
+        header("dictionary", "MRFProperties")
+        + "a { cellZone some; origin (0.1 0 0); axis (0 1 1); omega 30; }"
+    )
+    source, times = FlowSource(relative=True), FlowTimes("1")
+    whole, flow = flow_of(DecomposedCase(case), times, source), distributed(case, times, source)
+    assert flow.notes == whole.notes
+    assert any(f"of {len(whole.rotating[0].cells)} cells rotates with 30 rad/s" in n for n in flow.notes)
+    assert flow.kernels == whole.kernels
+    assert [zone[2:] for zone in flow.rotating] == [zone[2:] for zone in whole.rotating]
+    x = random.uniform(0.0, 1.0, (100, 3))
+    hosts = flow.locate(x)
+    for found, expected in zip(flow.sample(x, hosts, 0.0), whole.sample(x, hosts, 0.0), strict=True):
+        np.testing.assert_array_equal(found, expected)
+    for found, expected in zip(flow.patch_faces("floor", 0.0), whole.patch_faces("floor", 0.0), strict=True):
+        np.testing.assert_array_equal(found, expected)
+    assert_alike(flow.traits(), whole.traits())
+    # Particles are fast relative to the rotor.
+    assert flow.rate > 2.0 * distributed(case, times).rate
+    with pytest.raises(InputError, match="seen from their rotors in steady flows only"):
+        distributed(case, FlowTimes(None, True), source)
+
+
 GAS = "thermoType { equationOfState perfectGas; } mixture { specie { molWeight 28.9; } }"
 
 

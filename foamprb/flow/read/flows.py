@@ -109,11 +109,6 @@ def read_transient_flow(case: Path, times: str | None, period: float | None, sou
         return read_mesh_series(
             source.file, times, period, source.velocity, gradient=source.gradient, division=source.division
         )
-    if rotations_of(case, source):
-        raise InputError(
-            f"{case}: rotating zones (MRFProperties) are seen from their rotors in steady flows only. "
-            "Allowed: solution/transient no, or solution/rotatingZones absolute."
-        )
     return transient_flow(open_case(case, source), times, period, source)
 
 

@@ -20,7 +20,7 @@ from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.mesh.submesh import Halo
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.partflow import PartFlow, PartSeries
+from foamprb.flow.partflow import PartFlow, PartSeries, RotatingPart
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
 from foamprb.flow.read.boundary_values import boundary_values
 from foamprb.flow.read.case import (
@@ -246,25 +246,39 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     notes += [*flux, *conserve.caveats()]
     del conserve
     notes += [
-        f"The zone {zone.name} of {len(zone.cells)} cells rotates with {np.linalg.norm(zone.omega):g} rad/s: "
+        f"The zone {zone.name} of {_count(zone, case.halo)} cells rotates with "
+        f"{np.linalg.norm(zone.omega):g} rad/s: "
         "particles in it move relative to the rotor, with its walls at rest."
         for zone in rotating
     ]
     zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
     viscosity = more[-1] if source.viscosity else None
     given = whole.mesh, u, l, notes, zones, name, turbulence, correction, viscosity
-    flow = MeshFlow(*given) if case.halo is None else PartFlow(case.halo, *given)
+    flow: MeshFlow
     if rotating:
-        flow = RotatingFlow(rotating, *given)
+        turning = rotating, *given
+        flow = RotatingFlow(*turning) if case.halo is None else RotatingPart(case.halo, *turning)
+    else:
+        flow = MeshFlow(*given) if case.halo is None else PartFlow(case.halo, *given)
     if sampled is not None:
         flow.field_table, flow.field_columns = sampled
     return flow
+
+
+def _count(zone: RotatingZone, halo: Halo | None) -> int:
+    """Return the number of cells of a zone."""
+    return len(zone.cells) if halo is None else sum(halo.of_all(int(halo.part.own[zone.cells].sum())))
 
 
 def transient_flow(
     case: Case, times: str | None, period: float | None, source: FlowSource, known: Sequence[str] = ()
 ) -> MeshFlow:
     """Prepare the flow of a case at several times; see :func:`read_series` and :class:`FlowTimes`."""
+    if source.relative and read_rotations(case.root, case.region):
+        raise InputError(
+            f"{case.root}: rotating zones (MRFProperties) are seen from their rotors in steady flows only. "
+            "Allowed: solution/transient no, or solution/rotatingZones absolute."
+        )
     names = list(known or case.select_times(times))
     if len(names) == 1:
         return steady_flow(case, names[0], source)

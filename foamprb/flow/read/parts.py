@@ -178,13 +178,17 @@ class PartCase(DecomposedCase):
         return joined
 
     def zones(self, time: str) -> Mapping[str, NDArray[np.int64]]:
-        """Read the own cells of each zone by name; see :meth:`~foamprb.flow.read.openfoam.Case.zones`."""
+        """Read the cells here of each zone by name; see :meth:`~foamprb.flow.read.openfoam.Case.zones`."""
         assert self.halo is not None
         zones = join_zones(self.processors, self.mesh_folder(time), self._parts)
         names = {name for listed in self._team.of_all(list(zones)) for name in listed}
-        cells = self.halo.part.cells
-        nothing = np.empty(0, dtype=np.int64)
-        return {name: np.searchsorted(cells, zones.get(name, nothing)) for name in sorted(names)}
+        found, cells, nothing = {}, self.halo.part.cells, np.empty(0, dtype=np.int64)
+        for name in sorted(names):
+            inside = np.zeros(len(cells), dtype=bool)
+            inside[np.searchsorted(cells, zones.get(name, nothing))] = True
+            self.halo.fill("cells", inside)
+            found[name] = np.flatnonzero(inside)
+        return found
 
 
 def ends_of(cells: Labels, load: Labels | None, nodes: int) -> list[int]:
