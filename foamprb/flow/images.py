@@ -112,8 +112,7 @@ def _seam(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Floats]:
     """Return points of a coupled patch, their images on the other patch, and the rotation between."""
     here, there = (np.unique(points_of_faces(mesh, f)[0]) for f in (coupling.faces, coupling.partners))
     images = mesh.points[here] @ coupling.turn.T + coupling.shift
-    size = np.sqrt(np.linalg.norm(mesh.boundary_areas[coupling.faces], axis=1).min())
-    distance, nearest = KDTree(mesh.points[there]).query(images, distance_upper_bound=0.05 * size)
+    distance, nearest = KDTree(mesh.points[there]).query(images, distance_upper_bound=0.05 * coupling.size)
     near = np.isfinite(distance)
     return here[near], there[np.asarray(nearest)[near]], coupling.turn
 

@@ -438,15 +438,7 @@ def _ends(halo: Halo) -> tuple[Index, Index]:
     rows = ragged(mesh.cell_start[last], np.diff(mesh.cell_start)[last])
     beyond = mesh.neighbours[rows, 0]
     rows = rows[(beyond >= 0) & ~inside[mesh.tets[beyond, 0] - mesh.n_points]]
-    coupled = [patch.neighbour != "" for patch in mesh.patches]
-    partner = np.full(len(mesh.boundary_centres), -1)
-    for coupling in mesh.couplings:
-        partner[coupling.faces] = coupling.partners
-    owner = mesh.owner[mesh.n_internal :]
-    reached = (partner >= 0) & inside[owner[partner]]
-    of_patch = mesh.triangle_patch
-    lost = np.flatnonzero((of_patch >= 0) & np.array(coupled)[of_patch] & ~reached[mesh.triangle_face])
-    return rows, lost
+    return rows, np.flatnonzero(~part.continued[mesh.triangle_face])
 
 
 def _in_order(halo: Halo, numbers: Labels, *values: NDArray[Any]) -> list[NDArray[Any]]:

@@ -168,7 +168,7 @@ def images_of_walls(mesh: Mesh, walls: Walls, reach: float, boxes: Mapping[int, 
     by index, if the mesh is a part of another.
     """
     if boxes is None:
-        boxes = {c.other: face_box(mesh, c.partners) for c in mesh.couplings if len(c.partners)}
+        boxes = {c.other: patch_box(mesh, c.other) for c in mesh.couplings if len(c.partners)}
     found: list[Walls] = []
     sources = [(-1, walls)]
     for _ in range(2):
@@ -189,7 +189,7 @@ def images_of_walls(mesh: Mesh, walls: Walls, reach: float, boxes: Mapping[int, 
     return Walls(*(np.concatenate(arrays) for arrays in zip(walls.take(slice(0)), *found, strict=True)))
 
 
-def face_box(mesh: Mesh, faces: Any) -> Box:
-    """Return the box around boundary faces."""
-    points = mesh.points[mesh.triangles[np.isin(mesh.triangle_face, faces)]].reshape(-1, 3)
+def patch_box(mesh: Mesh, patch: int) -> Box:
+    """Return the box around a patch."""
+    points = mesh.points[mesh.triangles[mesh.triangle_patch == patch]].reshape(-1, 3)
     return points.min(axis=0), points.max(axis=0)

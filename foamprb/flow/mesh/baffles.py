@@ -14,7 +14,7 @@ from scipy.sparse import csgraph
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import mix
-from foamprb.flow.mesh.fragment import NO_COPIES, Fragment, Team, grow, places_of
+from foamprb.flow.mesh.fragment import NO_PAIRS, Fragment, Pairs, Team, grow, places_of
 from foamprb.flow.mesh.geometry import Faces
 from foamprb.flow.mesh.lists import Index, Labels, int32, take_lists
 
@@ -49,7 +49,7 @@ def part_points(points: Floats, faces: Faces, start: Ints, cell_points: Ints) ->
     return np.concatenate([points, points[pairs[0, copy]]]), faces._replace(points=lists), moved
 
 
-def part_fragment(own: Fragment, team: Team, n_internal: int) -> tuple[Fragment, NDArray[np.int64]]:
+def part_fragment(own: Fragment, team: Team, n_internal: int) -> tuple[Fragment, Pairs]:
     """Duplicate the points of baffles in the own cells of a node; see :func:`part_points`.
 
     Parameters
@@ -68,9 +68,9 @@ def part_fragment(own: Fragment, team: Team, n_internal: int) -> tuple[Fragment,
     codes, size = _codes(own.start, own.lists, np.flatnonzero(own.faces >= n_internal)), team.size
     found = np.concatenate(team.exchange([codes[codes % np.uint64(size) == k] for k in range(size)]))
     if not any(team.of_all(len(np.unique(found)) < len(found))):
-        return own, NO_COPIES
+        return own, NO_PAIRS
     # All cells around the points of own cells.
-    around = grow([own], team, 1, np.empty(0, dtype=np.int64), n_internal).fragment
+    around = grow([own], team, 1).fragment
     n, lists = len(around.points), places_of(around.points, around.lists)
     sides = [places_of(around.cells, side) for side in (around.owner, around.neighbour)]
     corners, groups = _groups(n, around.start, lists, np.flatnonzero(around.faces >= n_internal), *sides)

@@ -47,6 +47,8 @@ class Coupling(NamedTuple):
     """(3,), m."""
     matching: bool = True
     """True if the faces match one to one; otherwise a partner is the face nearest to the middle."""
+    size: float = np.inf
+    """Square root of the smallest area of a face, m."""
 
     def reverse(self) -> Coupling:
         """Return the coupling from the second patch to the first, of matching faces."""
@@ -133,7 +135,9 @@ def couple(
                 named[j] = patches[j]._replace(neighbour=names[i])
                 wedges.remove(j)
                 break
-    return tuple(named), tuple(found)
+    areas_of = np.linalg.norm(areas, axis=1)
+    sized = [c._replace(size=float(np.sqrt(areas_of[c.faces].min(initial=np.inf)))) for c in found]
+    return tuple(named), tuple(sized)
 
 
 def _cyclic(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -> Coupling | None:

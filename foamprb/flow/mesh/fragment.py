@@ -19,6 +19,8 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, take_lists
 
 Labels = NDArray[np.int64]
+Pairs = NDArray[np.int64]
+"""Two rows of numbers."""
 
 _OF_ALL = "_of_all_nodes"
 """Attribute of an error that all nodes raise."""
@@ -199,11 +201,10 @@ def places_of(numbers: Labels, wanted: Labels) -> Index:
     return np.where(numbers[at] == wanted, at, -1)
 
 
-NO_COPIES = np.empty((2, 0), dtype=np.int64)
-"""Copies of points of a mesh without baffles."""
+NO_PAIRS = np.empty((2, 0), dtype=np.int64)
 
 
-def with_copies(points: Labels, copies: Labels) -> Labels:
+def with_copies(points: Labels, copies: Pairs) -> Labels:
     """Return points, and the others at the same places; ``copies`` (2, n) are points and their originals."""
     if copies.size == 0:
         return points
@@ -227,9 +228,8 @@ def grow(
     pieces: list[Fragment],
     team: Team,
     layers: int,
-    partners: Labels,
-    n_internal: int,
-    copies: Labels = NO_COPIES,
+    links: Pairs = NO_PAIRS,
+    copies: Pairs = NO_PAIRS,
 ) -> Grown:
     """Add layers of cells around the own cells, which share a point, also across coupled faces and baffles.
 
@@ -241,10 +241,8 @@ def grow(
         The nodes.
     layers
         Number of layers.
-    partners
-        (n_boundary,) boundary face that continues each boundary face, −1 for none.
-    n_internal
-        Number of faces between cells in the whole mesh.
+    links
+        Boundary faces, rising, and faces that may continue them.
     copies
         See :func:`with_copies`.
     """
@@ -267,15 +265,13 @@ def grow(
 
     # All cells around the other points are own ones.
     points, asked, crossed = search.rim(), own.points, np.empty(0, dtype=np.int64)
-    latest, cyclic = 0, bool(np.any(partners >= 0))
+    latest, coupled = 0, links.size > 0
     for number in range(1, layers + 1):
         before, latest = latest, len(found)
         fetch(points, number)
-        if cyclic:
-            faces = [_cyclic_faces(piece, partners, n_internal, asked) for piece, _, _ in found[before:]]
-            across = np.setdiff1d(
-                n_internal + partners[np.concatenate([asked[:0], *faces]) - n_internal], crossed
-            )
+        if coupled:
+            faces = [_linked_faces(piece, links, asked) for piece, _, _ in found[before:]]
+            across = np.setdiff1d(np.concatenate([asked[:0], *faces]), crossed)
             crossed = np.union1d(crossed, across)
             asking = team.exchange([across for _ in everyone])
             answers = team.exchange([search.points_of(wanted) for wanted in asking])
@@ -293,11 +289,13 @@ def grow(
     return Grown(fragment, layer.astype(np.uint8), node.astype(np.int32), layers)
 
 
-def _cyclic_faces(part: Fragment, partners: Labels, n_internal: int, points: Labels) -> Labels:
-    """Return the faces of cyclic patches that have any of some points."""
-    outer = np.flatnonzero(part.faces >= n_internal)
-    outer = outer[partners[part.faces[outer] - n_internal] >= 0]
+def _linked_faces(part: Fragment, links: Pairs, points: Labels) -> Labels:
+    """Return the faces that may continue the faces with any of some points."""
+    outer = np.flatnonzero(np.isin(part.faces, links[0]))
     if len(outer) == 0:
         return part.faces[:0]
     start, lists = take_lists(part.start, part.lists, outer)
-    return part.faces[outer[np.logical_or.reduceat(np.isin(lists, points), start[:-1])]]
+    touched = part.faces[outer[np.logical_or.reduceat(np.isin(lists, points), start[:-1])]]
+    first, end = (np.searchsorted(links[0], touched, side=side) for side in ("left", "right"))
+    beyond: Labels = links[1][ragged(first, end - first)]
+    return beyond

@@ -7,11 +7,13 @@ from scipy.spatial import KDTree
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.coupling import Coupling
-from foamprb.flow.mesh.lists import Index, starts
+from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.mesh import Mesh
 
 # Factor of a triangle's radius: surfaces that are cut differently lie a little apart.
 _MARGIN = 1.1
+# Factor of a search radius, so that round-off of the search loses no pair.
+_WIDER = 1.0 + 1e-9
 
 
 def triangles_across(mesh: Mesh) -> tuple[Ints, Ints]:
@@ -52,26 +54,51 @@ def overlaps(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Index]:
     -------
     triangles, start, others
         Triangles (n,) of the first patch; start (n + 1,) of the list of each in ``others``. A list holds the
-        triangles whose circles about their middles meet the circle of the first, and the nearest one.
+        triangles whose circles about their middles meet the circle of the first, and those of the partner of
+        its face.
     """
     here = np.flatnonzero(mesh.triangle_patch == coupling.patch)
     there = np.flatnonzero(mesh.triangle_patch == coupling.other)
-    middle, radius = _circles(mesh.points[mesh.triangles[here]] @ coupling.turn.T + coupling.shift)
-    others, reach = _circles(mesh.points[mesh.triangles[there]])
-    tree = KDTree(others)
-    # Sizes are searched octave by octave, so that one large triangle does not widen the search for all.
+    own = _circles(mesh.points[mesh.triangles[here]] @ coupling.turn.T + coupling.shift)
+    rows, columns = pairs_within(*own, *_circles(mesh.points[mesh.triangles[there]]), _MARGIN)
+    partner = np.full(len(mesh.boundary_centres), -1)
+    partner[coupling.faces] = coupling.partners
+    partners, faces = partner[mesh.triangle_face[here]], mesh.triangle_face[there]
+    first, end = (np.searchsorted(faces, partners, side=side) for side in ("left", "right"))
+    rows = np.concatenate([rows, np.repeat(np.arange(len(here)), end - first)])
+    columns = np.concatenate([columns, ragged(first, end - first)])
+    pairs = np.unique(np.stack([rows, columns], axis=1), axis=0)
+    return here, starts(np.bincount(pairs[:, 0], minlength=len(here))), there[pairs[:, 1]]
+
+
+def pairs_within(
+    middle: Floats, radius: Floats, others: Floats, reach: Floats, margin: float
+) -> tuple[Index, Index]:
+    """Return the pairs of spheres that meet if they are larger by a factor.
+
+    Parameters
+    ----------
+    middle, radius
+        Centres (n, 3) and radii (n,), m.
+    others, reach
+        Those of the others.
+    margin
+        The factor.
+    """
+    # Sizes are searched octave by octave, so that one large sphere does not widen the search for all.
     octave = np.floor(np.log2(np.maximum(reach, 1e-300))).astype(int)
-    rows, columns = [np.arange(len(here))], [np.asarray(tree.query(middle)[1])]
+    rows, columns = [np.empty(0, dtype=np.intp)], [np.empty(0, dtype=np.intp)]
     for size in np.unique(octave):
         some = np.flatnonzero(octave == size)
-        lists = KDTree(others[some]).query_ball_point(middle, _MARGIN * (radius + reach[some].max()))
-        row = np.repeat(np.arange(len(here)), [len(found) for found in lists])
-        column = some[np.concatenate([np.empty(0, dtype=np.intp), *map(np.asarray, lists)]).astype(np.intp)]
-        near = np.linalg.norm(middle[row] - others[column], axis=1) <= _MARGIN * (radius[row] + reach[column])
+        far = _WIDER * margin * (radius + reach[some].max())
+        lists = KDTree(others[some]).query_ball_point(middle, far)
+        row = np.repeat(np.arange(len(middle)), [len(found) for found in lists])
+        column = some[np.concatenate([columns[0], *map(np.asarray, lists)]).astype(np.intp)]
+        apart = np.linalg.norm(middle[row] - others[column], axis=1)
+        near = apart <= margin * (radius[row] + reach[column])
         rows.append(row[near])
         columns.append(column[near])
-    pairs = np.unique(np.stack([np.concatenate(rows), np.concatenate(columns)], axis=1), axis=0)
-    return here, starts(np.bincount(pairs[:, 0], minlength=len(here))), there[pairs[:, 1]]
+    return np.concatenate(rows), np.concatenate(columns)
 
 
 def _circles(corners: Floats) -> tuple[Floats, Floats]:

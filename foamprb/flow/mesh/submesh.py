@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
-from foamprb.flow.mesh.coupling import Coupling, couple
+from foamprb.flow.mesh.coupling import Coupling
 from foamprb.flow.mesh.fragment import Grown, Labels, Team, places_of
 from foamprb.flow.mesh.geometry import faces_of
+from foamprb.flow.mesh.joints import Joints
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
 from foamprb.flow.mesh.mesh import Mesh, assemble
 
@@ -25,7 +26,6 @@ CUT = PatchSurface("(cut)", "processor", None)
 """Patch of the faces where the cells of a node end."""
 BEYOND = -2
 """Patch of the triangles through which a path leaves the cells of a node; to kernels a failed walk."""
-_COUPLED = frozenset({"cyclic", "wedge"})
 RINGS = 2
 """Outermost layers of cells, in which the shapes of cells differ in round-off, or their neighbours lack."""
 
@@ -50,6 +50,8 @@ class SubMesh:
     """Number of faces between cells in the whole mesh."""
     depth: int
     """Number of layers in which bodies may move."""
+    continued: Mask
+    """(n_boundary,) False for faces of coupled patches that these layers do not continue."""
 
     @property
     def own(self) -> NDArray[np.bool_]:
@@ -58,25 +60,12 @@ class SubMesh:
         return own
 
 
-def partners_of(patches: Sequence[PatchSurface], patch_start: Index) -> Labels:
-    """Return the boundary face that continues each boundary face of cyclic patches, −1 for none."""
-    partners = np.full(int(patch_start[-1]), -1, dtype=np.int64)
-    names = [patch.name for patch in patches]
-    for k, patch in enumerate(patches):
-        if patch.type == "cyclic" and patch.neighbour in names:
-            other = names.index(patch.neighbour)
-            own, there = (np.arange(*patch_start[i : i + 2]) for i in (k, other))
-            if len(own) == len(there):
-                partners[own] = there
-    return partners
-
-
 def assemble_part(
     pieces: list[Grown],
     patches: Sequence[PatchSurface],
     patch_start: Index,
     n_internal: int,
-    team: Team,
+    joints: Joints,
     source: str,
 ) -> SubMesh:
     """Return the mesh of a node.
@@ -89,34 +78,48 @@ def assemble_part(
         Patches of the whole mesh, and the first boundary face of each.
     n_internal
         Number of faces between cells in the whole mesh.
-    team, source
-        The nodes; the name of the mesh for messages.
+    joints, source
+        The coupled patches; the name of the mesh for messages.
     """
-    poly, numbers, own_faces, cells = _local_poly(pieces.pop(), patches, patch_start, n_internal)
-    boundary = numbers[2][len(poly.faces.neighbour) :][: len(own_faces)]
-    local = _LocalCoupling(team, patch_start, boundary - n_internal, own_faces)
-    mesh = assemble(poly, source, local, parted=True)
+    poly, numbers, (layer, node, layers) = _local_poly(pieces.pop(), patches, patch_start, n_internal)
+    n_inside, n_outside = len(poly.faces.neighbour), int(poly.patch_start[-2])
+    boundary, depth = numbers[2][n_inside:][:n_outside], layers - RINGS
+    usable = (layer <= depth)[poly.faces.owner[n_inside : n_inside + n_outside]]
+    found = _local_couplings(joints, boundary)
+    mesh = assemble(poly, source, lambda *_: found, parted=True)
     patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
-    layer, node, layers = cells
-    return SubMesh(replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, layers - RINGS)
+    faces = np.ones(len(mesh.boundary_centres), dtype=bool)
+    one, other = (places_of(boundary, faces) for faces in joints.links)
+    faces[one[(one >= 0) & ~np.append(usable, False)[other]]] = False
+    return SubMesh(replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, depth, faces)
+
+
+def _local_couplings(joints: Joints, boundary: Labels) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
+    """Return the patches, and the couplings with the pairs of faces of which both are here."""
+    kept = []
+    for coupling in joints.couplings:
+        faces, partners = (places_of(boundary, side) for side in (coupling.faces, coupling.partners))
+        pairs = (faces >= 0) & (partners >= 0)
+        kept.append(coupling._replace(faces=faces[pairs], partners=partners[pairs]))
+    return (*joints.patches, Patch(CUT.name, CUT.type)), tuple(kept)
 
 
 def _local_poly(
     grown: Grown, patches: Sequence[PatchSurface], patch_start: Index, n_internal: int
-) -> tuple[PolyMesh, tuple[Labels, Labels, Labels], Mask, tuple[NDArray[Any], NDArray[Any], int]]:
+) -> tuple[PolyMesh, tuple[Labels, Labels, Labels], tuple[NDArray[Any], NDArray[Any], int]]:
     """Return points, faces and patches of the cells of a node.
 
     Returns
     -------
-    The mesh; the numbers of cells, points and faces in the whole; which of the boundary faces of the whole
-    mesh belong to own cells; layer and node of the cells, and the number of layers.
+    The mesh; the numbers of cells, points and faces in the whole; layer and node of the cells, and the number
+    of layers.
     """
     f = grown.fragment
     owner, neighbour = (places_of(f.cells, side) for side in (f.owner, f.neighbour))
     inside = (owner >= 0) & (neighbour >= 0)
     outside = f.faces >= n_internal
     order = np.concatenate([np.flatnonzero(m) for m in (inside, outside, ~inside & ~outside)])
-    n_inside, n_outside = int(inside.sum()), int(outside.sum())
+    n_inside = int(inside.sum())
     turned, sizes = owner[order] < 0, np.diff(f.start)[order]
     places = ragged(np.zeros(len(order), dtype=np.intp), sizes)
     back = np.repeat(turned, sizes)
@@ -130,69 +133,8 @@ def _local_poly(
         int32(starts(sizes)), lists, int32(owner), int32(neighbour[order[:n_inside]]), len(f.cells)
     )
     poly = PolyMesh(f.places, faces, [*patches, CUT], np.append(ends, len(order) - n_inside))
-    own = (grown.layer == 0)[owner[n_inside : n_inside + n_outside]]
     numbers = f.cells, f.points, f.faces[order]
-    return poly, numbers, own, (grown.layer, grown.node, grown.layers)
-
-
-class _LocalCoupling:
-    """Coupled patches of a node: motions by the faces of all nodes, pairs of faces that are here.
-
-    Parameters
-    ----------
-    team
-        The nodes.
-    patch_start
-        The first boundary face of each patch of the whole mesh.
-    boundary, own
-        (n,) numbers of the boundary faces here, rising, and whether their cells are own ones.
-    """
-
-    def __init__(self, team: Team, patch_start: Index, boundary: Labels, own: NDArray[np.bool_]) -> None:
-        self._team, self._start, self._boundary, self._own = team, patch_start, boundary, own
-        self._found: tuple[tuple[Patch, ...], tuple[Coupling, ...]] | None = None
-
-    def __call__(
-        self,
-        patches: Sequence[Patch],
-        patch_start: Index,  # noqa: ARG002
-        centres: Floats,
-        areas: Floats,
-        surfaces: Sequence[PatchSurface],
-        source: str,
-    ) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
-        """See :func:`foamprb.flow.mesh.coupling.couple`; all nodes call it once."""
-        if self._found is None:
-            self._found = self._couple(patches, centres, areas, surfaces, source)
-        return self._found
-
-    def _couple(
-        self,
-        patches: Sequence[Patch],
-        centres: Floats,
-        areas: Floats,
-        surfaces: Sequence[PatchSurface],
-        source: str,
-    ) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
-        coupled = [p.type in _COUPLED for p in patches[:-1]]
-        if not any(coupled):
-            return tuple(patches), ()
-        counts = np.where(coupled, np.diff(self._start), 0)
-        # The faces of coupled patches alone.
-        faces = ragged(self._start[:-1], counts)
-        own = np.flatnonzero(self._own & np.isin(self._boundary, faces))
-        everywhere = self._team.of_all((self._boundary[own], centres[own], areas[own]))
-        both = np.zeros((2, len(faces), 3))
-        for numbers, *values in everywhere:
-            both[:, np.searchsorted(faces, numbers)] = values
-        start = np.concatenate([starts(counts), [len(faces)]])
-        named, found = couple(patches, start, both[0], both[1], surfaces, source)
-        here = [places_of(self._boundary, faces[side]) for c in found for side in (c.faces, c.partners)]
-        kept = []
-        for k, coupling in enumerate(found):
-            pairs = (here[2 * k] >= 0) & (here[2 * k + 1] >= 0)
-            kept.append(coupling._replace(faces=here[2 * k][pairs], partners=here[2 * k + 1][pairs]))
-        return named, tuple(kept)
+    return poly, numbers, (grown.layer, grown.node, grown.layers)
 
 
 class Folders(NamedTuple):

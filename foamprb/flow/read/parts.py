@@ -13,8 +13,9 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.baffles import part_fragment
 from foamprb.flow.mesh.boundary import Transform
 from foamprb.flow.mesh.fragment import Labels, Team, UndividedError, grow, merged
+from foamprb.flow.mesh.joints import couple_parts
 from foamprb.flow.mesh.lists import even_ends
-from foamprb.flow.mesh.submesh import CUT, RINGS, Folders, Halo, assemble_part, partners_of
+from foamprb.flow.mesh.submesh import CUT, RINGS, Folders, Halo, assemble_part
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
 from foamprb.flow.read.case import MissingFieldError, mesh_files
 from foamprb.flow.read.checks import notes_of_types, require_patch_shapes, require_volumes
@@ -33,9 +34,6 @@ from foamprb.flow.read.processors import (
 )
 from foamprb.memory import trim
 
-_REFUSED = frozenset(
-    {"cyclicAMI", "cyclicACMI", "cyclicPeriodicAMI", "cyclicRepeatAMI", "nonConformalCyclic", "overset"}
-)
 _FINE = 1e9
 _OF_WHOLE_PATCH = "flowRateInletVelocity"
 """Condition whose value, if the file has none, depends on the area of the whole patch."""
@@ -85,9 +83,6 @@ class PartCase(DecomposedCase):
             for patches, of_patches in listed
         ]
         self._patches, self._ranges = whole_patches(self.root, everywhere)
-        for patch in self._patches:
-            if patch.type in _REFUSED:
-                raise UndividedError(f"patch {patch.name} is of type {patch.type}")
         most = max(int(part.faces.max(initial=-1)) for part in parts)
         n_internal = 1 + max(team.of_all(most)) - int(self._ranges[-1])
         fragments = [fragment_of(piece, part) for piece, part in zip(pieces, parts, strict=True)]
@@ -95,13 +90,13 @@ class PartCase(DecomposedCase):
         # What fields need of them.
         self._parts = parts = [part._replace(points=nothing, turned=nothing) for part in parts]
         surfaces, ranges = patches_of_mesh(self._patches), self._ranges.astype(np.intp)
-        partners = partners_of(surfaces, ranges)
         own, copies = part_fragment(merged(fragments), team, n_internal)
+        joints = couple_parts(own, surfaces, ranges, n_internal, team, str(folder))
         fragments[:] = [own]
         del own
-        grown = [grow(fragments, team, self._depth + RINGS, partners, n_internal, copies)]
+        grown = [grow(fragments, team, self._depth + RINGS, joints.links, copies)]
         trim()
-        part = assemble_part(grown, surfaces, ranges, n_internal, team, str(folder))
+        part = assemble_part(grown, surfaces, ranges, n_internal, joints, str(folder))
         trim()
         of_cells = np.zeros(len(part.cells), dtype=np.int32)
         for number, address in zip(self.processors.chosen, parts, strict=True):

@@ -4,18 +4,30 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mesh_shapes import baffle, block, box_patches, cyclic_row, pipe, pipe_patches, wedge, wedge_patches
+from mesh_shapes import (
+    baffle,
+    block,
+    box_patches,
+    cyclic_row,
+    interfaces,
+    pipe,
+    pipe_patches,
+    rings,
+    wedge,
+    wedge_patches,
+)
 from threads_team import together
 
 from foamprb.compile.link import link
 from foamprb.flow import balance
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.baffles import part_fragment
-from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, Transform
 from foamprb.flow.mesh.fragment import CellSearch, Fragment, grow
 from foamprb.flow.mesh.geometry import faces_of
+from foamprb.flow.mesh.joints import couple_parts
 from foamprb.flow.mesh.mesh import assemble, build_mesh
-from foamprb.flow.mesh.submesh import RINGS, Halo, assemble_part, partners_of, total_of
+from foamprb.flow.mesh.submesh import RINGS, Halo, assemble_part, total_of
 from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.partflow import PartFlow
 from foamprb.flow.reconstruct import Reconstruction
@@ -33,23 +45,32 @@ def whole_of(poly):
     )  # fmt: skip
 
 
+AROUND = dict.fromkeys(("before0", "after2"), Transform("rotational", axis=(0.0, 0.0, -2.0)))
+"""Motions of patches that do not coincide."""
+
+
 def poly_of(mesh):
     """Points, faces and patches of a mesh, as they are read from a case."""
     sides = mesh.owner.copy(), mesh.neighbour.copy()
-    # Copies at baffles are behind all points.
-    first, place = np.unique(mesh.points, axis=0, return_index=True, return_inverse=True)[1:]
-    lists = first[place.reshape(-1)][mesh.face_points].astype(np.int32)
+    points, lists = mesh.points, mesh.face_points.copy()
+    if any(patch.name == "west" for patch in mesh.patches):
+        # The copies at the baffle are behind all points.
+        first, place = np.unique(points, axis=0, return_index=True, return_inverse=True)[1:]
+        points, lists = points[: len(first)], first[place.reshape(-1)][lists].astype(np.int32)
     faces = faces_of(mesh.face_start, lists, *sides, mesh.n_cells)
-    patches = [PatchSurface(p.name, p.type, None, p.neighbour) for p in mesh.patches]
-    return PolyMesh(mesh.points[: len(first)], faces, patches, mesh.patch_start.astype(np.intp))
+    patches = [
+        PatchSurface(p.name, p.type, None, p.neighbour, AROUND.get(p.name, Transform())) for p in mesh.patches
+    ]
+    return PolyMesh(points, faces, patches, mesh.patch_start.astype(np.intp))
 
 
 def part_of(poly, cells, team, layers):
     """The sub-mesh of a node that owns some cells and does not know what lies beyond them."""
     n = len(poly.faces.neighbour)
     own, copies = part_fragment(CellSearch(whole_of(poly)).take(cells), team, n)
-    grown = grow([own], team, layers, partners_of(poly.patches, poly.patch_start), n, copies)
-    return assemble_part([grown], poly.patches, poly.patch_start, n, team, "mesh")
+    patches = poly.patches, poly.patch_start, n
+    joints = couple_parts(own, *patches, team, "mesh")
+    return assemble_part([grow([own], team, layers, joints.links, copies)], *patches, joints, "mesh")
 
 
 def gaps_at(arrays, points, hosts, R):
@@ -62,6 +83,22 @@ def gaps_at(arrays, points, hosts, R):
     return gaps
 
 
+def triangles_in(mesh, sub):
+    """Numbers in the whole mesh of the boundary triangles of a part; those where its cells end count on."""
+    firsts = [np.searchsorted(m.triangle_face, np.arange(len(m.boundary_centres))) for m in (mesh, sub.mesh)]
+    inside = np.flatnonzero(sub.mesh.triangle_face < sub.mesh.patch_start[-2])
+    own = sub.mesh.triangle_face[inside]
+    numbers = np.arange(len(sub.mesh.triangles)) + len(mesh.triangles)
+    faces = sub.faces[sub.mesh.n_internal + own] - sub.n_internal
+    numbers[inside] = firsts[0][faces] + inside - firsts[1][own]
+    return numbers
+
+
+def beyond(arrays, triangles, numbers):
+    """Triangles on which paths through some triangles continue, by numbers."""
+    return [numbers[arrays.partners[begin:end]].tolist() for begin, end in arrays.across[triangles]]
+
+
 SHAPES = {
     "pipe": lambda: build_mesh(shape := pipe(6, axial=12), pipe_patches(shape)),
     "polyhedra": lambda: build_mesh(shape := block(8, kind="polyhedra"), box_patches(shape)),
@@ -69,6 +106,8 @@ SHAPES = {
     "cyclics": lambda: cyclic_row(30.0, 2, cells=6),
     "baffle": lambda: baffle(8),
     "half a baffle": lambda: baffle(8, whole=False),
+    "interfaces": lambda: interfaces(30.0, cuts=(5, 6, 7))[0],
+    "rings": lambda: rings((60, 72)),
     "wedge": lambda: build_mesh(shape := wedge(24), wedge_patches(shape)),
 }
 
@@ -114,6 +153,9 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         part = PartFlow(halo, sub.mesh, u, l, correction=correction)
         assert part.width == flow.width
         arrays = part.arrays(reach, near)
+        rows, names = part._own_triangles(sub.mesh), triangles_in(mesh, sub)
+        everything = np.arange(len(mesh.triangles))
+        assert beyond(arrays, rows, names) == beyond(flow.arrays(), names[rows], everything)
         found, numbers = part.locate_own(points)
         own, local = part.own_hosts(numbers)
         np.testing.assert_array_equal(own, np.arange(len(found)))
