@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from foamprb.body.turbulence import fluctuation_size
 from foamprb.flow.base import Floats, Ints, PatchFaces
-from foamprb.flow.mesh.folds import FOLDED
-from foamprb.flow.mesh.fragment import Labels, UndividedError
+from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
 from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.parting import inverted_boxes
 from foamprb.flow.mesh.submesh import BEYOND, Halo, Homes
-from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
+from foamprb.flow.mesh.tree import Tree, build_tree
 from foamprb.flow.meshflow import AT_ONCE, MeshFlow, Numbering, end_triangles, shortest_extent
 from foamprb.flow.rotating import RotatingArrays, RotatingFlow
 from foamprb.flow.series import SeriesFlow
@@ -74,7 +74,10 @@ class PartFlow(MeshFlow):
         return sum(n for n, _ in counts), sum(n for _, n in counts)
 
     def _everywhere(self, rows: Floats) -> Floats:
-        return np.concatenate(self.halo.of_all(rows))
+        if not self.halo.any(len(rows) > 0):
+            return rows
+        # In the outermost layers others may be inverted than in the whole mesh.
+        return np.concatenate(self.halo.of_all(inverted_boxes(self.halo.part)))
 
     def _extents(self, mesh: Mesh) -> tuple[tuple[Floats, Floats], float]:
         ends = self.halo.of_all((mesh.points.min(axis=0), mesh.points.max(axis=0)))
@@ -128,7 +131,6 @@ class PartFlow(MeshFlow):
         self._n_ends = n + len(rows)
         box = self._usable_box
         self._hold_walls(min(self.halo.of_all(_ASIDE * float(np.linalg.norm(box[3:] - box[:3])))))
-        self._refuse_far_folds()
 
     def _hold_walls(self, reach: float) -> None:
         """Add the walls of all nodes within a distance (m) of usable cells, in the order of the whole mesh.
@@ -165,23 +167,6 @@ class PartFlow(MeshFlow):
             triangle_patch=np.concatenate([arrays.triangle_patch[:n], walls.patches]),
             triangle_normals=np.concatenate([arrays.triangle_normals[:n], walls.normals]),
         )
-
-    def _refuse_far_folds(self) -> None:
-        """Raise UndividedError if boundary triangles that are not here lie in the box of a folded cell."""
-        mesh, part = self.mesh, self.halo.part
-        folded = np.flatnonzero((self._arrays.folds == FOLDED) & (part.layer <= part.depth))
-        if not self.halo.any(len(folded) > 0):
-            return
-        boxes = cell_boxes(mesh)
-        rows = self._own_triangles(mesh)
-        corners = mesh.points[mesh.triangles[rows]]
-        targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
-        numbers = self._faces_of(mesh, rows)
-        faces, far = _in_order(self.halo, numbers, numbers, targets)
-        far = far[~np.isin(faces, part.faces)]
-        near = len(folded) > 0 and len(pairs_near(boxes[folded], build_tree(boxes[folded]), far)[1]) > 0
-        if self.halo.any(near):
-            raise UndividedError("the mesh is folded at a boundary that lies on several nodes")
 
     def _walls(self, patches: Sequence[int], reach: float) -> tuple[Ints, Walls, Walls | None]:
         """See :meth:`MeshFlow._walls`; the walls of all nodes, in the order of the whole mesh."""
@@ -439,10 +424,3 @@ def _ends(halo: Halo) -> tuple[Index, Index]:
     beyond = mesh.neighbours[rows, 0]
     rows = rows[(beyond >= 0) & ~inside[mesh.tets[beyond, 0] - mesh.n_points]]
     return rows, np.flatnonzero(~part.continued[mesh.triangle_face])
-
-
-def _in_order(halo: Halo, numbers: Labels, *values: NDArray[Any]) -> list[NDArray[Any]]:
-    """Return values of all nodes in the order of their numbers."""
-    parts = halo.of_all((numbers, values))
-    order = np.argsort(np.concatenate([part for part, _ in parts]), kind="stable")
-    return [np.concatenate([own[k] for _, own in parts])[order] for k in range(len(values))]

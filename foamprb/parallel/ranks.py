@@ -29,7 +29,6 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields, columns_of
-from foamprb.flow.mesh.fragment import UndividedError
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.parallel.distributed import DistributedFlow, distributed_flow, why_whole
 from foamprb.parallel.exchange import Share, homes_of, idle_share, plan_exchange
@@ -121,11 +120,7 @@ class Ranks:
             return self.order("open_part", case, source.region, now, source, depth, load)
 
         started = clock.perf_counter()
-        try:
-            flow = distributed_flow(self.order, open_parts, step)
-        except UndividedError as error:
-            log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, error)
-            return None
+        flow = distributed_flow(self.order, open_parts, step)
         flow.seconds = clock.perf_counter() - started
         for number, summary in enumerate(flow.summaries):
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,

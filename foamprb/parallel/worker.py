@@ -22,7 +22,6 @@ from foamprb.cloudfunctions.base import Memory
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields
-from foamprb.flow.mesh.fragment import UndividedError
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.parallel.exchange import Share, join, pack, record, unpack
@@ -260,11 +259,7 @@ class Worker:
             self._part = None
             gc.collect()
         self._part = Part(self._MPI, self.windows)
-        try:
-            return self._part.open(root, region, times, source, depth, load)
-        except UndividedError:
-            self._part = None
-            raise
+        return self._part.open(root, region, times, source, depth, load)
 
     def load_of_folders(self, n: int) -> NDArray[np.int64]:
         """Return the number of active particles in each of n processor folders."""

@@ -360,20 +360,6 @@ def halves(tmp_path, monkeypatch):
     return case
 
 
-def test_nodes_hold_the_whole_mesh_if_it_cannot_be_held_in_parts(halves, tmp_path):
-    hook = """
-from foamprb.flow.read import parts
-def refuse(*_):
-    raise parts.UndividedError("of a test")
-parts.assemble_part = refuse
-"""
-    done = run(2, halves, script=after_hook(tmp_path, hook))
-    assert done.returncode == 0, done.stderr
-    assert "Each of 2 nodes holds the whole mesh: of a test." in done.stdout
-    assert "among 2 processes" in done.stdout
-
-
-@pytest.mark.parametrize("following", [False, True])
 def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves, tmp_path):
     case = halves
     edit(case, "^solution", "cloudFunctions { fields { type fieldSampling; fields (U); } } solution")

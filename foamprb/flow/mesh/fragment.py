@@ -26,10 +26,6 @@ _OF_ALL = "_of_all_nodes"
 """Attribute of an error that all nodes raise."""
 
 
-class UndividedError(InputError):
-    """Mesh that nodes cannot hold in parts; the message is the reason."""
-
-
 class Team:
     """Nodes that hold a mesh together; all call the same methods in the same order."""
 
@@ -230,6 +226,7 @@ def grow(
     layers: int,
     links: Pairs = NO_PAIRS,
     copies: Pairs = NO_PAIRS,
+    rims: Pairs = NO_PAIRS,
 ) -> Grown:
     """Add layers of cells around the own cells, which share a point, also across coupled faces and baffles.
 
@@ -245,6 +242,8 @@ def grow(
         Boundary faces, rising, and faces that may continue them.
     copies
         See :func:`with_copies`.
+    rims
+        Folded cells, rising, and boundary faces in their boxes, whose cells belong to the next layer.
     """
     own = merged(pieces)
     pieces.clear()
@@ -265,12 +264,13 @@ def grow(
 
     # All cells around the other points are own ones.
     points, asked, crossed = search.rim(), own.points, np.empty(0, dtype=np.int64)
-    latest, coupled = 0, links.size > 0
+    latest, linked = 0, links.size + rims.size > 0
     for number in range(1, layers + 1):
         before, latest = latest, len(found)
         fetch(points, number)
-        if coupled:
+        if linked:
             faces = [_linked_faces(piece, links, asked) for piece, _, _ in found[before:]]
+            faces += [_seconds_of(rims, piece.cells) for piece, _, _ in found[before:latest]]
             across = np.setdiff1d(np.concatenate([asked[:0], *faces]), crossed)
             crossed = np.union1d(crossed, across)
             asking = team.exchange([across for _ in everyone])
@@ -296,6 +296,11 @@ def _linked_faces(part: Fragment, links: Pairs, points: Labels) -> Labels:
         return part.faces[:0]
     start, lists = take_lists(part.start, part.lists, outer)
     touched = part.faces[outer[np.logical_or.reduceat(np.isin(lists, points), start[:-1])]]
-    first, end = (np.searchsorted(links[0], touched, side=side) for side in ("left", "right"))
-    beyond: Labels = links[1][ragged(first, end - first)]
-    return beyond
+    return _seconds_of(links, touched)
+
+
+def _seconds_of(pairs: Pairs, numbers: Labels) -> Labels:
+    """Return the second numbers of the pairs with some first numbers."""
+    first, end = (np.searchsorted(pairs[0], numbers, side=side) for side in ("left", "right"))
+    seconds: Labels = pairs[1][ragged(first, end - first)]
+    return seconds

@@ -51,13 +51,19 @@ class SubMesh:
     depth: int
     """Number of layers in which bodies may move."""
     continued: Mask
-    """(n_boundary,) False for faces of coupled patches that these layers do not continue."""
+    """(n_boundary,) False for faces outside these layers, and of coupled patches that lead out of them."""
 
     @property
     def own(self) -> NDArray[np.bool_]:
         """Return True for own cells, (n_cells,)."""
         own: NDArray[np.bool_] = self.layer == 0
         return own
+
+    @property
+    def usable(self) -> Mask:
+        """Return True for cells in which bodies may move, (n_cells,)."""
+        usable: Mask = self.layer <= self.depth
+        return usable
 
 
 def assemble_part(
@@ -88,10 +94,10 @@ def assemble_part(
     found = _local_couplings(joints, boundary)
     mesh = assemble(poly, source, lambda *_: found, parted=True)
     patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
-    faces = np.ones(len(mesh.boundary_centres), dtype=bool)
+    continued = np.append(usable, np.ones(len(mesh.boundary_centres) - n_outside, dtype=bool))
     one, other = (places_of(boundary, faces) for faces in joints.links)
-    faces[one[(one >= 0) & ~np.append(usable, False)[other]]] = False
-    return SubMesh(replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, depth, faces)
+    continued[one[(one >= 0) & ~np.append(usable, False)[other]]] = False
+    return SubMesh(replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, depth, continued)
 
 
 def _local_couplings(joints: Joints, boundary: Labels) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:

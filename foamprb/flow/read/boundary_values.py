@@ -37,6 +37,10 @@ class PatchGeometry(NamedTuple):
     """(n, 1), distances of the cell centres behind them along the normals, m."""
 
 
+FLOW_RATE = "flowRateInletVelocity"
+"""Condition whose values depend on the area of the whole patch."""
+AREA = "(area)"
+"""Entry with the area of the whole patch, (1, 1), m², where a node holds a part of it; no name of a file."""
 _LENGTH: Dimensions = (0, 1, 0, 0, 0, 0, 0)
 Rule = Callable[[PatchField, PatchGeometry], Floats | None]
 """Returns the values (n, 3), m/s, of a boundary condition; None if it lacks an entry."""
@@ -185,7 +189,8 @@ def _entry(name: str) -> Rule:
 def _flow_rate(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return the uniform velocity into the domain that carries the volumetric flow rate, m³/s."""
     rate = _constant(entry.words.get("volumetricFlowRate", ""), 1, VOLUME_FLUX)
-    return None if rate is None else -rate / faces.areas.sum() * faces.normals
+    area = entry.fields[AREA][0, 0] if AREA in entry.fields else faces.areas.sum()
+    return None if rate is None else -rate / area * faces.normals
 
 
 def _rotating_wall(entry: PatchField, faces: PatchGeometry) -> Floats | None:
@@ -218,7 +223,7 @@ def _constant(text: str, components: int, dimensions: Dimensions = VELOCITY) -> 
 RULES: dict[str, tuple[bool, Rule]] = {
     "fixedGradient": (True, _fixed_gradient),
     "fixedNormalSlip": (True, _fixed_normal_slip),
-    "flowRateInletVelocity": (False, _flow_rate),
+    FLOW_RATE: (False, _flow_rate),
     "freestream": (False, _entry("freestreamValue")),
     "freestreamVelocity": (False, _entry("freestreamValue")),
     "inletOutlet": (False, _entry("inletValue")),

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats
-from foamprb.flow.mesh.baffles import part_fragment
 from foamprb.flow.mesh.boundary import Transform
-from foamprb.flow.mesh.fragment import Labels, Team, UndividedError, grow, merged
-from foamprb.flow.mesh.joints import couple_parts
+from foamprb.flow.mesh.fragment import Fragment, Labels, Team, merged
 from foamprb.flow.mesh.lists import even_ends
-from foamprb.flow.mesh.submesh import CUT, RINGS, Folders, Halo, assemble_part
+from foamprb.flow.mesh.parting import hold_part
+from foamprb.flow.mesh.submesh import CUT, Folders, Halo
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
+from foamprb.flow.read.boundary_values import AREA, FLOW_RATE
 from foamprb.flow.read.case import MissingFieldError, mesh_files
 from foamprb.flow.read.checks import notes_of_types, require_patch_shapes, require_volumes
 from foamprb.flow.read.decomposed import DecomposedCase
@@ -32,11 +32,8 @@ from foamprb.flow.read.processors import (
     read_pieces,
     whole_patches,
 )
-from foamprb.memory import trim
 
 _FINE = 1e9
-_OF_WHOLE_PATCH = "flowRateInletVelocity"
-"""Condition whose value, if the file has none, depends on the area of the whole patch."""
 
 
 class PartCase(DecomposedCase):
@@ -75,6 +72,7 @@ class PartCase(DecomposedCase):
         lacking = any(team.of_all(parts is None))
         if parts is None or lacking:
             parts = found_addresses(pieces, team)
+        addresses = parts
         nothing: Any = np.empty(0, dtype=np.int64)
         named = [(part.patches, part.of_patches) for part in parts]
         everywhere = [
@@ -85,21 +83,19 @@ class PartCase(DecomposedCase):
         self._patches, self._ranges = whole_patches(self.root, everywhere)
         most = max(int(part.faces.max(initial=-1)) for part in parts)
         n_internal = 1 + max(team.of_all(most)) - int(self._ranges[-1])
-        fragments = [fragment_of(piece, part) for piece, part in zip(pieces, parts, strict=True)]
-        del pieces
-        # What fields need of them.
-        self._parts = parts = [part._replace(points=nothing, turned=nothing) for part in parts]
         surfaces, ranges = patches_of_mesh(self._patches), self._ranges.astype(np.intp)
-        own, copies = part_fragment(merged(fragments), team, n_internal)
-        joints = couple_parts(own, surfaces, ranges, n_internal, team, str(folder))
-        fragments[:] = [own]
-        del own
-        grown = [grow(fragments, team, self._depth + RINGS, joints.links, copies)]
-        trim()
-        part = assemble_part(grown, surfaces, ranges, n_internal, joints, str(folder))
-        trim()
+
+        def own_cells() -> Fragment:
+            read = pieces or read_pieces(self.processors, files, self.root)
+            fragments = [fragment_of(piece, address) for piece, address in zip(read, addresses, strict=True)]
+            pieces.clear()
+            return merged(fragments)
+
+        part = hold_part(own_cells, surfaces, ranges, n_internal, self._depth, team, str(folder))
+        # What fields need of them.
+        self._parts = [address._replace(points=nothing, turned=nothing) for address in addresses]
         of_cells = np.zeros(len(part.cells), dtype=np.int32)
-        for number, address in zip(self.processors.chosen, parts, strict=True):
+        for number, address in zip(self.processors.chosen, addresses, strict=True):
             of_cells[np.searchsorted(part.cells, address.cells)] = number
         self.halo, mesh = Halo(part, team, Folders(self.processors.chosen, of_cells)), part.mesh
         counts, first = np.diff(mesh.patch_start).tolist(), (mesh.n_internal + mesh.patch_start).tolist()
@@ -157,9 +153,6 @@ class PartCase(DecomposedCase):
         if not filled:
             return None
         keys = sorted(set.intersection(*(set(entry.fields) for entry in filled)))
-        if filled[0].type == _OF_WHOLE_PATCH and "value" not in keys:
-            name = self._patches[index].name
-            raise UndividedError(f"patch {name} is of type {_OF_WHOLE_PATCH} without a value")
         mesh, values = halo.part.mesh, {}
         numbers = halo.part.faces[mesh.n_internal :][: mesh.patch_start[-2]]
         for key in keys:
@@ -169,8 +162,20 @@ class PartCase(DecomposedCase):
                     whole[np.searchsorted(numbers, faces)] = entry.fields[key]
             halo.fill("boundary", whole)
             values[key] = whole[mesh.patch_start[index] : mesh.patch_start[index + 1]]
+        if filled[0].type == FLOW_RATE and "value" not in keys:
+            values[AREA] = np.array([[self._area(index)]])
         joined: PatchField = filled[0]._replace(pattern=False, fields=values)
         return joined
+
+    def _area(self, index: int) -> float:
+        """Return the area of a patch of the whole mesh, m², summed in its order."""
+        assert self.halo is not None
+        part, mesh = self.halo.part, self.halo.part.mesh
+        rows = np.arange(*mesh.patch_start[index : index + 2])
+        rows = rows[part.own[mesh.owner[mesh.n_internal + rows]]]
+        own = part.faces[mesh.n_internal + rows], np.linalg.norm(mesh.boundary_areas[rows], axis=1)
+        numbers, areas = (np.concatenate(column) for column in zip(*self.halo.of_all(own), strict=True))
+        return float(areas[np.argsort(numbers)].sum())
 
     def zones(self, time: str) -> Mapping[str, NDArray[np.int64]]:
         """Read the cells here of each zone by name; see :meth:`~foamprb.flow.read.openfoam.Case.zones`."""

@@ -9,6 +9,7 @@ from mesh_shapes import (
     block,
     box_patches,
     cyclic_row,
+    folds_at_a_gap,
     interfaces,
     pipe,
     pipe_patches,
@@ -21,13 +22,12 @@ from threads_team import together
 from foamprb.compile.link import link
 from foamprb.flow import balance
 from foamprb.flow.fluxes import Conservation
-from foamprb.flow.mesh.baffles import part_fragment
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, Transform
-from foamprb.flow.mesh.fragment import CellSearch, Fragment, grow
+from foamprb.flow.mesh.fragment import CellSearch, Fragment
 from foamprb.flow.mesh.geometry import faces_of
-from foamprb.flow.mesh.joints import couple_parts
 from foamprb.flow.mesh.mesh import assemble, build_mesh
-from foamprb.flow.mesh.submesh import RINGS, Halo, assemble_part, total_of
+from foamprb.flow.mesh.parting import hold_part
+from foamprb.flow.mesh.submesh import BEYOND, RINGS, Halo, total_of
 from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.partflow import PartFlow
 from foamprb.flow.reconstruct import Reconstruction
@@ -66,11 +66,10 @@ def poly_of(mesh):
 
 def part_of(poly, cells, team, layers):
     """The sub-mesh of a node that owns some cells and does not know what lies beyond them."""
-    n = len(poly.faces.neighbour)
-    own, copies = part_fragment(CellSearch(whole_of(poly)).take(cells), team, n)
-    patches = poly.patches, poly.patch_start, n
-    joints = couple_parts(own, *patches, team, "mesh")
-    return assemble_part([grow([own], team, layers, joints.links, copies)], *patches, joints, "mesh")
+    return hold_part(
+        lambda: CellSearch(whole_of(poly)).take(cells),
+        *(poly.patches, poly.patch_start, len(poly.faces.neighbour), layers - RINGS, team, "mesh"),
+    )
 
 
 def gaps_at(arrays, points, hosts, R):
@@ -223,6 +222,52 @@ def test_a_node_holds_the_walls_near_its_cells(random):
     whole = MeshFlow(mesh, u, np.zeros((len(u), 3, 3)))
     found, expected = (gaps_at(f.arrays(0.3, [0]), points, f.locate(points), 0.05) for f in (flow, whole))
     np.testing.assert_array_equal(found, expected)
+
+
+def test_a_node_holds_the_boundary_in_the_boxes_of_folded_cells(random):
+    """Also that of another node, to which no face or point leads; a path may end there."""
+    poly = poly_of(folds_at_a_gap(6))
+    mesh = assemble(poly, "mesh")
+
+    def at_rest(mesh):
+        u = np.zeros((mesh.n_points + mesh.n_cells, 3))
+        return u, np.zeros((len(u), 3, 3))
+
+    flow = MeshFlow(mesh, *at_rest(mesh))
+    whole = flow.arrays()
+    points = random.uniform(*flow.bounds, (400, 3))
+    hosts = flow.locate(points)
+    ends = points + random.normal(0.0, 0.2, points.shape)
+    walk = flow.kernels["walk"]
+
+    def work(team):
+        # The first block is cut in two, before its folds.
+        along = mesh.centres @ [np.sqrt(0.5), np.sqrt(0.5), 0.0]
+        sub = part_of(poly, np.digitize(along, [0.5, 1.02]) == team.rank, team, layers=2 + RINGS)
+        part = PartFlow(Halo(sub, team), sub.mesh, *at_rest(sub.mesh))
+        arrays, names = part.arrays(), triangles_in(mesh, sub)
+        np.testing.assert_array_equal(arrays.folds[sub.usable], whole.folds[sub.cells[sub.usable]])
+        far = 0
+        for cell in np.flatnonzero(sub.layer < sub.depth):
+            rim, expected = (
+                a.rim[slice(*a.rim_start[c : c + 2])] for a, c in ((arrays, cell), (whole, sub.cells[cell]))
+            )
+            np.testing.assert_array_equal(names[rim], expected)
+            far += np.count_nonzero(sub.node[part.cell_of(arrays.triangle_tet[rim])] != team.rank)
+        found, numbers = part.locate_own(points)
+        np.testing.assert_array_equal(numbers, hosts[found])
+        for k, host in zip(found, part.own_hosts(numbers)[1], strict=True):
+            here = walk(arrays, host, tuple(points[k]), tuple(ends[k]))
+            there = walk(whole, hosts[k], tuple(points[k]), tuple(ends[k]))
+            if here[2] != BEYOND:
+                assert part.numbers_of(np.array([here[0]])) == there[0]
+                assert here[1:3] == there[1:3]
+        return far, len(sub.cells), len(found)
+
+    results = together(3, work)
+    assert results[1][0] > 0
+    assert min(held for _, held, _ in results) < mesh.n_cells
+    assert sum(n for *_, n in results) == np.count_nonzero(hosts >= 0)
 
 
 def test_sums_depend_on_no_order(random):

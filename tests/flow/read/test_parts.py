@@ -71,6 +71,21 @@ def test_nodes_read_the_flow_of_the_whole(case, request, random):
     assert located == len(points)
 
 
+def test_a_flow_rate_is_that_through_the_whole_patch(written, tmp_path, random):
+    """Without values in the file."""
+    case = tmp_path / "case"
+    shutil.copytree(written, case)
+    for file in case.glob("processor*/1/U"):
+        rate = "lid { type flowRateInletVelocity; volumetricFlowRate 0.7;\n}"
+        file.write_text(re.sub(r"lid \{.*?\n\}", rate, file.read_text(), flags=re.DOTALL))
+    whole = steady_flow(DecomposedCase(case), "1", FlowSource()).patch_faces("lid", 0.0)
+    parts = [part.own_patch_faces("lid", 0.0) for part in read(case, 3)]
+    order = np.argsort(np.concatenate([faces for faces, _ in parts]), kind="stable")
+    found = np.concatenate([own.velocity for _, own in parts])[order]
+    np.testing.assert_array_equal(found, whole.velocity)
+    assert whole.velocity[:, :, 2].min() < -0.5
+
+
 def test_nodes_take_folders_by_their_cells(written, tmp_path):
     case = tmp_path / "case"
     shutil.copytree(written, case)
