@@ -275,6 +275,8 @@ class SeriesFlow(Timeline, MeshFlow):
         self._in_memory: dict[int, int] = {}
         """Row in ``_fields`` of each loaded time by its index, the least recently used first."""
         self._levels = range(0)
+        self._sums: dict[int, Floats] = {}
+        """Sums over the fields at some loaded times, by their indices."""
         self._reader = ThreadPoolExecutor(1, "foamprb-read")
         self._prefetched: tuple[int, Future[tuple[Any, ...]]] | None = None
 
@@ -399,6 +401,14 @@ class SeriesFlow(Timeline, MeshFlow):
             "fields": self._node_sums(first),
             "correction": self._tet_sums(self._corrections[self._in_memory[0]]),
         }
+
+    def sums_around(self, t: float) -> Floats:
+        """Load time t, s, and return sums over the fields at the times around it, (n, 2, columns)."""
+        self.load(t, t)
+        wanted = [self._index(level) for level in self._levels]
+        fields = {index: self._fields[self._in_memory[index]] for index in wanted}
+        self._sums = {i: self._sums[i] if i in self._sums else self._node_sums(f) for i, f in fields.items()}
+        return np.array([self._sums[index] for index in wanted])
 
     @property
     def _first_table(self) -> Floats:

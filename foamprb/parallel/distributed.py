@@ -339,6 +339,12 @@ class DistributedSeries(Timeline, DistributedFlow):
             until = self._load_all(start, end)
         return until
 
+    def sums_around(self, t: float) -> Floats:
+        """Return the sums of :meth:`foamprb.flow.series.SeriesFlow.sums_around` but for round-off."""
+        self.load(t, t)
+        total: Floats = np.sum(self._ask("sums_around", t), axis=0)
+        return total
+
     def _load_all(self, start: float, end: float) -> float:
         found = [own for own in self._order("load_part", start, end) if own is not None]
         self._fluid = max(rate for _, rate in found)

@@ -70,7 +70,7 @@ class Following:
     ) -> None:
         self.flow = flow
         self._case, self._lag, self._patience, self._signal = case, lag, patience, signal
-        self._kept = 2
+        self._kept, self._checked = 2, 0
         self.ended = False
         """Whether the flow has all times that its solver writes."""
         self.reason = ""
@@ -106,6 +106,11 @@ class Following:
         except RunStopped as error:
             self.reason = f": {error}"
             return False
+
+    def require_unchanged(self, t: float) -> None:
+        """Raise InputError if times since the last call were written again; the run has come to t, s."""
+        self._case.require_unchanged(self._case.times[self._checked :])
+        self._checked = max(0, len(self.flow.times_until(t)) - 2)
 
     def release(self, t: float) -> None:
         """Remove the links to times that a run does not read when it continues at t, s."""

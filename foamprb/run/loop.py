@@ -86,7 +86,13 @@ def execute(
                 and not _failing(job, stepper)
             ):
                 before = cloud.step
-                if not _advance_to_write(job, results, schedule, stop, show):
+                try:
+                    reached = _advance_to_write(job, results, schedule, stop, show)
+                finally:
+                    # This explains errors of reading better.
+                    if following is not None:
+                        following.require_unchanged(cloud.time)
+                if not reached:
                     results.save(stepper)
                     reason = following.reason if following is not None else ""
                     raise RunStopped(f"stopped at t = {cloud.time:.12g} s{reason}. {HOW_TO_GO_ON}")

@@ -77,6 +77,7 @@ def checkpoint_of(
     sums: Mapping[str, Checksum],
     marks: Fingerprint,
     parts: Sequence[tuple[int, str]] = (),
+    around: Sequence[Sums] = (),
 ) -> Checkpoint:
     """Return the checkpoint of a run.
 
@@ -94,6 +95,8 @@ def checkpoint_of(
         The run's :func:`fingerprint`.
     parts
         What :func:`write_part` has returned for further particles.
+    around
+        :func:`sums_around` at its time.
     """
     header = {
         "foamprb": version("foamprb"),
@@ -104,6 +107,7 @@ def checkpoint_of(
         "sums": sums,
         "fingerprint": marks,
         "times": _times_until(cloud.flow, cloud.time),
+        **({"around": list(around)} if around else {}),
         "parts": list(parts),
     }
     arrays = _arrays_of(cloud.particles)
@@ -188,9 +192,10 @@ def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> No
 
 
 def refuse_other_times(checkpoint: Checkpoint, flow: Flow, where: str) -> None:
-    """Raise InputError if the flow until a checkpoint is not known at the times of the run.
+    """Raise InputError if the flow until a checkpoint has other times than in the run, or other fields there.
 
-    A solver may have written later times, and removed those that the run has gone through.
+    The fields are compared at the times around the checkpoint. A solver may have written later times, and
+    removed those that the run has gone through.
 
     Parameters
     ----------
@@ -201,11 +206,21 @@ def refuse_other_times(checkpoint: Checkpoint, flow: Flow, where: str) -> None:
     """
     then = checkpoint.header.get("times")
     change = flow.change_until(checkpoint.time, then) if then and isinstance(flow, Timeline) else ""
+    before = checkpoint.header.get("around", [])
+    now = sums_around(flow, checkpoint.time) if before and not change else before
+    if not all(map(_agree, before, now)):
+        change = f"the flow around t = {checkpoint.time:.12g} s has changed"
     if change:
         raise InputError(
             f"{where}: {change}. Restore the times of the run, or start over: -overwrite, or startFrom "
             "startTime. A run with -follow keeps the times that it still needs."
         )
+
+
+def sums_around(flow: Flow, t: float) -> list[Sums]:
+    """Return sums over the fields at the times of a flow around t, s, one by one; none if it is steady."""
+    given: Any = flow
+    return [[[1.0], *sums] for sums in given.sums_around(t).tolist()] if isinstance(flow, Timeline) else []
 
 
 def _times_until(flow: Flow, t: float) -> tuple[float, ...]:

@@ -36,6 +36,7 @@ from foamprb.results.vtk import Parts
 from foamprb.run.description import renew_record, write_record
 from foamprb.run.job import Job
 from foamprb.run.restart import (
+    Sums,
     checkpoint_of,
     checksums,
     fingerprint,
@@ -44,6 +45,7 @@ from foamprb.run.restart import (
     require_choice,
     restore,
     snapshots_until,
+    sums_around,
     write_part,
 )  # fmt: skip
 from foamprb.settings.solution import StartFrom
@@ -117,6 +119,7 @@ class Results:
         self._manifest = Manifest(job.folder.path)
         self._fates, self._failures = (job.folder.table(name, job.tables) for name in (FATES, FAILURES))
         self._snapshot: Snapshot | None = None
+        self._around: Sequence[Sums] = ()
 
     def begin(self, start_from: StartFrom | None) -> None:
         """Set the cloud to its start or to a checkpoint, and remove an earlier run's files of later times.
@@ -266,6 +269,7 @@ class Results:
         # Before the error of a file that could not be written there.
         self._require_place()
         self._writer.finish()
+        self._around = sums_around(stepper.cloud.flow, stepper.cloud.time)
         return stepper.cloud
 
     def _begin_cloud(self, snapshot: Snapshot) -> Callable[[], object]:
@@ -309,7 +313,8 @@ class Results:
     ) -> None:
         entries = self._series.entries
         self._sums = checksums(self._job.folder.path, entries, self._sums)
-        self._checkpoints.write(checkpoint_of(cloud, memory, entries, self._sums, self._fingerprint, parts))
+        given = self._sums, self._fingerprint, parts, self._around
+        self._checkpoints.write(checkpoint_of(cloud, memory, entries, *given))
 
     def _checkpoint_files(self, stepper: Stepper | None = None) -> list[Path]:
         """Return the files of checkpoints: those on disk, and with a stepper those of the present time."""

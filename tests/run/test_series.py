@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import pyvista
 from foamlib import FoamCase
-from transient_case import SCALE, write_transient_case
+from transient_case import SCALE, scaled, write_transient_case
 
 import foamprb
 from foamprb.cli import main
@@ -171,6 +171,11 @@ def test_a_run_goes_on_after_its_solver_wrote_and_removed_times(case, tmp_path, 
     (case / "1.5").rename(tmp_path / "1.5")
     assert "the time 1.5 of the flow is missing" in message(case, capsys, "-resume")
     (tmp_path / "1.5").rename(case / "1.5")
+    text = (case / "1.5/U").read_text()
+    # The solver was restarted from 0.5.
+    (case / "1.5/U").write_text(scaled(text, 0.999))
+    assert "the flow around t = 0.8 s has changed" in message(case, capsys, "-resume")
+    (case / "1.5/U").write_text(text)
     assert (run(case, "-resume") / "fates.csv").read_bytes() == expected
 
 

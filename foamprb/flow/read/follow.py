@@ -39,6 +39,8 @@ _TAIL, _PIECE = 64, 1 << 20
 """Bytes of the end that are examined, and that are unpacked at once."""
 _ROUNDED = 1e-9
 """Relative error of a time in ``controlDict`` or in the name of a folder."""
+_CLOSE = 1e-6
+"""Share of a write interval by which a time may lie before a multiple of it."""
 _BETWEEN_LOOKS = 0.1
 _GAP = 1.5
 """Largest interval between two times in write intervals; a longer one lacks a time."""
@@ -91,6 +93,8 @@ class FollowedCase:
         self._selection, self._region = selection, region
         names_in(case, ("0",), selection)
         self._control_time = -1
+        self._intervals: dict[bool, float] = {}
+        """Largest write interval until now, s, and with True in steps."""
         self._control = self._read_control()
         purge = _number(self._control, "purgeWrite", 0.0)
         if purge == 1.0:
@@ -102,6 +106,10 @@ class FollowedCase:
         self._roots: list[Path] = []
         self._released = 0
         self._since = -math.inf
+        self._listed: set[str] = set()
+        """All times of earlier looks."""
+        self._stamps: dict[str, int | None] = {}
+        """When each complete time was written, ns; None if it is not known."""
         self._seen: tuple[object, float] = (), 0.0
         self._checked: list[tuple[str, bool]] | None = None
         self._lock, self._closed = threading.Lock(), threading.Event()
@@ -139,7 +147,7 @@ class FollowedCase:
         Raises
         ------
         InputError
-            A time was removed before it was linked.
+            A time was removed before it was linked, or the solver has gone back to an earlier time.
         OSError
             A link cannot be made.
         """
@@ -147,6 +155,13 @@ class FollowedCase:
             if self._error is not None:
                 raise self._error
             self._look()
+
+    def require_unchanged(self, names: Iterable[str]) -> None:
+        """Raise InputError if the solver has written complete times again."""
+        for name in names:
+            now, then = _stamp(self._roots[0] / name), self._stamps[name]
+            if now is not None and then is not None and now != then:
+                raise InputError(self._returned(f"the time {name} was written again"))
 
     def release(self, before: float, first: int) -> None:
         """Remove the hard links of times before a time, s, except the ``first`` ones."""
@@ -176,9 +191,11 @@ class FollowedCase:
                 self._place(root).mkdir(exist_ok=True)
                 _link(root / "constant", self._place(root) / "constant")
             self.times += self._selected(_common_times(map(self._place, self._roots)))
+            self._stamps = {name: _stamp(self._place(self._roots[0]) / name) for name in self.times}
         self.unfinished = ""
         written = _common_times(self._roots)
         selected = self._selected(written)
+        self._refuse_return(selected)
         ended = self._has_ended(written, self._roots[0])
         for name in selected:
             if self.times and float(name) <= float(self.times[-1]):
@@ -193,6 +210,7 @@ class FollowedCase:
             if self.times:
                 self._refuse_gap(self.times[-1], name)
             self._hold(name)
+            self._stamps[name] = _stamp(self._place(self._roots[0]) / name)
             self.times.append(name)
         _, _, end = (self._selection or "").partition(":")
         past = bool(written) and not names_in(self.case, written[-1:], f":{end}")
@@ -233,11 +251,29 @@ class FollowedCase:
                 raise InputError(self._missed(f"files of {root / name} were removed", "a")) from error
             temporary.rename(target)
 
+    def _refuse_return(self, selected: Sequence[str]) -> None:
+        """Raise InputError if the solver has gone back to an earlier time since the last look."""
+        self.require_unchanged(self.times[-1:])
+        new = [name for name in selected if name not in self._listed]
+        later = [name for name in self._listed if new and float(name) > float(new[0])]
+        if later:
+            raise InputError(self._returned(f"the time {new[0]} was written after {max(later, key=float)}"))
+        self._listed |= {*selected}
+
+    def _returned(self, what: str) -> str:
+        return (
+            f"{self.case}: {what}. The solver has gone back to an earlier time, and the run may have used "
+            "later ones. Remove times that the solver does not write again. Then continue with -resume, "
+            "which compares the flow at the last checkpoint, or start over: -overwrite."
+        )
+
     def _refuse_gap(self, before: str, name: str) -> None:
         """Raise InputError if the solver has removed a time between two times."""
         if not self._purged or float(name) <= self._since:
             return
-        interval, by_index = self._interval()
+        _, by_index = self._interval()
+        # Times may have been written before the interval became shorter, or the solver has not yet read it.
+        interval = self._intervals[by_index]
         if by_index:
             first, last = self._index(before), self._index(name)
             gap = first is not None and last is not None and last - first > _GAP * interval
@@ -262,9 +298,13 @@ class FollowedCase:
             return True
         if stop in ("writeNow", "nextWrite"):
             return (root / written[-1]).stat().st_mtime_ns > self._control_time
-        end, interval = _number(control, "endTime", math.inf), self._interval()
-        tolerance = 0.5 * _number(control, "deltaT", 0.0)
-        following = last if interval[1] or interval[0] == math.inf else last + interval[0]
+        end, (interval, by_index) = _number(control, "endTime", math.inf), self._interval()
+        tolerance, following = 0.5 * _number(control, "deltaT", 0.0), last
+        if not by_index and interval < math.inf:
+            following += interval
+            if len(written) < 2 or abs(following - 2.0 * last + float(written[-2])) > tolerance:
+                # The interval was changed, or the solver restarted: it may write at multiples.
+                following = min(following, (math.floor(last / interval + _CLOSE) + 1) * interval)
         return following - tolerance > end * (1.0 + _ROUNDED) or last >= end * (1.0 - _ROUNDED)
 
     def _interval(self) -> tuple[float, bool]:
@@ -324,6 +364,8 @@ class FollowedCase:
             changed = path.stat().st_mtime_ns
             if changed != self._control_time:
                 self._control, self._control_time = read_dictionary(path, self.case), changed
+                interval, by_index = self._interval()
+                self._intervals[by_index] = max(interval, self._intervals.get(by_index, 0.0))
         except (OSError, InputError):
             if self._control_time < 0:
                 raise InputError(f"{path}: -follow needs this file, which cannot be read.") from None
@@ -334,6 +376,14 @@ def _common_times(folders: Iterable[Path]) -> tuple[str, ...]:
     """Return the times that all folders have, rising."""
     first, *others = [available_times(folder) if folder.is_dir() else () for folder in folders]
     return tuple(name for name in first if all(name in names for names in others))
+
+
+def _stamp(folder: Path) -> int | None:
+    """Return when a time was written, ns; None without the file that OpenFOAM writes first."""
+    try:
+        return (folder / "uniform/time").stat().st_mtime_ns
+    except OSError:
+        return None
 
 
 def remove_links(folder: Path) -> None:

@@ -150,6 +150,9 @@ def test_a_range_ends_with_a_time_beyond_it(case):
         ({"endTime": "0.29", "adjustTimeStep": "yes"}, False),
         ({"writeControl": "adjustableRunTime", "writeInterval": "0.1", "endTime": "0.29"}, True),
         ({"writeControl": "clockTime", "endTime": "0.29"}, False),
+        # An interval that was changed: the next time may be a multiple, as 0.3 and 0.32.
+        ({"writeInterval": "15", "endTime": "0.3"}, False),
+        ({"writeInterval": "16", "endTime": "0.31"}, True),
         ({"stopAt": "noWriteNow"}, True),
         ({"stopAt": "writeNow"}, False),
     ],
@@ -202,6 +205,52 @@ def test_a_time_that_was_removed_too_early_is_an_error(case):
     # Written at even numbers of steps, of any length.
     control(case, purgeWrite="2", endTime="1", adjustTimeStep="yes", writeInterval="20")
     assert followed(case, "0.1:").times == ["0.1", "0.3"]
+
+
+def test_shorter_interval_leaves_no_gap_behind(case):
+    control(case, purgeWrite="2", endTime="1")
+    flow = followed(case)
+    write(case / "0.1", "U")
+    flow.look()
+    control(case, purgeWrite="2", endTime="1", writeInterval="2")
+    # The solver has not yet read the new interval when it writes 0.2.
+    for time in ("0.2", "0.22", "0.24"):
+        write(case / time, "U")
+        flow.look()
+    assert flow.times == ["0", "0.1", "0.2", "0.22"]
+
+
+@pytest.mark.parametrize("purge", ["0", "2"])
+def test_solver_that_goes_back_is_an_error_unless_it_writes_later_times_only(purge, case):
+    control(case, purgeWrite=purge, endTime="1")
+    flow = followed(case)
+    for time in ("0.1", "0.2", "0.3"):
+        write(case / time, "U")
+        flow.look()
+    # Restarted from 0.2, as it had not ended 0.3.
+    for time in ("0.3", "0.4"):
+        write(case / time, "U")
+        flow.look()
+    assert flow.times == ["0", "0.1", "0.2", "0.3"]
+    flow.require_unchanged(flow.times)
+    write(case / "0.2", "U")
+    flow.look()
+    with pytest.raises(InputError, match=r"the time 0\.2 was written again\. The solver has gone back"):
+        flow.require_unchanged(flow.times)
+    write(case / "0.3", "U")
+    with pytest.raises(InputError, match=r"the time 0\.3 was written again\."):
+        flow.look()
+
+
+def test_new_time_before_earlier_ones_is_an_error(case):
+    flow = followed(case)
+    write(case / "0.1", "U")
+    write(case / "0.2", "U")
+    flow.look()
+    # Restarted from 0.1 with another interval: 0.2 is of the run before.
+    write(case / "0.15", "U")
+    with pytest.raises(InputError, match=r"the time 0\.15 was written after 0\.2\."):
+        flow.look()
 
 
 def test_times_of_processors_are_those_of_all(case):
