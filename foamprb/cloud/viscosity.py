@@ -24,7 +24,8 @@ from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import viscosity_unknown as viscosity
-from foamprb.flow.base import Flow, Patch, Sampled
+from foamprb.flow.base import Patch, Sampled
+from foamprb.flow.nodes import NodeValues
 
 __all__ = [
     "RATE_LAWS",
@@ -125,8 +126,8 @@ class VaryingViscosity(Surrounding):
         """Return μ_f, Pa s, at a shear rate, 1/s; a field returns its mean."""
         raise NotImplementedError
 
-    def at_nodes(self, flow: Flow) -> Floats:
-        """Return μ_f at the nodes of a flow, Pa s; no values if it has no nodes."""
+    def at_nodes(self, values: NodeValues) -> Floats:
+        """Return μ_f at nodes of a flow, Pa s."""
         raise NotImplementedError
 
 
@@ -161,10 +162,9 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
         """See :meth:`VaryingViscosity.at_rate`."""
         return float(self.at(rate))
 
-    def at_nodes(self, flow: Flow) -> Floats:
+    def at_nodes(self, values: NodeValues) -> Floats:
         """See :meth:`VaryingViscosity.at_nodes`."""
-        l = flow.at_nodes()[2]
-        return np.asarray(self.at(np.asarray(shear_rate(tuple(l.T)))))
+        return np.asarray(self.at(np.asarray(shear_rate(tuple(values.l.T)))))
 
 
 class PowerLaw(laws.PowerLaw, RateViscosity):
@@ -222,9 +222,9 @@ class FieldViscosity(VaryingViscosity):
         """See :meth:`VaryingViscosity.at_rate`."""
         return self.mean
 
-    def at_nodes(self, flow: Any) -> Floats:
+    def at_nodes(self, values: NodeValues) -> Floats:
         """See :meth:`VaryingViscosity.at_nodes`."""
-        return np.asarray(self.factor * flow.viscosity_at_nodes())
+        return np.asarray(self.factor * values.viscosity)
 
 
 def model_of(mu: float | VaryingViscosity) -> tuple[VaryingViscosity, ...]:
@@ -277,6 +277,6 @@ def viscosity_at_rate(mu: float | VaryingViscosity, rate: float | None) -> float
     return mu.at_rate(1.0 if rate is None else rate) if isinstance(mu, VaryingViscosity) else mu
 
 
-def viscosity_at_nodes(mu: float | VaryingViscosity, flow: Flow) -> float | Floats:
-    """Return μ_f at the nodes of a flow, Pa s; a constant as it is."""
-    return mu.at_nodes(flow) if isinstance(mu, VaryingViscosity) else mu
+def viscosity_at_nodes(mu: float | VaryingViscosity, values: NodeValues) -> float | Floats:
+    """Return μ_f at nodes of a flow, Pa s; a constant as it is."""
+    return mu.at_nodes(values) if isinstance(mu, VaryingViscosity) else mu

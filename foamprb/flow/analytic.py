@@ -20,6 +20,7 @@ from foamprb.compile.link import bound
 from foamprb.errors import InputError
 from foamprb.flow import channels
 from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
+from foamprb.flow.nodes import NO_VALUES, Ends, Function, NodeValues, ends_over
 from foamprb.flow.sampling import sample_with
 
 __all__ = [
@@ -184,13 +185,13 @@ class AnalyticFlow:
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """No-op: there are no large arrays."""
 
-    def at_nodes(self) -> tuple[str, Floats, Floats]:
+    def at_some_nodes(self) -> NodeValues:
         """Return no rows: there are no nodes."""
-        return "", np.empty((0, 3)), np.empty((0, 9))
+        return NO_VALUES
 
-    def turbulence_at_nodes(self) -> Floats:
-        """Return no rows: there are no nodes."""
-        return np.empty((0, 8))
+    def ends_at_nodes(self, function: Function) -> Ends:
+        """Return no ends: there are no nodes."""
+        return ends_over(NO_VALUES, function)
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return the parameters by name."""

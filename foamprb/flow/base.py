@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Vector
+from foamprb.flow.nodes import Ends, Function, NodeValues
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -191,11 +192,11 @@ class Flow(Sampled, Protocol):
     def cell_zone(self, name: str | None) -> Tetrahedra:
         """Return the tetrahedra of a zone of cells, or of all cells; InputError if there is no such zone."""
 
-    def at_nodes(self) -> tuple[str, Floats, Floats]:
-        """Return the name of the time read, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+    def at_some_nodes(self) -> NodeValues:
+        """Return the values at some nodes, evenly spread over their numbers; the same for any computers."""
 
-    def turbulence_at_nodes(self) -> Floats:
-        """Return k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); no rows if they were not read."""
+    def ends_at_nodes(self, function: Function) -> Ends:
+        """Return the smallest and the largest values at all nodes of the quantities of a function."""
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return the arrays and numbers by which a resumed run recognises the flow, by name."""

@@ -21,6 +21,7 @@ from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import alone, total_of
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
+from foamprb.flow.nodes import Ends, Function, NodeValues, ends_over, stride_over
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.flow.traits import of_pairs, of_rows
@@ -342,7 +343,7 @@ class MeshFlow:
                 continue
             moved: dict[str, Any] = {name: place(array)}
             self._arrays = self._arrays._replace(**moved)
-            if getattr(self.mesh, name, None) is array:
+            if vars(self.mesh).get(name) is array:
                 # Readers of further times hold the same mesh.
                 setattr(self.mesh, name, moved[name])
             if self._near is not None and getattr(self._near[1], name) is array:
@@ -363,6 +364,19 @@ class MeshFlow:
     def viscosity_at_nodes(self) -> Floats:
         """Return the field of the viscosity at all nodes, as it was read, (n,)."""
         return self._arrays.viscosity[:, 0]
+
+    def values_at_nodes(self) -> NodeValues:
+        """Return the values at all nodes, at the first time."""
+        return NodeValues(*self.at_nodes(), self.turbulence_at_nodes(), self.viscosity_at_nodes())
+
+    def at_some_nodes(self) -> NodeValues:
+        """See :meth:`foamprb.flow.base.Flow.at_some_nodes`."""
+        values = self.values_at_nodes()
+        return values.take(slice(None, None, stride_over(len(values.u))))
+
+    def ends_at_nodes(self, function: Function) -> Ends:
+        """See :meth:`foamprb.flow.base.Flow.ends_at_nodes`."""
+        return ends_over(self.values_at_nodes(), function)
 
     def fields(self, start: float, end: float) -> Fields:  # noqa: ARG002
         """Return the fields that are sampled, from time ``start`` to ``end``, s."""

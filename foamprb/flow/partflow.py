@@ -19,6 +19,7 @@ from foamprb.flow.mesh.parting import inverted_boxes
 from foamprb.flow.mesh.submesh import BEYOND, Halo, Homes
 from foamprb.flow.mesh.tree import Tree, build_tree
 from foamprb.flow.meshflow import AT_ONCE, MeshFlow, Numbering, end_triangles, shortest_extent
+from foamprb.flow.nodes import NodeValues
 from foamprb.flow.rotating import RotatingArrays, RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
@@ -267,36 +268,12 @@ class PartFlow(MeshFlow):
         rows, hosts = self.own_hosts(numbers)
         return rows, self._vertices(hosts)
 
-    def nodes_of_own(self, stride: int) -> tuple[Labels, Floats]:
-        """Return numbers of some nodes of own cells, and values there.
-
-        These are the velocity, its gradient, and turbulence and viscosity if they were read. Every
-        ``stride``-th node in the order of the whole mesh is chosen, and here the ones with the largest and
-        smallest speed, shear rate and further values.
-        """
-        part, mesh = self.halo.part, self.mesh
-        n_points, n = self.counts[1], mesh.n_points + mesh.n_cells
-        at_points = np.zeros(mesh.n_points, dtype=bool)
-        at_points[mesh.cell_points[np.repeat(part.own, np.diff(mesh.cell_point_start))]] = True
-        rows = np.concatenate([np.flatnonzero(at_points), mesh.n_points + np.flatnonzero(part.own)])
-        numbers = np.concatenate([part.points, n_points + part.cells])[rows]
-        _, u, l = self.at_nodes()
-        further = [
-            values for values in (self.turbulence_at_nodes(), self.viscosity_at_nodes()) if len(values)
-        ]
-        columns = [u, l, *(values[:n].reshape(n, -1) for values in further)]
-        compared = []
-        for begin in range(0, len(rows), AT_ONCE // 16):
-            # Part by part, for the memory.
-            table = np.concatenate([a[rows[begin : begin + AT_ONCE // 16]] for a in columns], axis=1)
-            l = table[:, 3:12]
-            speeds = np.linalg.norm(table[:, :3], axis=1)
-            rates = np.linalg.norm(l + l.reshape(-1, 3, 3).transpose(0, 2, 1).reshape(-1, 9), axis=1)
-            compared.append(np.column_stack([speeds, rates, table[:, 12:]]))
-        whole = np.concatenate(compared)
-        ends = np.concatenate([whole.argmin(axis=0), whole.argmax(axis=0)])
-        chosen = np.union1d(np.flatnonzero(numbers % stride == 0), ends)
-        return numbers[chosen], np.concatenate([a[rows[chosen]] for a in columns], axis=1)
+    def every_node(self, stride: int) -> tuple[Labels, NodeValues]:
+        """Return nodes by their numbers in the whole mesh, multiples of ``stride``, and the values there."""
+        part = self.halo.part
+        numbers = np.concatenate([part.points, self.counts[1] + part.cells])
+        rows = np.flatnonzero(numbers % stride == 0)
+        return numbers[rows], self.values_at_nodes().take(rows)
 
     @property
     def rate(self) -> float:

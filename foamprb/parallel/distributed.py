@@ -16,6 +16,7 @@ from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, FieldValues, by_name, width
 from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.nodes import Ends, Function, NodeValues, joined, stride_over
 from foamprb.flow.read.case import is_only_decomposed
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.parts import ends_of
@@ -31,8 +32,6 @@ LEAST_LAYERS = 3
 """Smallest number of layers around the cells of a node."""
 Summaries: TypeAlias = Sequence[Summary | None]
 OpenParts: TypeAlias = Callable[[int, NDArray[np.int64] | None], Summaries]
-_MOST_NODES = 1_000_000
-"""Number of nodes up to which :meth:`DistributedFlow.at_nodes` returns all."""
 
 
 class DistributedFields(NamedTuple):
@@ -253,30 +252,18 @@ class DistributedFlow:
         """Return the fields that are sampled, from time ``start`` to ``end``, s."""
         return DistributedFields(self._ask_own, self.field_columns, start, end)
 
-    def _at_nodes(self) -> Floats:
-        """Return the values at nodes; see :meth:`foamprb.flow.partflow.PartFlow.nodes_of_own`.
-
-        In a large mesh these are some nodes, among them the extreme ones of each part.
-        """
-        stride = 1 + (self.mesh.n_cells + self.mesh.n_points) // _MOST_NODES
-        numbers, tables = zip(*self._ask("nodes_of_own", stride), strict=True)
+    def at_some_nodes(self) -> NodeValues:
+        """See :meth:`foamprb.flow.base.Flow.at_some_nodes`."""
+        stride = stride_over(self.mesh.n_points + self.mesh.n_cells)
+        numbers, parts = zip(*self._ask("every_node", stride), strict=True)
+        # Nodes of the mesh beside several computers are equal on all of them.
         _, first = np.unique(np.concatenate(numbers), return_index=True)
-        table: Floats = np.concatenate(tables)[first]
-        return table
+        values = (np.concatenate(columns) for columns in zip(*(part[1:] for part in parts), strict=True))
+        return NodeValues(parts[0].time, *values).take(first)
 
-    def at_nodes(self) -> tuple[str, Floats, Floats]:
-        """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at nodes."""
-        table = self._at_nodes()
-        return self.summaries[0].time, table[:, :3], table[:, 3:12]
-
-    def turbulence_at_nodes(self) -> Floats:
-        """Return k, ε, ∇k and ∇(k²/3ε) at nodes, (n, 8); no rows if they were not read."""
-        found = self._at_nodes()[:, 12:20]
-        return found if found.shape[1] == 8 else found[:0]
-
-    def viscosity_at_nodes(self) -> Floats:
-        """Return the field of the viscosity at nodes, as it was read, (n,)."""
-        return self._at_nodes()[:, -1]
+    def ends_at_nodes(self, function: Function) -> Ends:
+        """See :meth:`foamprb.flow.base.Flow.ends_at_nodes`."""
+        return joined(self._ask("ends_at_nodes", function))
 
     def normals_of(self, particles: NDArray[np.int64]) -> Floats:
         """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""

@@ -16,6 +16,7 @@ from foamprb.cloud.measures import as_slice, path_stokes_number, shear_rate_at
 from foamprb.cloud.state import Particles
 from foamprb.cloud.viscosity import medium_at, viscosity_at_nodes
 from foamprb.flow.base import Flow
+from foamprb.flow.nodes import NodeValues
 
 STEADY_CAPILLARY = 0.3
 """Approximate largest μ_f γ̇/μ_s at which a neo-Hookean sphere has a steady shape in uniaxial extension."""
@@ -56,13 +57,14 @@ def extension_rates(flow: Flow) -> NDArray[np.float64]:
 
     It is zero in simple shear, where every solid has a steady shape.
     """
-    gradient = _at_some_nodes(flow.at_nodes()[2])
-    rates: NDArray[np.float64] = np.linalg.eigvals(gradient.reshape(-1, 3, 3)).real.max(axis=1)
+    gradient = _at_few_nodes(flow).l.reshape(-1, 3, 3)
+    rates: NDArray[np.float64] = np.linalg.eigvals(gradient).real.max(axis=1)
     return rates
 
 
-def _at_some_nodes(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    return values[:: max(1, len(values) // _MOST_NODES)]
+def _at_few_nodes(flow: Flow) -> NodeValues:
+    values = flow.at_some_nodes()
+    return values.take(slice(None, None, max(1, len(values.u) // _MOST_NODES)))
 
 
 def groups(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> Groups:
@@ -116,15 +118,15 @@ def _extending(cloud: Cloud, rows: NDArray[np.intp], extension: NDArray[np.float
     A solid has none beyond a capillary number of extension. A drop breaks up where it grows faster than its
     surface tension restores it.
     """
-    mu = np.asarray(viscosity_at_nodes(cloud.medium.mu, cloud.flow))
     if len(extension) == 0 or len(rows) == 0:
         return 0.0
-    p, mu = cloud.particles, _at_some_nodes(mu) if mu.ndim else mu
+    p, values = cloud.particles, _at_few_nodes(cloud.flow)
+    mu = np.asarray(viscosity_at_nodes(cloud.medium.mu, values))
     softest = rows[np.argmin(p.mu[rows])]
     times = mu / p.mu[softest]
     if MATERIALS[cloud.models.material].liquid:
         ratio = p.eta[softest] / mu
-        l: Any = tuple(_at_some_nodes(cloud.flow.at_nodes()[2]).reshape(-1, 9).T)
+        l: Any = tuple(values.l.T)
         growth, limit = drop_growth(l, ratio, times)
         growing = np.stack(np.broadcast_arrays(*growth), axis=-1).reshape(-1, 3, 3)
         return float(np.mean(np.linalg.eigvals(growing).real.max(axis=1) > limit))

@@ -5,20 +5,22 @@ from __future__ import annotations
 import json
 import math
 import platform
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.body.material import MATERIALS
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.measures import path_stokes_number, shape_stokes_number
-from foamprb.flow.base import Caveat
+from foamprb.cloud.viscosity import VaryingViscosity
+from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
 from foamprb.results.folder import RECORD_FORMAT
 from foamprb.run.checks import doubts, extension_rates, groups
@@ -27,7 +29,6 @@ from foamprb.settings.settings import Settings
 __all__ = ["describe", "renew_record", "write_record"]
 
 _PACKAGES = ("foamprb", "numpy", "numba", "vtk")
-_CHUNK = 1 << 20
 
 
 def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
@@ -113,8 +114,7 @@ def _viscosity(settings: Settings, cloud: Cloud) -> dict[str, Any]:
     fluid = settings.fluid
     if fluid.varying is None:
         return {"nu": fluid.nu, "mu": fluid.mu}
-    mu = fluid.varying.at_nodes(cloud.flow)
-    ends = np.array([mu.min(), mu.max()])
+    ends = np.array(cloud.flow.ends_at_nodes(partial(_viscosity_in, fluid.varying))[0])
     return {"nu": (ends / fluid.rho).tolist(), "mu": ends.tolist(), "viscosity": fluid.origin}
 
 
@@ -164,26 +164,25 @@ def _written(selected: Mapping[str, object]) -> dict[str, str]:
 def _ranges(cloud: Cloud) -> dict[str, Any]:
     """Return the time of the flow, s, and the ranges of |U|, m/s, and shear rate, 1/s, at its nodes.
 
-    ``direction`` is the mean velocity of the nodes over their mean speed.
+    ``direction`` is the mean velocity of some nodes over their mean speed.
     """
-    time, u, l = cloud.flow.at_nodes()
-    if len(u) == 0:
-        return {"time": time, "U": None, "shearRate": None, "direction": None}
-    # Part by part: norms of all nodes at once would need the memory of another field.
-    parts = [slice(start, start + _CHUNK) for start in range(0, len(u), _CHUNK)]
-    speeds = _range(np.linalg.norm(u[part], axis=1) for part in parts)
-    total = sum(float(np.linalg.norm(u[part], axis=1).sum()) for part in parts)
+    some = cloud.flow.at_some_nodes()
+    speeds, rates = cloud.flow.ends_at_nodes(_speeds_and_rates) or (None, None)
+    total = float(np.linalg.norm(some.u, axis=1).sum())
     return {
-        "time": time,
+        "time": some.time,
         "U": speeds,
-        "shearRate": _range(shear_rate(tuple(l[part].T)) for part in parts),
-        "direction": (u.sum(axis=0) / total).tolist() if total > 0.0 else None,
+        "shearRate": rates,
+        "direction": (some.u.sum(axis=0) / total).tolist() if total > 0.0 else None,
     }
 
 
-def _range(parts: Iterable[NDArray[np.float64]]) -> tuple[float, float]:
-    ends = [(float(part.min()), float(part.max())) for part in parts]
-    return min(low for low, _ in ends), max(high for _, high in ends)
+def _speeds_and_rates(values: NodeValues) -> tuple[Floats, Floats]:
+    return np.linalg.norm(values.u, axis=1), np.asarray(shear_rate(tuple(values.l.T)))
+
+
+def _viscosity_in(law: VaryingViscosity, values: NodeValues) -> tuple[Floats]:
+    return (law.at_nodes(values),)
 
 
 def _times(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:

@@ -56,9 +56,9 @@ def test_a_flow_without_bounds_has_none():
     assert flow.load(0.0, 3.0) == np.inf
     assert flow.patches == flow.notes == ()
     assert not flow.lists_walls
-    assert flow.at_nodes()[0] == ""
-    assert [a.shape for a in flow.at_nodes()[1:]] == [(0, 3), (0, 9)]
-    assert flow.turbulence_at_nodes().shape == (0, 8)
+    values = flow.at_some_nodes()
+    assert [a.shape for a in values[1:]] == [(0, 3), (0, 9), (0, 8), (0,)]
+    assert flow.ends_at_nodes(lambda values: values[1:]) == []
     traits = flow.traits()
     assert traits["u0"].tolist() == [0.1, 0.2, 0.3]
     assert traits["l"].tolist() == list(range(9))

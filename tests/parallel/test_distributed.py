@@ -101,7 +101,29 @@ def test_what_tells_a_flow_from_another_is_that_of_the_whole(flow, whole):
     assert np.any(whole.traits()["correction"])
 
 
-def test_patches_zones_and_nodes_are_those_of_the_whole(flow, whole):
+@pytest.mark.parametrize("few", [100, 8])
+def test_values_for_the_log_are_those_of_the_whole(few, flow, whole, monkeypatch):
+    monkeypatch.setattr("foamprb.flow.nodes._FEW", few)
+    n = assert_nodes_alike(flow, whole)
+    assert n == 39 if few == 100 else 8 <= n < 16
+
+
+def assert_nodes_alike(flow, whole):
+    """The chosen nodes have the same order and bits; return their number."""
+    some, expected = flow.at_some_nodes(), whole.at_some_nodes()
+    assert some.time == expected.time
+    for found, values in zip(some[1:], expected[1:], strict=True):
+        np.testing.assert_array_equal(found, values)
+
+    def quantities(values):
+        return *values.u.T, values.l[:, 1][values.l[:, 1] > 0.0], values.viscosity, *values.turbulence.T
+
+    assert flow.ends_at_nodes(quantities) == whole.ends_at_nodes(quantities)
+    assert len(flow.ends_at_nodes(quantities)) >= 5
+    return len(some.u)
+
+
+def test_patches_and_zones_are_those_of_the_whole(flow, whole):
     assert (flow.patches, flow.width, flow.mesh[:2]) == (whole.patches, whole.width, (12, 27))
     np.testing.assert_array_equal(flow.bounds, whole.bounds)
     for found, expected in zip(flow.patch_faces("lid", 0.0), whole.patch_faces("lid", 0.0), strict=True):
@@ -109,8 +131,6 @@ def test_patches_zones_and_nodes_are_those_of_the_whole(flow, whole):
     zone, expected = flow.cell_zone(None), whole.cell_zone(None)
     np.testing.assert_array_equal(zone.volumes, expected.volumes)
     np.testing.assert_array_equal(zone.vertices(zone.hosts), expected.vertices(expected.hosts))
-    for found, nodes in zip(flow.at_nodes()[1:], whole.at_nodes()[1:], strict=True):
-        np.testing.assert_array_equal(found, nodes)
     with pytest.raises(InputError, match=r"patch lit is not in the mesh\. Did you mean 'lid'"):
         flow.patch_faces("lit", 0.0)
 
@@ -236,8 +256,8 @@ def test_further_fields_are_those_of_the_whole(times, case, random):
     x = random.uniform(0.0, 1.0, (100, 3))
     hosts = flow.locate(x)
     np.testing.assert_array_equal(flow.viscosity(x, hosts, 0.5), whole.viscosity(x, hosts, 0.5))
-    np.testing.assert_array_equal(flow.viscosity_at_nodes(), whole.viscosity_at_nodes())
-    np.testing.assert_array_equal(flow.turbulence_at_nodes(), whole.turbulence_at_nodes())
+    assert_nodes_alike(flow, whole)
+    assert flow.at_some_nodes().turbulence.shape[1] == 8
     found, expected = (own.fields(0.4, 0.5).at(x, hosts, 0.5) for own in (flow, whole))
     assert list(found) == ["k", "U"]
     for name, field in expected.items():

@@ -30,7 +30,8 @@ from foamprb.cloud.surroundings.base import Seed, Surrounding
 from foamprb.compile.link import traced
 from foamprb.dictionary.constraints import Meaning
 from foamprb.flow.analytic import turbulence_free as turbulence
-from foamprb.flow.base import Flow, Patch
+from foamprb.flow.base import Floats, Flow, Patch
+from foamprb.flow.nodes import NodeValues
 
 __all__ = ["DISPERSIONS", "GradientDispersion", "StochasticDispersion"]
 
@@ -161,31 +162,25 @@ class Dispersion(Surrounding):
 
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
         """Return the ranges of the eddies' velocities and lives."""
-        table = flow.turbulence_at_nodes()
-        if len(table) == 0:
+        some = flow.at_some_nodes()
+        if len(some.turbulence) == 0:
             return ()
-        k, epsilon = np.maximum(table[:, 0], 0.0), np.maximum(table[:, 1], 0.0)
-        time = eddy_time(k, epsilon)
-        lines = []
-        for name, values in (
-            ("fluctuation [m/s]", fluctuation_size(k)),
-            ("eddy time [s]", time[time > 0.0]),
-            ("epsilon [m2/s3]", epsilon),
-        ):
-            if len(values):
-                low, middle, high = values.min(), np.median(values), values.max()
-                lines.append(f"{name:24s} {low:.3g} to {high:.3g}, median {middle:.3g}")
-        return lines
+        names, ends = ("fluctuation [m/s]", "eddy time [s]", "epsilon [m2/s3]"), flow.ends_at_nodes(_eddies)
+        return [
+            f"{name:24s} {low:.3g} to {high:.3g}, median {np.median(values):.3g}"
+            for name, (low, high), values in zip(names, ends, _eddies(some), strict=True)
+            if len(values)
+        ]
 
     def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:
         """Warn of deformation by eddies, which is not modelled, and of steps too long for the eddies."""
-        table = flow.turbulence_at_nodes()
-        if len(table) == 0 or p.size == 0:
+        some = flow.at_some_nodes()
+        if len(some.turbulence) == 0 or p.size == 0:
             return ()
-        k, epsilon = np.maximum(table[:, 0], 0.0), np.maximum(table[:, 1], 0.0)
         mu = float(np.median(medium.mu))
         nu = mu / medium.rho
-        worst, usual = epsilon.max(), np.median(epsilon)
+        k, epsilon = np.maximum(some.turbulence[:, :2], 0.0).T
+        worst, usual = flow.ends_at_nodes(_eddies)[2][1], np.median(epsilon)
         found = []
         if worst > 0.0:
             rate, length = kolmogorov_rate(worst, nu), kolmogorov_length(worst, nu)
@@ -202,6 +197,13 @@ class Dispersion(Surrounding):
                 f"right, but the velocities of particles are not. Use deltaT < {time / _FEWEST:.3g} s."
             )
         return found
+
+
+def _eddies(values: NodeValues) -> tuple[Floats, Floats, Floats]:
+    """Return the velocities of eddies, their lives if they have one, and ε."""
+    k, epsilon = np.maximum(values.turbulence[:, :2], 0.0).T
+    time = eddy_time(k, epsilon)
+    return fluctuation_size(k), time[time > 0.0], epsilon
 
 
 _FEWEST = 5.0
