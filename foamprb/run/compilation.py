@@ -19,7 +19,7 @@ import numpy as np
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.measures import context, measure
+from foamprb.cloud.measures import context, measure, shapes
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models, Tracker, available_threads
 from foamprb.compile.cache import cache_directory
@@ -94,12 +94,12 @@ def compile_run(cloud: Cloud, compilation: Compilation | None, alone: bool) -> N
         Whether this process takes all steps, so that it needs the loop.
     """
     arguments = cloud.make_ready()
+    if compilation is not None:
+        compilation.wait()
     # The thread that writes measures the particles, and code may not be linked in two threads at once.
     first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
     first.status[:] = Status.ACTIVE
     context(first, cloud.flow, cloud.medium.mu, cloud.time)
-    if compilation is not None:
-        compilation.wait()
     if not cloud.tracker.compiled:
         log_compiling()
     if alone:
@@ -143,9 +143,10 @@ def compile_all() -> None:
 
 
 def main() -> None:
-    """Compile the loop that the standard input describes."""
+    """Compile the loop that the standard input describes, and the measures, which share its stages."""
     tracker, flow = pickle.load(sys.stdin.buffer)
     tracker.compile(flow.nothing())
+    shapes(spheres([(0.0, 0.0, 0.0)], d=1.0, rho=1.0, mu=1.0))
     os._exit(0)
 
 

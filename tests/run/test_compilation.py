@@ -14,6 +14,7 @@ from foamprb.cli import main
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.measures import _finder
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.compile import link as compiling
 from foamprb.compile.cache import cache_directory
@@ -104,11 +105,11 @@ def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
     def loop():
         return Tracker(models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
 
-    # A cache that lacks only the loop.
-    key = loop()._track.py_func.__qualname__.rpartition("_")[2]
+    # A cache that lacks only the loop and the measures.
+    key, measures = (code.py_func.__qualname__.rpartition("_")[2] for code in (loop()._track, _finder()))
     cache = tmp_path / "cache"
     cache.mkdir()
-    for folder in {*cache_directory().glob("*")} - {cache_directory() / key}:
+    for folder in {*cache_directory().glob("*")} - {cache_directory() / own for own in (key, measures)}:
         (cache / folder.name).symlink_to(folder)
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(cache))
     monkeypatch.delitem(compiling._parts, key)
@@ -120,6 +121,7 @@ def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
     # It runs no code of the current folder.
     assert not (tmp_path / "executed").exists()
     assert cloud.tracker.compiled
+    assert (cache / measures).is_dir()
     cloud.advance(1)
     stats = cloud.tracker._track.stats
     assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
