@@ -594,7 +594,8 @@ def _join_patch(
         return None
     values = {}
     for key in sorted(set.intersection(*(set(entry.fields) for _, entry in filled))):
-        values[key] = np.empty((int(ends[1] - ends[0]), filled[0][1].fields[key].shape[1]))
+        # Faces of a cyclic patch whose sides lie on different processors have no values.
+        values[key] = np.zeros((int(ends[1] - ends[0]), filled[0][1].fields[key].shape[1]))
         for faces, entry in filled:
             values[key][faces] = entry.fields[key]
     return filled[0][1]._replace(pattern=False, fields=values)
