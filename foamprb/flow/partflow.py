@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.turbulence import fluctuation_size
+from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints, PatchFaces
+from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
 from foamprb.flow.mesh.lists import Index, ragged, starts
-from foamprb.flow.mesh.locator import cell_boxes
+from foamprb.flow.mesh.locator import cell_boxes, depth_of
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.parting import inverted_boxes
 from foamprb.flow.mesh.submesh import BEYOND, Halo, Homes
@@ -227,12 +229,18 @@ class PartFlow(MeshFlow):
         rows = np.flatnonzero(here)
         return rows, (start[held[rows]] + offset[rows]).astype(np.int32)
 
-    def locate_own(self, points: Floats) -> tuple[Index, Labels]:
-        """Return which points (n, 3) lie in own cells, and the numbers of their hosts."""
+    def locate_own(self, points: Floats) -> tuple[Index, Labels, Floats]:
+        """Return which points (n, 3) lie in own cells, the numbers of their hosts, and the depths there.
+
+        Of hosts of other nodes at the same place the one with the largest :func:`depth_of` counts, then the
+        first.
+        """
         hosts = self.locate(points)
         inside = np.flatnonzero(hosts >= 0)
         rows = inside[self.halo.part.own[self.cell_of(hosts[inside])]]
-        return rows, self.numbers_of(hosts[rows])
+        depths = np.empty(len(rows))
+        link(_depths)(self._arrays, points[rows], hosts[rows], depths)
+        return rows, self.numbers_of(hosts[rows]), depths
 
     def sample_own(self, points: Floats, numbers: Labels, t: float) -> tuple[Index, Floats, Floats]:
         """Return which hosts, by their numbers, are own ones, and :meth:`sample` there."""
@@ -391,6 +399,11 @@ class PartSeries(PartFlow, SeriesFlow):
 
     def _prefetch(self, index: int) -> Any:
         """No-op: an exchange of values beside others would mix them up."""
+
+
+def _depths(flow: MeshArrays, points: Floats, hosts: Ints, depths: Floats) -> None:
+    for i in range(points.shape[0]):
+        depths[i] = depth_of(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]))
 
 
 def _ends(halo: Halo) -> tuple[Index, Index]:

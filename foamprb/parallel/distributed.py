@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -47,6 +47,19 @@ class DistributedFields(NamedTuple):
         empty, times = np.full((len(points), width(self.columns)), np.nan), np.broadcast_to(t, len(points))
         values = self.ask("fields_of_own", [empty], points, hosts, times, self.start, self.end)[0]
         return by_name(values, self.columns)
+
+
+def deepest(n: int, answers: Iterable[tuple[NDArray[np.intp], Labels, Floats]]) -> Labels:
+    """Return the host of each of n points, −1 for none, from the rows, hosts and depths that nodes found.
+
+    Of several the one with the largest depth counts, then the first.
+    """
+    hosts, depths = np.full(n, -1, dtype=np.int64), np.full(n, -np.inf)
+    for rows, numbers, found in answers:
+        first = (found == depths[rows]) & (numbers < hosts[rows])
+        better = (found > depths[rows]) | first
+        hosts[rows[better]], depths[rows[better]] = numbers[better], found[better]
+    return hosts
 
 
 class WholeCounts(NamedTuple):
@@ -204,7 +217,7 @@ class DistributedFlow:
     def locate(self, points: Floats) -> Labels:
         """Return the host of each point (n, 3), −1 outside."""
         points = np.ascontiguousarray(points, dtype=np.float64)
-        return self._ask_own("locate_own", [np.full(len(points), -1, dtype=np.int64)], points)[0]
+        return deepest(len(points), self._ask("locate_own", points))
 
     def sample(self, points: Floats, hosts: NDArray[Any], t: float) -> tuple[Floats, Floats]:
         """Return velocities (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,)."""

@@ -26,7 +26,7 @@ from foamprb.flow.read.foamfile import FoamFile
 from foamprb.flow.read.openfoam import flow_of, steady_flow
 from foamprb.flow.read.parts import PartCase, ends_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.parallel.distributed import distributed_flow, why_whole
+from foamprb.parallel.distributed import deepest, distributed_flow, why_whole
 from foamprb.parallel.parts import summary_of
 
 
@@ -83,6 +83,17 @@ def test_hosts_and_samples_are_those_of_the_whole(flow, whole, random):
     for found, expected in zip(flow.sample(x, hosts, 0.0), whole.sample(x, hosts, 0.0), strict=True):
         np.testing.assert_array_equal(found, expected)
     np.testing.assert_array_equal(flow.cell_size(hosts), whole.cell_size(hosts))
+
+
+def test_of_hosts_on_several_nodes_the_deepest_counts_then_the_first():
+    """As at a point of two cells that share no point."""
+    rows = np.arange(4)
+    answers = [
+        (rows, np.array([7, 8, 9, 5]), np.array([0.1, 0.0, 0.3, 0.0])),
+        (rows[:3], np.array([3, 4, 20]), np.array([0.1, -1e-10, 0.4])),
+        (rows[:1], np.array([6]), np.array([0.1])),
+    ]
+    assert deepest(5, answers).tolist() == [3, 8, 20, 5, -1]
 
 
 def assert_alike(found, expected):

@@ -68,13 +68,18 @@ def seek(flow: MeshArrays, x: Vector, way: Vector) -> int:
             if cell < 0:
                 continue
             for tet in range(first_tet[cell], first_tet[cell + 1]):
-                origin, c1, c2, c3, volume = frame(flow, int(tet))
-                w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
-                if volume == 0.0:
-                    continue
-                smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
+                smallest = depth_of(flow, int(tet), x)
                 better = smallest > depth or (smallest == depth and tet < best)
                 if better and (flow.folds[cell] == SOUND or is_in_mesh(flow, tet, x, way)):
                     best, depth = tet, smallest
         node = next_node(node, n_leaves, hit)
     return best
+
+
+def depth_of(flow: MeshArrays, tet: int, x: Vector) -> float:
+    """Return the smallest barycentric weight of a tetrahedron at x; −∞ without volume."""
+    origin, c1, c2, c3, volume = frame(flow, tet)
+    w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
+    if volume == 0.0:
+        return -np.inf
+    return min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)

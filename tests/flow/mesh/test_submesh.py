@@ -155,7 +155,7 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         rows, names = part._own_triangles(sub.mesh), triangles_in(mesh, sub)
         everything = np.arange(len(mesh.triangles))
         assert beyond(arrays, rows, names) == beyond(flow.arrays(), names[rows], everything)
-        found, numbers = part.locate_own(points)
+        found, numbers, _ = part.locate_own(points)
         own, local = part.own_hosts(numbers)
         np.testing.assert_array_equal(own, np.arange(len(found)))
         np.testing.assert_array_equal(gaps_at(arrays, points[found], local, 0.1 * reach), gaps[found])
@@ -254,7 +254,7 @@ def test_a_node_holds_the_boundary_in_the_boxes_of_folded_cells(random):
             )
             np.testing.assert_array_equal(names[rim], expected)
             far += np.count_nonzero(sub.node[part.cell_of(arrays.triangle_tet[rim])] != team.rank)
-        found, numbers = part.locate_own(points)
+        found, numbers, _ = part.locate_own(points)
         np.testing.assert_array_equal(numbers, hosts[found])
         for k, host in zip(found, part.own_hosts(numbers)[1], strict=True):
             here = walk(arrays, host, tuple(points[k]), tuple(ends[k]))

@@ -61,7 +61,7 @@ def test_nodes_read_the_flow_of_the_whole(case, request, random):
             flow.width,
             [p.name for p in flow.patches],
         )
-        rows, numbers = part.locate_own(points)
+        rows, numbers, _ = part.locate_own(points)
         np.testing.assert_array_equal(numbers, hosts[rows])
         for own, whole in zip(
             part.sample(points[rows], part.own_hosts(numbers)[1], 0.0), (u, l), strict=True
