@@ -13,7 +13,7 @@ from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints, PatchFaces
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.fragment import Labels
-from foamprb.flow.mesh.geometry import Faces, inward_normals, measured
+from foamprb.flow.mesh.geometry import Faces, inward_normals, largest_fluxes
 from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.locator import cell_boxes, depth_of
 from foamprb.flow.mesh.mesh import Mesh
@@ -32,6 +32,12 @@ _ASIDE = 0.1
 
 _LARGEST_EDDY = 5.0
 """Largest velocity of an eddy, in standard deviations, for which the layers are meant."""
+
+
+def largest_eddies(k: Floats) -> Floats:
+    """Return the largest velocities of eddies for which layers are meant, (n,), m/s, from k, m²/s²."""
+    size: Floats = _LARGEST_EDDY * fluctuation_size(np.maximum(k, 0.0))
+    return size
 
 
 class PartFlow(MeshFlow):
@@ -298,8 +304,7 @@ class PartFlow(MeshFlow):
         """Return :attr:`rate` for the velocity (n, 3) and turbulence (n, 8), if any, at points and cells."""
         cells, eddies = slice(self.mesh.n_points, None), np.zeros(self.mesh.n_cells)
         if len(turbulence):
-            k, drift = turbulence[cells, 0], turbulence[cells, 5:]
-            eddies = _LARGEST_EDDY * fluctuation_size(np.maximum(k, 0.0)) + np.linalg.norm(drift, axis=1)
+            eddies = largest_eddies(turbulence[cells, 0]) + np.linalg.norm(turbulence[cells, 5:], axis=1)
         return self._most_passed(u[cells], eddies)
 
     def _most_passed(self, u: Floats, further: Floats) -> float:
@@ -307,21 +312,11 @@ class PartFlow(MeshFlow):
 
         Cells have the velocities u (n, 3), m/s, and further ones in any direction, (n,).
         """
-        mesh, part = self.mesh, self.halo.part
-        of_cells = mesh.cell_face_start, mesh.cell_faces
-        most = np.zeros(mesh.n_cells)
-        for begin in range(0, len(mesh.owner), AT_ONCE // 16):
-            # Part by part: the areas of all faces would need the memory of another field.
-            end = begin + AT_ONCE // 16
-            owner, neighbour = mesh.owner[begin:end], mesh.neighbour[begin:end]
-            faces = Faces(mesh.face_start[begin : end + 1], mesh.face_points, owner, neighbour, *of_cells)
-            areas = measured(mesh.points, faces)[1]
-            for cells in (owner, neighbour):
-                across = areas[: len(cells)]
-                passed = np.abs(np.einsum("fi,fi->f", across, u[cells]))
-                passed += np.linalg.norm(across, axis=1) * further[cells]
-                np.maximum.at(most, cells, passed)
-        return float((most / mesh.volumes)[part.own].max(initial=0.0))
+        mesh = self.mesh
+        of_faces = mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour
+        faces = Faces(*of_faces, mesh.cell_face_start, mesh.cell_faces)
+        most = largest_fluxes(mesh.points, faces, u, further)
+        return float((most / mesh.volumes)[self.halo.part.own].max(initial=0.0))
 
     def places_in_whole(self) -> tuple[Ints, Labels, Ints, Ints]:
         """Return nodes and first tetrahedra of cells in the whole mesh, the first ones here, and folders."""

@@ -15,6 +15,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, FieldValues, by_name, width
 from foamprb.flow.mesh.fragment import Labels
+from foamprb.flow.mesh.submesh import layers_over
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.nodes import Ends, Function, NodeValues, joined, stride_over
 from foamprb.flow.read.case import is_only_decomposed
@@ -92,8 +93,8 @@ class DistributedFlow:
     order
         Lets all processes call a method of their worker; see :meth:`foamprb.parallel.ranks.Ranks.order`.
     open_parts
-        Lets all nodes read their parts with a number of layers around their cells in which bodies may move,
-        and a load of the processor folders.
+        Lets all nodes read their parts with at least a number of layers around their cells in which bodies
+        may move, and a load of the processor folders.
         Returns the summaries of all processes; None for those that are not the first of a node.
     step
         Time between two points where particles can change nodes, s.
@@ -114,7 +115,7 @@ class DistributedFlow:
         self._order, self._open_parts, self._step = order, open_parts, step
         self._load: NDArray[np.int64] | None = None
         self._shared: tuple[Any, ...] | None = None
-        self.depth, self.shared_bytes = LEAST_LAYERS, 0
+        self.shared_bytes = 0
         self._slip = 0.0
         self._summarise(summaries)
         self._deepen(self._layers)
@@ -133,7 +134,6 @@ class DistributedFlow:
         if layers <= self.depth:
             return
         while self.depth < layers:
-            self.depth = layers
             self._summarise(self._open_parts(layers, self._load))
             layers = self._layers
         self._share_again()
@@ -146,6 +146,7 @@ class DistributedFlow:
 
     def _summarise(self, summaries: Summaries) -> None:
         self.summaries = [summary for summary in summaries if summary is not None]
+        self.depth = self.summaries[0].depth
         self._fluid = self.summaries[0].rate
 
     @property
@@ -161,7 +162,7 @@ class DistributedFlow:
     @property
     def _layers(self) -> int:
         """Return the number of layers that no body crosses in a step."""
-        return 2 + math.ceil(self.rate * self._step)
+        return layers_over(self.rate * self._step)
 
     @property
     def folders(self) -> NDArray[np.int64]:

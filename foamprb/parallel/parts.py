@@ -92,6 +92,8 @@ class Summary(NamedTuple):
     """Number of own cells in each processor folder of the node."""
     own: int
     """Number of own cells."""
+    depth: int
+    """Number of layers around these in which bodies may move."""
     held: int
     """Number of cells, with those of other nodes."""
     rate: float
@@ -116,8 +118,8 @@ def summary_of(flow: PartFlow) -> Summary:
     folders = np.bincount(halo.folders.of_cells[own] - chosen.start, minlength=len(chosen))
     return Summary(
         flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts, tuple(folders.tolist()),
-        int(own.sum()), len(own), max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)),
-        flow.field_columns, time,
+        int(own.sum()), halo.part.depth, len(own),
+        max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)), flow.field_columns, time,
         *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
         tuple(zone._replace(cells=zone.cells[:0]) for zone in getattr(flow, "rotating", ())),
     )  # fmt: skip
@@ -190,12 +192,13 @@ class Part:
         times: FlowTimes,
         source: FlowSource,
         depth: int,
-        load: Labels | None = None,
+        load: Labels | None,
+        step: float,
     ) -> Summary | None:
         """Read the flow; return a summary on the first process of the node."""
 
         def read(team: MpiTeam) -> Summary:
-            flow = flow_of(PartCase(root, region, team, depth, load), times, source)
+            flow = flow_of(PartCase(root, region, team, depth, load, source, step), times, source)
             assert isinstance(flow, PartFlow)
             self.flow = flow
             flow.move(self._publisher.move)

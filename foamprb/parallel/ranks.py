@@ -117,7 +117,7 @@ class Ranks:
         def open_parts(depth: int, load: NDArray[np.int64] | None) -> list[Any]:
             # Further times may have become known.
             now = times._replace(known=tuple(times.known))
-            return self.order("open_part", case, source.region, now, source, depth, load)
+            return self.order("open_part", case, source.region, now, source, depth, load, step)
 
         started = clock.perf_counter()
         flow = distributed_flow(self.order, open_parts, step)

@@ -249,7 +249,8 @@ class Worker:
         times: FlowTimes,
         source: FlowSource,
         depth: int,
-        load: NDArray[np.int64] | None = None,
+        load: NDArray[np.int64] | None,
+        step: float,
     ) -> Summary | None:
         """Read the flow on the cells of this node; return a summary on its first process."""
         if self._part is not None:
@@ -259,7 +260,7 @@ class Worker:
             self._part = None
             gc.collect()
         self._part = Part(self._MPI, self.windows)
-        return self._part.open(root, region, times, source, depth, load)
+        return self._part.open(root, region, times, source, depth, load, step)
 
     def load_of_folders(self, n: int) -> NDArray[np.int64]:
         """Return the number of active particles in each of n processor folders."""

@@ -49,7 +49,7 @@ def distributed(case, times, source=FlowSource()):  # noqa: B008
     """The flow of two nodes, which carry out orders together."""
 
     def read(team):
-        part = flow_of(PartCase(case, "", team, 1), times, source)
+        part = flow_of(PartCase(case, "", team, 2), times, source)
         return part, summary_of(part)
 
     found = together(2, read)
@@ -276,6 +276,30 @@ def test_further_fields_are_those_of_the_whole(times, case, random):
     assert_alike(flow.traits(), whole.traits())
     # Eddies make bodies faster.
     assert flow.rate > distributed(case, times).rate
+
+
+def test_layers_are_as_deep_as_the_fluid_requires_at_once(flow, case):
+    step = 4.4 / flow.rate
+    found = [depth_of(case, FlowSource(), least, step) for least in (3, 9)]
+    assert found == [2 + 5, 9]
+    assert depth_of(case, FlowSource(turbulent=True), 3, step) > 2 + 5
+
+
+def depth_of(case, source, least, step):
+    for folder in case.glob("processor*/1"):
+        for name, unit in (("k", 2), ("epsilon", 3)):
+            (folder / name).write_text(
+                f"{header('volScalarField', name)} dimensions [0 2 -{unit} 0 0 0 0];\n"
+                'internalField uniform 1; boundaryField { ".*" { type zeroGradient; } }\n'
+            )
+
+    def read(team):
+        opened = PartCase(case, "", team, least, None, source, step)
+        return summary_of(flow_of(opened, FlowTimes("1"), source)).depth
+
+    own, other = together(2, read)
+    assert own == other
+    return own
 
 
 def test_an_error_on_one_node_is_raised_on_all():

@@ -5,6 +5,7 @@ Cells, faces and points rise in the numbers of the whole mesh, so that sums over
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -28,6 +29,11 @@ BEYOND = -2
 """Patch of the triangles through which a path leaves the cells of a node; to kernels a failed walk."""
 RINGS = 2
 """Outermost layers of cells, in which the shapes of cells differ in round-off, or their neighbours lack."""
+
+
+def layers_over(cells: float) -> int:
+    """Return the number of layers that no body leaves which passes some cells between two exchanges."""
+    return 2 + math.ceil(cells)
 
 
 @dataclass(frozen=True)

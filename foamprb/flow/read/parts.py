@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import Transform
 from foamprb.flow.mesh.fragment import Fragment, Labels, Team, merged
+from foamprb.flow.mesh.geometry import Faces, largest_fluxes, measured
 from foamprb.flow.mesh.lists import even_ends
 from foamprb.flow.mesh.parting import hold_part
-from foamprb.flow.mesh.submesh import CUT, Folders, Halo
+from foamprb.flow.mesh.submesh import CUT, Folders, Halo, layers_over
+from foamprb.flow.partflow import largest_eddies
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, patches_of_mesh
 from foamprb.flow.read.boundary_values import AREA, FLOW_RATE
 from foamprb.flow.read.case import MissingFieldError, mesh_files
 from foamprb.flow.read.checks import notes_of_types, require_patch_shapes, require_volumes
 from foamprb.flow.read.decomposed import DecomposedCase
-from foamprb.flow.read.field import FoamField, Kind, PatchField, read_field
+from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, PatchField, read_field
 from foamprb.flow.read.processors import (
     JOINED,
     Address,
+    Piece,
     checked,
     found_addresses,
     fragment_of,
@@ -32,8 +37,13 @@ from foamprb.flow.read.processors import (
     read_pieces,
     whole_patches,
 )
+from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.turbulence import K_FIELD
 
 _FINE = 1e9
+_ROUND_OFF = 1e-6
+"""Relative difference of rates and volumes from those of the whole mesh, at most."""
+_SOURCE = FlowSource()
 
 
 class PartCase(DecomposedCase):
@@ -48,14 +58,27 @@ class PartCase(DecomposedCase):
     team
         The nodes.
     depth
-        Number of layers in which bodies may move.
+        Least number of layers in which bodies may move.
     load
         (n,) particles in each of all processor folders, if they count.
+    source, step
+        Names of the fields; time in which the fluid must not cross the layers, s.
     """
 
-    def __init__(self, root: Path, region: str, team: Team, depth: int, load: Labels | None = None) -> None:
+    def __init__(
+        self,
+        root: Path,
+        region: str,
+        team: Team,
+        depth: int,
+        load: Labels | None = None,
+        source: FlowSource = _SOURCE,
+        step: float = 0.0,
+    ) -> None:
         super().__init__(root, region)
-        self._team, self._depth = team, depth
+        self._team, self._depth, self._source, self._step = team, depth, source, step
+        self._early: dict[Path, list[FoamField]] = {}
+        """Fields that were read before the mesh was complete, by their files in a folder."""
         self._whole: CaseMesh | None = None
         folder = self.mesh_folder(self._times[-1]).relative_to(self._first)
         ends = ends_of(self.processors.cells(folder), load, team.size) if team.rank == 0 else None
@@ -91,9 +114,10 @@ class PartCase(DecomposedCase):
             pieces.clear()
             return merged(fragments)
 
-        part = hold_part(own_cells, surfaces, ranges, n_internal, self._depth, team, str(folder))
         # What fields need of them.
         self._parts = [address._replace(points=nothing, turned=nothing) for address in addresses]
+        depth = self._layers(pieces, time)
+        part = hold_part(own_cells, surfaces, ranges, n_internal, depth, team, str(folder))
         of_cells = np.zeros(len(part.cells), dtype=np.int32)
         for number, address in zip(self.processors.chosen, addresses, strict=True):
             of_cells[np.searchsorted(part.cells, address.cells)] = number
@@ -108,20 +132,40 @@ class PartCase(DecomposedCase):
         self._whole, self._files = CaseMesh(mesh, patches, notes), files
         return self._whole
 
+    def _layers(self, pieces: Sequence[Piece], time: str) -> int:
+        """Return the number of layers that the fluid at a time does not cross; eddies drift by less."""
+        if self._step == 0.0 or self._source.relative:
+            return self._depth
+        name = self._source.velocity
+        fields = self._early[Path(time) / self.region / name] = self._read(time, name, VELOCITY_FIELD)
+        eddies: list[Floats] = [np.zeros(1)] * len(pieces)
+        if self._source.turbulent:
+            with suppress(InputError):
+                eddies = [largest_eddies(field.cells[:, 0]) for field in self._read(time, "k", K_FIELD)]
+        rates = [_rate(*given) for given in zip(pieces, fields, eddies, strict=True)]
+        fastest = max(self._team.of_all(max(rates, default=0.0)))
+        return max(self._depth, layers_over((1.0 + _ROUND_OFF) * fastest * self._step))
+
+    def _read(self, time: str, name: str, kind: Kind) -> list[FoamField]:
+        """Read a field of each processor of this node."""
+        file, processors = Path(time) / self.region / name, self.processors
+        if file in self._early:
+            return self._early.pop(file)
+        # Some fields may be missing, or of another kind.
+        with self._team.united():
+            files = processors.files(file)
+            if files is None:
+                raise MissingFieldError(f"{processors.folders[processors.held[0]] / file}: no such file.")
+            return [
+                checked(read_field(file, kind, self.root), part)
+                for file, part in zip(files, self._parts, strict=True)
+            ]
+
     def field(self, time: str, name: str, kind: Kind) -> FoamField:
         """Read a field at a time; see :meth:`~foamprb.flow.read.openfoam.Case.field`."""
         self.mesh(time)
         assert self.halo is not None
-        # Some fields may be missing, or of another kind.
-        with self._team.united():
-            file, processors = Path(time) / self.region / name, self.processors
-            files = processors.files(file)
-            if files is None:
-                raise MissingFieldError(f"{processors.folders[processors.held[0]] / file}: no such file.")
-            fields = [
-                checked(read_field(file, kind, self.root), part)
-                for file, part in zip(files, self._parts, strict=True)
-            ]
+        fields = self._read(time, name, kind)
         numbers = self.halo.part.cells
         cells = np.zeros((len(numbers), fields[0].cells.shape[1]))
         for part, field in zip(self._parts, fields, strict=True):
@@ -189,6 +233,20 @@ class PartCase(DecomposedCase):
             self.halo.fill("cells", inside)
             found[name] = np.flatnonzero(inside)
         return found
+
+
+def _rate(piece: Piece, field: FoamField, eddies: Floats) -> float:
+    """Return the largest number of cells of a processor that the fluid passes in a time, 1/s."""
+    n, nothing = piece.n_cells, np.empty(0, dtype=np.int32)
+    faces = Faces(piece.start, piece.lists, piece.owner, piece.neighbour, nothing, nothing)
+    places = piece.points - piece.points.mean(axis=0)
+    shares = np.einsum("fi,fi->f", *measured(places, faces)) / 3.0
+    volumes = np.bincount(piece.owner, shares, n)
+    volumes -= np.bincount(piece.neighbour, shares[: len(piece.neighbour)], n)
+    u, further = np.broadcast_to(field.cells, (n, 3)), np.broadcast_to(eddies, n)
+    # Cells without volume are refused later.
+    some = volumes > _ROUND_OFF * volumes.mean()
+    return float((largest_fluxes(places, faces, u, further)[some] / volumes[some]).max(initial=0.0))
 
 
 def ends_of(cells: Labels, load: Labels | None, nodes: int) -> list[int]:

@@ -19,7 +19,7 @@ from foamprb.flow.reconstruct import Reconstruction
 
 __all__ = ["given_values", "read_turbulence", "values_of"]
 
-_K = Kind("volScalarField", "scalar", (SPECIFIC_ENERGY,), "the turbulent kinetic energy")
+K_FIELD = Kind("volScalarField", "scalar", (SPECIFIC_ENERGY,), "the turbulent kinetic energy")
 _EPSILON = Kind("volScalarField", "scalar", (DISSIPATION,), "the dissipation of turbulent kinetic energy")
 _OMEGA = Kind("volScalarField", "scalar", (RATE,), "the specific dissipation rate")
 _LEAST = 1e-150
@@ -52,7 +52,7 @@ def read_turbulence(
         A field is missing, broken, has other dimensions, or is negative somewhere.
     """
     try:
-        k_field = read("k", _K)
+        k_field = read("k", K_FIELD)
     except MissingFieldError as missing:
         raise InputError(f"{folder}/k: no such field. {_WANTED}") from missing
     k, at_patches = values_of(k_field, whole)
