@@ -13,7 +13,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
-from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
+from foamprb.flow.mesh.arrays import FREE, MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
 from foamprb.flow.mesh.lists import share
@@ -41,6 +41,7 @@ from foamprb.flow.walk import (
 )
 from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
 from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall, walls_at
+from foamprb.memory import trim
 
 LONG: tuple[Callable[..., Any], ...] = (
     follow,
@@ -196,11 +197,14 @@ class MeshFlow:
             )
         self.bounds, self.width = self._extents(mesh)
         tree = self._tree(mesh)
-        nodes, columns = np.empty((len(u), 16)), (mesh.nodes, u, l.reshape(-1, 9), free_nodes(mesh)[:, None])
-        share(
-            len(u),
-            lambda low, high: np.concatenate([a[low:high] for a in columns], axis=1, out=nodes[low:high]),
-        )
+        nodes, columns = np.empty((len(u), 16)), (u, l.reshape(-1, 9))
+
+        def fill(low: int, high: int) -> None:
+            np.concatenate([a[low:high] for a in columns], axis=1, out=nodes[low:high, 3:FREE])
+
+        share(len(u), fill)
+        nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
+        nodes[:, FREE] = free_nodes(mesh)
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
         folds, rim_start, rim = _folds(mesh, nodes, tree, self._everywhere)
@@ -348,6 +352,8 @@ class MeshFlow:
                 setattr(self.mesh, name, moved[name])
             if self._near is not None and getattr(self._near[1], name) is array:
                 self._near = self._near[0], self._near[1]._replace(**moved)
+            del array
+            trim()
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""

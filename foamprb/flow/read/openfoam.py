@@ -55,6 +55,7 @@ from foamprb.flow.read.viscosity import read_viscosity_field
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import SeriesFlow, series_of
+from foamprb.memory import trim
 
 PRECISION_NOTE = (
     "Coordinates have passed through single precision in VTK's OpenFOAM reader: a relative error of up to "
@@ -236,6 +237,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     sampled = read_sampled(read, source.sampled, kinds, whole, reconstruct) if source.sampled else None
     # Its arrays take half as much memory as the flow.
     del reconstruct
+    trim()
     conserve = Conservation(whole.mesh, halo=case.halo)
     correction = conserve(u, l, mass_of(case.root, case.region, whole, (name,), [read], 0, case.halo))
     notes = [*case.notes, *whole.notes]
@@ -245,6 +247,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     notes += _caveats(case, name, turbulent=source.turbulent, relative=bool(rotations))
     notes += [*flux, *conserve.caveats()]
     del conserve
+    trim()
     notes += [
         f"The zone {zone.name} of {_count(zone, case.halo)} cells rotates with "
         f"{np.linalg.norm(zone.omega):g} rad/s: "
