@@ -360,6 +360,7 @@ def halves(tmp_path, monkeypatch):
     return case
 
 
+@pytest.mark.parametrize("following", [False, True])
 def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves, tmp_path):
     case = halves
     edit(case, "^solution", "cloudFunctions { fields { type fieldSampling; fields (U); } } solution")
