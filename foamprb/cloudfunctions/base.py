@@ -124,8 +124,6 @@ class CloudFunction:
         """Tracking steps between two samples: ``sampleInterval``, or 0 for samples at write times only."""
         return int(getattr(self, "sampleInterval", 0))
 
-    needs_mesh: ClassVar[bool] = False
-    """Whether it maps particles to the cells of the mesh, which must then be whole."""
     travels: ClassVar[bool] = False
     """Whether it can sample particles wherever they are, as its data of a particle can go with it. All arrays
     then have a row for each particle, but :attr:`events` and :attr:`common`."""

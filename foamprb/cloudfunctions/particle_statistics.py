@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows, SampledFunction, SampleInterval
 from foamprb.dictionary.constraints import Meaning
 from foamprb.errors import InputError
-from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.meshflow import MeshSizes
 from foamprb.results.foam import GENERIC, PatchValues, write_field
 
 __all__ = ["ParticleStatistics"]
@@ -47,13 +47,11 @@ class ParticleStatistics(SampledFunction):
     sampleInterval: SampleInterval = 1
     sigmaParticles: Annotated[bool, Meaning("whether to write the particles' stress and volume, too")] = False
 
-    needs_mesh: ClassVar[bool] = True
-
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return cells, −1 outside, and Taylor's D."""
-        mesh, hosts = _mesh(cloud), cloud.particles.host[rows]
-        cell = np.where(hosts >= 0, mesh.tets[hosts, 0].astype(np.int64) - mesh.n_points, -1)
-        own = {"cell": cell, "D": cloud.measure(rows, "taylorDeformation")[0]}
+        hosts = cloud.particles.host[rows]
+        cell = np.where(hosts >= 0, _flow(cloud).cell_of(hosts), -1)
+        own = {"cell": cell.astype(np.int64), "D": cloud.measure(rows, "taylorDeformation")[0]}
         if self.sigmaParticles:
             # The volume comes first among the seven.
             J, S = cloud.measure(rows, "J", "stresslet")
@@ -62,13 +60,13 @@ class ParticleStatistics(SampledFunction):
 
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return sums of zero; raise InputError if the flow has no mesh."""
-        n = _mesh(cloud).n_cells
+        n = _flow(cloud).mesh.n_cells
         stress = {"timeS": np.zeros((7, n))} if self.sigmaParticles else {}
         return {"time": np.zeros(n), "timeD": np.zeros(n), **stress}
 
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the time since the last sample to the sums of the cells."""
-        n = _mesh(cloud).n_cells
+        n = _flow(cloud).mesh.n_cells
         half = 0.5 * (now["t"] - memory["t"][rows])
         # A particle that the mesh has lost counts in its last cell.
         now["cell"] = np.where(now["cell"] >= 0, now["cell"], memory["cell"][rows])
@@ -83,46 +81,44 @@ class ParticleStatistics(SampledFunction):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
-        mesh = _mesh(cloud)
-        time = memory["time"]
-        passed = np.maximum(mesh.volumes, 1e-300) * max(cloud.time - cloud.cloud.start, 1e-300)
+        sizes, time = _flow(cloud).mesh_sizes(), memory["time"]
+        passed = np.maximum(sizes.volumes, 1e-300) * max(cloud.time - cloud.cloud.start, 1e-300)
         fields = {
             "concentration": time / passed,
             "residenceTime": time,
             "meanD": np.divide(memory["timeD"], time, out=np.zeros_like(time), where=time > 0.0),
-            "deposition": np.zeros(mesh.n_cells),
+            "deposition": np.zeros_like(time),
         }
         if self.sigmaParticles:
             volume, *stress = memory["timeS"] / passed
             fields |= {"volumeFraction": volume, "sigmaParticles": np.stack(stress, axis=1)}
-        stuck = _stuck_on_faces(cloud, mesh)
-        areas = np.linalg.norm(mesh.boundary_areas, axis=1)
+        stuck = _stuck_on_faces(cloud, sizes)
         folder.mkdir(exist_ok=True)
         for name, values in fields.items():
-            on_faces = stuck / areas if name == "deposition" else values[mesh.owner[mesh.n_internal :]]
+            on_faces = stuck / sizes.areas if name == "deposition" else values[sizes.owner]
             patches = {
-                patch.name: PatchValues("calculated", on_faces[mesh.patch_start[k] : mesh.patch_start[k + 1]])
+                patch.name: PatchValues("calculated", on_faces[slice(*sizes.patch_start[k : k + 2])])
                 if patch.type in GENERIC
                 else PatchValues(patch.type)
-                for k, patch in enumerate(mesh.patches)
+                for k, patch in enumerate(cloud.cloud.flow.patches)
             }
             write_field(folder / f"{cloud.time:.12g}" / name, _DIMENSIONS[name], values, patches)
 
 
-def _mesh(cloud: ObservedCloud) -> Mesh:
-    mesh: Any = getattr(cloud.cloud.flow, "mesh", None)
-    if not isinstance(mesh, Mesh):
+def _flow(cloud: ObservedCloud) -> Any:
+    """Return the flow, which has cells."""
+    if not hasattr(cloud.cloud.flow, "cell_of"):
         raise InputError("the flow has no mesh for the fields.")
-    return mesh
+    return cloud.cloud.flow
 
 
-def _stuck_on_faces(cloud: ObservedCloud, mesh: Mesh) -> Floats:
+def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:
     """Count particles on each boundary face: the face of their patch with the nearest centre."""
-    p, counts = cloud.particles, np.zeros(len(mesh.boundary_centres))
-    for index in range(len(mesh.patches)):
-        first, last = int(mesh.patch_start[index]), int(mesh.patch_start[index + 1])
+    p, counts = cloud.particles, np.zeros(len(sizes.areas))
+    for index in range(len(cloud.cloud.flow.patches)):
+        first, last = sizes.patch_start[index : index + 2].tolist()
         x = p.x[(p.status == Status.STUCK) & (p.patch == index)]
         if len(x) and last > first:
-            nearest = cKDTree(mesh.boundary_centres[first:last]).query(x)[1]
+            nearest = cKDTree(sizes.centres[first:last]).query(x)[1]
             counts[first:last] += np.bincount(nearest, minlength=last - first)
     return counts

@@ -271,6 +271,21 @@ class PartFlow(MeshFlow):
         rows, hosts = self.own_hosts(numbers)
         return rows, self.cell_size(hosts)
 
+    def own_cells(self, low: int, high: int) -> tuple[Labels, Labels, Floats]:
+        """Return numbers of own cells from ``low`` to before ``high``, first tetrahedra and volumes, m³."""
+        cells = self.halo.part.cells
+        rows = np.flatnonzero(self.halo.part.own & (cells >= low) & (cells < high))
+        return cells[rows], self._first_tet[rows], self.mesh.volumes[rows]
+
+    def own_faces(self) -> tuple[Labels, Ints, Labels, Floats, Floats]:
+        """Return the boundary faces of own cells: numbers, patches, cells, areas, m², and centres, m."""
+        part, mesh = self.halo.part, self.mesh
+        found, counts = self.mesh_sizes(), np.diff(mesh.patch_start)[:-1]
+        patches = np.repeat(np.arange(len(counts), dtype=np.int32), counts)
+        rows = np.flatnonzero(part.own[found.owner[: len(patches)]])
+        cells, faces = part.cells[found.owner[rows]], part.faces[mesh.n_internal + rows]
+        return faces, patches[rows], cells, found.areas[rows], found.centres[rows]
+
     def own_zone(self, name: str | None) -> tuple[Floats, Labels]:
         """Return the volumes and the numbers of the tetrahedra of a zone of cells that are own ones."""
         zone = self.cell_zone(name)

@@ -233,9 +233,6 @@ def time_of_fluid(time: float | str | None) -> float | str:
 
 def _why_whole(settings: Settings) -> str | None:
     """Return why the settings need the whole mesh on each computer; None if they do not."""
-    for name, function in settings.functions.items():
-        if function.needs_mesh:
-            return f"the cloudFunction {name} maps particles to cells"
     for name, model in settings.surroundings.items():
         if model.wall_range > 0.0:
             return f"{name} examines the walls around the particles at the start"
