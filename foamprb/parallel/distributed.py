@@ -314,6 +314,14 @@ class DistributedFlow:
             normals[order[np.searchsorted(particles[order], numbers)]] = found
         return normals
 
+    def wall_distances(self, x: Floats, hosts: NDArray[Any], *others: Any) -> Floats:
+        """See :func:`foamprb.cloud.surroundings.wall_lift.wall_distances`; by the walls listed last."""
+        nearest = np.full(len(x), np.inf)
+        for found in self._order("wall_distances", x, hosts, *others):
+            if found is not None:
+                nearest[found[0]] = found[1]
+        return nearest
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return those of the flow on one node, but for round-off."""
         first, *others = self._ask("traits")

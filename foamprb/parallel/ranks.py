@@ -89,7 +89,7 @@ class Ranks:
         return [answer.value for answer in answers]
 
     def open_flow(
-        self, case: Path, times: FlowTimes, source: FlowSource, step: float, whole: str | None
+        self, case: Path, times: FlowTimes, source: FlowSource, step: float
     ) -> DistributedFlow | None:
         """Return the flow of a decomposed case with a part on each of several nodes.
 
@@ -99,8 +99,6 @@ class Ranks:
             The case; the times of the flow; the names of its fields.
         step
             Time between two points where particles can change nodes, s.
-        whole
-            Why the run needs the whole mesh on each computer, if it does.
 
         Returns
         -------
@@ -109,7 +107,7 @@ class Ranks:
         nodes = self.worker.windows.nodes
         if nodes == 1:
             return None
-        reason = whole or why_whole(case, source, nodes)
+        reason = why_whole(case, source, nodes)
         if reason is not None:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             return None

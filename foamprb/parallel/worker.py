@@ -17,11 +17,13 @@ from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.measures import injected
 from foamprb.cloud.report import report
 from foamprb.cloud.state import Particles, Status, empty
+from foamprb.cloud.surroundings.wall_lift import wall_distances
 from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.cloudfunctions.base import Memory
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.parallel.exchange import Share, join, pack, record, unpack
@@ -303,6 +305,18 @@ class Worker:
         """Return which of some particles this process has, and the normals of the walls where they ended."""
         rows = np.flatnonzero(np.isin(self.own.ids, numbers))
         return self.own.ids[rows], self._tracker.contact_normals(self._flow, self.particles, rows)
+
+    def wall_distances(self, x: Floats, numbers: NDArray[np.int64], *others: Any) -> Any:
+        """Return which hosts are in own cells of the node, and the distances from walls there.
+
+        On the first process of a node only; see :func:`foamprb.cloud.surroundings.wall_lift.wall_distances`.
+        """
+        part = self._held
+        if part.flow is None:
+            return None
+        rows, hosts = part.flow.own_hosts(numbers)
+        cuts, chosen = others
+        return rows, wall_distances(MeshFlow.kernels, part.mesh, x[rows], hosts, cuts[rows], chosen)
 
     def use_flow(self, flow: bytes) -> None:
         """Replace the arguments of the flow's kernels and the fields, whose arrays lie in shared memory."""

@@ -231,14 +231,6 @@ def time_of_fluid(time: float | str | None) -> float | str:
     return "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
 
 
-def _why_whole(settings: Settings) -> str | None:
-    """Return why the settings need the whole mesh on each computer; None if they do not."""
-    for name, model in settings.surroundings.items():
-        if model.wall_range > 0.0:
-            return f"{name} examines the walls around the particles at the start"
-    return None
-
-
 def _compile(settings: Settings, rotating: bool) -> Compilation:
     """Begin to compile the loop that the settings select, as far as they determine it."""
     scheme = settings.solution.integrationSchemes.shape
@@ -312,7 +304,7 @@ def _open_flow(
     if ranks is not None:
         solution = settings.solution
         step = solution.deltaT * stretch_of(solution.stride)
-        parts: Any = ranks.open_flow(case, times, source, step, _why_whole(settings))
+        parts: Any = ranks.open_flow(case, times, source, step)
         if parts is not None:
             found: Flow = parts
             return found

@@ -295,16 +295,14 @@ def test_the_nearest_of_all_walls_is_told(monkeypatch):
     flow = still(build_mesh(grid, box_patches(grid)))
     x = np.array([[a, 0.45, 0.6] for a in (0.03, 0.96)])
     x = np.concatenate([np.roll(x, shift, axis=1) for shift in range(3)] + [[[0.5, 0.4, 0.6]]])
-    radius = 0.01
-    p = spheres(x, d=2.0 * radius, rho=1000.0, mu=1.0)
-    p.host[:] = flow.locate(x)
-    every, near = np.ones(len(flow.patches), dtype=np.int8), np.empty(len(x))
+    every, near = np.ones(len(flow.patches), dtype=np.int8), np.full(len(x), np.inf)
     monkeypatch.setattr(wall_lift, "walls", flow.kernels["walls"])
-    wall_lift._nearest_walls(flow.arrays(0.0, (), 0.3, range(len(every))), p, 30.0, every, near)
-    expected = np.minimum(x, 1.0 - x).min(axis=1) / radius
-    expected[expected > 30.0] = np.inf
+    arrays, cuts = flow.arrays(0.0, (), 0.3, range(len(every))), np.full(len(x), 0.3)
+    wall_lift._nearest_walls(arrays, x, flow.locate(x), cuts, every, near)
+    expected = np.minimum(x, 1.0 - x).min(axis=1)
+    expected[expected > 0.3] = np.inf
     assert near == pytest.approx(expected, rel=1e-9)
-    assert expected[:6].max() < 5.0
+    assert expected[:6].max() < 0.05
 
 
 def test_walls_of_a_mesh_act_like_a_half_space():

@@ -102,7 +102,10 @@ class Surrounding:
         return
 
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
-        """Return lines for the log before a run; ``arrays`` are the arguments of the flow's kernels."""
+        """Return lines for the log before a run.
+
+        ``arrays`` are the arguments of the flow's kernels; without a mesh, if nodes hold parts of it.
+        """
         return ()
 
     def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002

@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -80,7 +81,7 @@ from foamprb.compile.link import link, read_by
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.analytic import walls_free as walls
-from foamprb.flow.base import WALLS, Floats, Flow, Patch
+from foamprb.flow.base import WALLS, Floats, Flow, Ints, Patch
 
 __all__ = ["CLOSE", "WallLift"]
 
@@ -438,21 +439,43 @@ def velocity_loss(block: Any, i: int, medium: Medium) -> Vector:
 
 def nearest_walls(p: Particles, arrays: Any, flow: Flow, cut_off: float, chosen: NDArray[np.int8]) -> Floats:
     """Return distances of particles from the nearest wall, in radii, (n,); infinite beyond ``cut_off``."""
-    nearest = np.empty(p.size)
-    bindings = read_by(_nearest_walls, flow.kernels)
-    link(_nearest_walls, bindings)(arrays, p, cut_off, chosen, nearest)
+    # Nodes that share the mesh have its walls.
+    ask = getattr(flow, "wall_distances", partial(wall_distances, flow.kernels, arrays))
+    found: Floats = ask(p.x, p.host, cut_off * p.R, chosen) / p.R
+    return found
+
+
+def wall_distances(
+    kernels: Mapping[str, Callable[..., Any]],
+    arrays: Any,
+    x: Floats,
+    hosts: Ints,
+    cuts: Floats,
+    chosen: NDArray[np.int8],
+) -> Floats:
+    """Return distances of points from the nearest wall, m, (n,); infinite beyond a cut and without a host.
+
+    Parameters
+    ----------
+    kernels, arrays
+        Kernels of a flow, and their arguments.
+    x, hosts, cuts
+        Points (n, 3), m, their hosts (n,), and the largest distances (n,), m.
+    chosen
+        1 for each patch that counts, else 0.
+    """
+    nearest = np.full(len(x), np.inf)
+    link(_nearest_walls, read_by(_nearest_walls, kernels))(arrays, x, hosts, cuts, chosen, nearest)
     return nearest
 
 
 def _nearest_walls(
-    flow: Any, p: Particles, cut_off: float, chosen: NDArray[np.int8], nearest: Floats
+    flow: Any, x: Floats, hosts: Ints, cuts: Floats, chosen: NDArray[np.int8], nearest: Floats
 ) -> None:
     for k in range(len(nearest)):
-        nearest[k] = math.inf
-        if p.host[k] >= 0:
-            x, R = (p.x[k, 0], p.x[k, 1], p.x[k, 2]), p.R[k]
-            found = walls(flow, p.host[k], x, cut_off * R, chosen)
-            nearest[k] = min(found.h1, found.h2, found.h3) / R
+        if hosts[k] >= 0:
+            found = walls(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), cuts[k], chosen)
+            nearest[k] = min(found.h1, found.h2, found.h3)
 
 
 body_gradient: Callable[..., Tensor] = balanced_gradient

@@ -30,6 +30,7 @@ from foamprb.flow.mesh.parting import hold_part
 from foamprb.flow.mesh.submesh import BEYOND, RINGS, Halo, total_of
 from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.partflow import PartFlow
+from foamprb.flow.planes import walls
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.walls import gap
 
@@ -98,6 +99,13 @@ def beyond(arrays, triangles, numbers):
     return [numbers[arrays.partners[begin:end]].tolist() for begin, end in arrays.across[triangles]]
 
 
+def planes_at(arrays, points, hosts, cut):
+    """Walls around points as planes, (n, 12)."""
+    kernel, chosen = link(walls, separate=LONG), np.ones(9, dtype=np.int8)
+    found = [kernel(arrays, h, tuple(x), cut, chosen) for x, h in zip(points, hosts, strict=True)]
+    return np.array([[p.h1, *p.n1, p.h2, *p.n2, p.h3, *p.n3] for p in found])
+
+
 SHAPES = {
     "pipe": lambda: build_mesh(shape := pipe(6, axial=12), pipe_patches(shape)),
     "polyhedra": lambda: build_mesh(shape := block(8, kind="polyhedra"), box_patches(shape)),
@@ -129,7 +137,11 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
     hosts = flow.locate(points)
     near = [k for k, patch in enumerate(mesh.patches) if patch.type == "wall"]
     reach = 0.1 * float(np.ptp(mesh.points, axis=0).max())
-    gaps = gaps_at(flow.arrays(reach, near), points, hosts, 0.1 * reach)
+    lists = reach, near, 2.0 * reach, near
+    gaps = gaps_at(flow.arrays(*lists), points, hosts, 0.1 * reach)
+    planes = planes_at(flow.arrays(*lists), points[hosts >= 0], hosts[hosts >= 0], 2.0 * reach)
+    assert np.isfinite(planes[:, 0]).any()
+    place = np.cumsum(hosts >= 0) - 1
     # Slices, across baffles too, with a cell of another node in one of them.
     along = x + 0.3 * y + 0.1 * z
     parts = np.clip((3 * (along - along.min()) / np.ptp(along)).astype(int), 0, 2)
@@ -151,7 +163,9 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         correction = conserve(u, l)
         part = PartFlow(halo, sub.mesh, u, l, correction=correction)
         assert part.width == flow.width
-        arrays = part.arrays(reach, near)
+        # Walls within sight alone, without those beside them.
+        part._hold_walls(2.0 * reach)
+        arrays = part.arrays(*lists)
         rows, names = part._own_triangles(sub.mesh), triangles_in(mesh, sub)
         everything = np.arange(len(mesh.triangles))
         assert beyond(arrays, rows, names) == beyond(flow.arrays(), names[rows], everything)
@@ -159,6 +173,8 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         own, local = part.own_hosts(numbers)
         np.testing.assert_array_equal(own, np.arange(len(found)))
         np.testing.assert_array_equal(gaps_at(arrays, points[found], local, 0.1 * reach), gaps[found])
+        there = planes_at(arrays, points[found], local, 2.0 * reach)
+        np.testing.assert_array_equal(there, planes[place[found]])
         sampled = part.sample(points[found], local, 0.0)[0]
         np.testing.assert_array_equal(sampled, flow.sample(points[found], hosts[found], 0.0)[0])
         return sub, (u, l, at_points, also), correction, conserve.unbalanced, found, numbers
