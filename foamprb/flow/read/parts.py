@@ -25,6 +25,7 @@ from foamprb.flow.read.case import MissingFieldError, mesh_files
 from foamprb.flow.read.checks import notes_of_types, require_patch_shapes, require_volumes
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, PatchField, read_field
+from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import (
     JOINED,
     Address,
@@ -134,7 +135,7 @@ class PartCase(DecomposedCase):
 
     def _layers(self, pieces: Sequence[Piece], time: str) -> int:
         """Return the number of layers that the fluid at a time does not cross; eddies drift by less."""
-        if self._step == 0.0 or self._source.relative:
+        if self._step == 0.0 or (self._source.relative and read_rotations(self.root, self.region)):
             return self._depth
         name = self._source.velocity
         fields = self._early[Path(time) / self.region / name] = self._read(time, name, VELOCITY_FIELD)
