@@ -45,6 +45,13 @@ def read_poly(files: Sequence[Path], patches: Sequence[PatchInfo]) -> PolyMesh:
     return checked_poly(paths, points, start, lists, owner, neighbour, patches)
 
 
+def count_cells(owner: Ints, neighbour: Ints) -> int:
+    """Return the number of cells; the last ones without faces on the boundary own none."""
+    n = int(owner.max(initial=-1)) + 1
+    further = np.unique(neighbour[neighbour >= n])
+    return n + int(np.count_nonzero(further == n + np.arange(len(further))))
+
+
 def checked_poly(
     paths: Sequence[Path],
     points: Floats,
@@ -73,7 +80,7 @@ def checked_poly(
             f"{paths[1]}: face {face} has point {lists[at]}, but there are {len(points)} points."
         )
     # Each cell has several faces.
-    n_cells = min(int(owner.max()) + 1, n_faces)
+    n_cells = min(count_cells(owner, neighbour), n_faces)
     for path, labels in zip(paths[2:4], (owner, neighbour), strict=True):
         wrong = np.flatnonzero((labels < 0) | (labels >= n_cells))
         if len(wrong):

@@ -25,7 +25,7 @@ from foamprb.flow.read.case import available_times
 from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.field import FoamField, PatchField
 from foamprb.flow.read.foamfile import HEADER_BYTES, FoamFile, Labels, read_blocks, read_cell_zones
-from foamprb.flow.read.polymesh import checked_poly
+from foamprb.flow.read.polymesh import checked_poly, count_cells
 from foamprb.flow.read.times import listed
 
 _ADDRESSING = ("pointProcAddressing", "faceProcAddressing", "cellProcAddressing", "boundaryProcAddressing")
@@ -154,7 +154,7 @@ class Piece(NamedTuple):
     @property
     def n_cells(self) -> int:
         """Return the number of cells."""
-        return int(self.owner.max(initial=-1)) + 1
+        return count_cells(self.owner, self.neighbour)
 
 
 class Address(NamedTuple):
