@@ -201,8 +201,10 @@ class PartFlow(MeshFlow):
         return found
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """See :meth:`MeshFlow.move`; with the fields that are sampled."""
+        """See :meth:`MeshFlow.move`; with the fields that are sampled, and numbers of the cells."""
         super().move(place)
+        self._first_tet, folders = place(self._first_tet), self.halo.folders
+        self.halo.folders = folders._replace(of_cells=place(folders.of_cells))
         self.field_table = place(self.field_table)
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:

@@ -194,7 +194,8 @@ class Halo:
         ):
             wanted = [np.flatnonzero(node == k) if k != team.rank else np.empty(0, np.intp) for k in everyone]
             asked = team.exchange([numbers[rows] for rows in wanted])
-            self._plans[name] = [np.searchsorted(numbers, ids) for ids in asked], wanted
+            given = [np.searchsorted(numbers, ids) for ids in asked]
+            self._plans[name] = [int32(rows) for rows in given], [int32(rows) for rows in wanted]
 
     def fill(self, kind: str, values: NDArray[Any]) -> None:
         """Fill the rows of ``cells``, ``points``, ``faces`` or ``boundary`` of other nodes, in place."""

@@ -116,7 +116,15 @@ class PartCase(DecomposedCase):
             return merged(fragments)
 
         # What fields need of them.
-        self._parts = [address._replace(points=nothing, turned=nothing) for address in addresses]
+        self._parts = [
+            address._replace(
+                points=nothing,
+                turned=nothing,
+                faces=address.faces[len(piece.neighbour) :].copy(),
+                patches=[p._replace(start=p.start - len(piece.neighbour)) for p in address.patches],
+            )
+            for piece, address in zip(pieces, addresses, strict=True)
+        ]
         depth = self._layers(pieces, time)
         part = hold_part(own_cells, surfaces, ranges, n_internal, depth, team, str(folder))
         of_cells = np.zeros(len(part.cells), dtype=np.int32)
