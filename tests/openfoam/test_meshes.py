@@ -11,12 +11,15 @@ import sys
 import numpy as np
 import pytest
 from paths import ROOT
+from threads_team import together
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, read_case, read_mesh_file, spheres
 from foamprb.cli import main
+from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.flows import read_flow
-from foamprb.flow.read.openfoam import Case
+from foamprb.flow.read.openfoam import Case, steady_flow
+from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource
 
 pytestmark = pytest.mark.openfoam
@@ -142,6 +145,25 @@ def test_parts_of_a_case_with_coupled_patches_are_the_whole(name, tool, cases, t
     for gradient in ("", "grad(U)"):
         parts = read_flow(case, source=FlowSource(gradient=gradient, decomposed=True))
         assert_same(read_case(case, gradient=gradient), parts)
+
+
+@pytest.mark.parametrize("addressed", [True, False])
+def test_nodes_read_a_case_with_cut_cyclic_patches(addressed, tool, cases, tmp_path, random):
+    """With addressing files, or joined over processor patches."""
+    case = shutil.copytree(cases("cyclic"), tmp_path / "case")
+    tool.decomposed(case)
+    for path in case.glob("processor*/constant/polyMesh/*Addressing") if not addressed else ():
+        path.unlink()
+    whole = steady_flow(DecomposedCase(case), "latestTime", FlowSource())
+    x = random.uniform(*whole.bounds, (300, 3))
+    hosts = whole.locate(x)
+    u = whole.sample(x, hosts, 0.0)[0]
+    parts = together(2, lambda team: steady_flow(PartCase(case, "", team, 1), "latestTime", FlowSource()))
+    assert sum(np.isin(np.arange(300), part.locate_own(x)[0]) for part in parts).all()
+    for part in parts:
+        rows, numbers, _ = part.locate_own(x)
+        np.testing.assert_array_equal(numbers, hosts[rows])
+        np.testing.assert_array_equal(part.sample(x[rows], part.own_hosts(numbers)[1], 0.0)[0], u[rows])
 
 
 def test_particles_go_round_in_a_cyclic_channel(tool, cases):
