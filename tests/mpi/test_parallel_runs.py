@@ -155,7 +155,7 @@ def assert_same(case: Path, truth: Path, functions: bool = True) -> None:
     last = max((f for f in expected if f.suffix == ".checkpoint"), key=lambda f: float(f.stem))
     assert functions == any(f.name == "tracks.vtp" for f in expected)
     for file in expected:
-        if file.suffix == ".csv" or file in (last, Path("paths/tracks.vtp")):
+        if file.suffix in ("", ".csv") or file in (last, Path("paths/tracks.vtp")):
             assert content(folder_of(case) / file) == content(folder_of(truth) / file), file
     for (at, found), (at_there, arrays) in zip(clouds(case), clouds(truth), strict=True):
         assert at == at_there
@@ -361,11 +361,17 @@ def halves(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("following", [False, True])
-def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves, tmp_path):
+def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves, tmp_path, capsys):
     case = halves
-    edit(case, "^solution", "cloudFunctions { fields { type fieldSampling; fields (U); } } solution")
+    functions = (
+        "fields { type fieldSampling; fields (U); } sums { type particleStatistics; sigmaParticles yes; }"
+    )
+    edit(case, "^solution", f"cloudFunctions {{ {functions} }} solution")
+    edit(case, "gravity;", "gravity; wallLift { cutOff 1000; }")
+    edit(case, r'"\.\*" \{ type escape; \}', 'lid { type escape; } "floor|sides" { type stick; }')
     alone = Path(shutil.copytree(case, tmp_path / "alone"))
     assert main(["run", "-case", str(alone)]) == 0
+    (distances,) = re.findall(r"distance to walls/radius.*", capsys.readouterr().out)
     # However small the mesh is, its arrays are shared.
     hook = "shared_memory._SMALLEST = 100\n" + REGROUPING
     if following:
@@ -376,6 +382,7 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves
     assert done.returncode == 0, done.stderr
     assert "Nodes take processor folders again" in done.stdout
     assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
+    assert distances in done.stdout
     assert_same(case, alone, functions=False)
 
 
