@@ -5,10 +5,10 @@ from __future__ import annotations
 import csv
 import importlib
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from itertools import islice
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import chain, islice
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import orjson
@@ -19,11 +19,14 @@ from foamprb.optional import load
 from foamprb.results.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
+Columns: TypeAlias = dict[str, NDArray[Any]]
 
 # Rows that are converted to text or from it together; their cells fit into the processor's cache.
 _CHUNK = 2048
 _AT_ONCE = 1 << 14
 """Rows of a table whose text is in memory together."""
+_GROUP = 1 << 16
+"""Rows of a row group of Parquet, which are in memory together."""
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 _QUOTE = '"'
 _SPECIAL = re.compile(r'[,"\r\n]')
@@ -40,7 +43,7 @@ class Rows(NamedTuple):
     """Rows of a table of some kind."""
 
     names: tuple[str, ...]
-    values: bytes | dict[str, NDArray[Any]]
+    values: bytes | Columns
     """Text, or columns."""
 
 
@@ -187,19 +190,63 @@ def _parquet(what: str) -> tuple[Any, Any]:
 def _write_parquet(path: Path, parts: Iterable[Rows], before: Callable[[Path], object]) -> None:
     """Write Parquet. Its bytes depend on nothing but the columns and the version of pyarrow."""
     arrow, parquet = _parquet(str(path))
-    found: list[dict[str, NDArray[Any]]] = [part.values for part in parts if isinstance(part.values, dict)]
-    filled = [columns for columns in found if any(map(len, columns.values()))] or found[:1]
-    plain = {name: np.concatenate([columns[name] for columns in filled]) for name in filled[0]}
-    table = arrow.table({name: arrow.array(array) for name, array in plain.items()})
+    groups = _groups(parts)
+    first = next(groups)
     # Doubles of similar size compress better byte by byte.
-    split = [name for name, array in plain.items() if array.dtype.kind == "f"]
-    words = [name for name, array in plain.items() if array.dtype.kind == "O"]
+    split = [name for name, array in first.items() if array.dtype.kind == "f"]
+    words = [name for name, array in first.items() if array.dtype.kind == "O"]
+
+    def table_of(columns: Columns) -> Any:
+        return arrow.table({name: arrow.array(array) for name, array in columns.items()})
+
     with atomic_write(path) as temporary:
-        with temporary.open("wb") as file:
-            parquet.write_table(
-                table, file, compression="zstd", use_dictionary=words, use_byte_stream_split=split
-            )
+        with (
+            temporary.open("wb") as file,
+            parquet.ParquetWriter(
+                file,
+                table_of(first).schema,
+                compression="zstd",
+                use_dictionary=words,
+                use_byte_stream_split=split,
+            ) as writer,
+        ):
+            for columns in chain([first], groups):
+                writer.write_table(table_of(columns))
         before(temporary)
+
+
+def _groups(parts: Iterable[Rows]) -> Iterator[Columns]:
+    """Yield columns of ``_GROUP`` rows, the last of which may have fewer, whatever the sizes of the parts.
+
+    There is at least one group; a table without rows has one without rows.
+    """
+    kept: list[Columns] = []
+    empty: Columns | None = None
+    for part in parts:
+        assert isinstance(part.values, dict)
+        if _length(part.values):
+            kept.append(part.values)
+        else:
+            empty = part.values
+        while sum(map(_length, kept)) > _GROUP:
+            names, whole = kept[0], _joined(kept)
+            yield {name: whole[name][:_GROUP] for name in names}
+            kept = [{name: whole[name][_GROUP:] for name in names}]
+    if kept:
+        yield _joined(kept)
+    elif empty is not None:
+        yield empty
+
+
+def _length(columns: Columns) -> int:
+    return max(map(len, columns.values()), default=0)
+
+
+def _joined(parts: Sequence[Columns]) -> Columns:
+    """Return the columns of several parts, of a single one as they are."""
+    if len(parts) == 1:
+        return parts[0]
+    return {name: np.concatenate([columns[name] for columns in parts]) for name in parts[0]}
 
 
 def _plain(array: NDArray[Any]) -> NDArray[Any]:

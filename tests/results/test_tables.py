@@ -1,7 +1,9 @@
 import csv
 import importlib
 import math
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from hypothesis import strategies as st
 
 from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder
-from foamprb.results.tables import read_table, require_kind, write_table
+from foamprb.results.tables import Rows, read_table, require_kind, rows_of, write_rows, write_table
 
 
 def read(path: Path) -> list[list[str]]:
@@ -137,6 +139,42 @@ def test_parquet_has_the_columns_of_the_text(tmp_path: Path) -> None:
         assert column.tolist() == found[1][name].tolist()
     assert ResultsFolder(tmp_path, "cloud").find_table("u") is None
     assert read_table(tmp_path / "t.csv", words=("id",))["id"].tolist() == ["7", "8"]
+
+
+def write_in_parts(path: Path, columns: dict[str, Any], size: int, patch: pytest.MonkeyPatch) -> int:
+    """Write a table in parts of some rows and empty parts; return the most rows that wait to be written."""
+    parquet = pytest.importorskip("pyarrow.parquet")
+    write, written, waiting = parquet.ParquetWriter.write_table, [0], [0]
+
+    def count(writer: Any, table: Any) -> None:
+        written.append(written[-1] + len(table))
+        write(writer, table)
+
+    def parts() -> Iterator[Rows]:
+        for start in range(0, len(columns["id"]), size):
+            yield rows_of({name: column[:0] for name, column in columns.items()}, "parquet")
+            waiting.append(start - written[-1])
+            yield rows_of({k: column[start : start + size] for k, column in columns.items()}, "parquet")
+
+    patch.setattr(parquet.ParquetWriter, "write_table", count)
+    write_rows(path, parts())
+    patch.setattr(parquet.ParquetWriter, "write_table", write)
+    return max(waiting)
+
+
+def test_parquet_is_written_in_groups_that_do_not_depend_on_the_parts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("foamprb.results.tables._GROUP", 100)
+    columns = {"id": np.arange(1050), "x": np.linspace(0.0, 1.0, 1050), "w": np.array(["a", "bc"] * 525, "O")}
+    path, found = tmp_path / "t.parquet", set()
+    for size in (7, 250, 2000):
+        assert write_in_parts(path, columns, size, monkeypatch) <= size + 200
+        found.add(path.read_bytes())
+    assert len(found) == 1
+    groups = pytest.importorskip("pyarrow.parquet").ParquetFile(path).metadata
+    assert [groups.row_group(k).num_rows for k in range(groups.num_row_groups)] == [100] * 10 + [50]
+    assert read_table(path)["w"].tolist() == columns["w"].tolist()
 
 
 def test_broken_parquet_is_reported(tmp_path: Path) -> None:
