@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple, TypeVar
+from os import PathLike
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +18,11 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
-from foamprb.cloud.measures import path_stokes_number, shape_stokes_number
+from foamprb.cloud.measures import as_slice, path_stokes_number, shape_stokes_number
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
 from foamprb.cloud.stability import unstable, warning_of
-from foamprb.cloud.state import REASONS, Particles, Reason, Status
+from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
@@ -33,11 +34,58 @@ __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 Value = TypeVar("Value")
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
 PART = 1 << 14
-"""Particles in a part of :meth:`Stepper.in_order`."""
+"""Particles in a part of :meth:`Cloud.in_order`."""
 _FIRST_CHECK = 4
 """Steps before the stability of ``paper`` is first checked; it is again whenever they have doubled."""
 _ROUND_OFF = 1e-6
 """Share of a step by which it may end after the time until which the flow is ready."""
+
+
+class Homes(Protocol):
+    """Particles that several processes hold, each of them particles of consecutive numbers."""
+
+    size: int
+    """Number of all particles."""
+
+    @property
+    def memory(self) -> Mapping[str, NDArray[Any]]:
+        """What cloud functions remember of the particles of this process, by ``function/array``."""
+
+    @property
+    def firsts(self) -> tuple[int, ...]:
+        """Number of the first particle of each process that has some; (0,) without particles."""
+
+    def at_homes(self, function: Callable[..., Value], *arguments: Any, of: str | None = None) -> list[Value]:
+        """See :meth:`Cloud.at_homes`; ``of`` adds what a cloud function remembers to the arguments."""
+
+    def in_order(
+        self, function: Callable[..., Value], *arguments: Any, of: str | None = None
+    ) -> Iterator[Value]:
+        """See :meth:`Cloud.in_order` and :meth:`at_homes`."""
+
+    def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
+        """Make room for arrays of cloud functions, given without rows by ``function/array``."""
+
+    def update(
+        self,
+        name: str,
+        change: Callable[[Particles, dict[str, NDArray[Any]]], Mapping[str, NDArray[Any]]],
+        numbers: NDArray[np.int64] | None = None,
+    ) -> None:
+        """Change what a cloud function remembers of the particles, part by part on this process.
+
+        Parameters
+        ----------
+        name
+            The function.
+        change
+            Returns what is remembered afterwards, for particles and what is remembered of them.
+        numbers
+            Particles, in ascending order, without which a part is left out; None for all.
+        """
+
+    def restore(self, file: PathLike[str]) -> None:
+        """Read the particles, and what is remembered of them, from a checkpoint."""
 
 
 class Snapshot(NamedTuple):
@@ -58,7 +106,7 @@ class Cloud:
     Parameters
     ----------
     particles
-        The state; :meth:`advance` changes it in place.
+        The state; :meth:`advance` changes it in place. With ``homes``, that of the first process.
     flow
         Any :class:`~foamprb.flow.base.Flow`.
     medium
@@ -84,6 +132,8 @@ class Cloud:
         Limits of each particle.
     decoupled
         Names of coupled patches with other interactions than ``Cyclic``.
+    homes
+        The processes that hold the particles; by default this one alone.
 
     Raises
     ------
@@ -108,6 +158,7 @@ class Cloud:
     reach: float = 0.0
     limits: Limits = field(default_factory=Limits)
     decoupled: Collection[str] = ()
+    homes: Homes | None = None
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -119,30 +170,32 @@ class Cloud:
                     f"and has the interaction {type(interaction).__name__}: use foamprb.patch_interactions, "
                     "or name it in decoupled"
                 )
-        p = self.particles
-        _refuse_mixture(p, self.models.material)
-        tense = bool((p.gamma != 0.0).any())
-        p.number[:] = np.arange(p.size)
-        _refuse_extreme(p, self.medium)
-        _refuse_early(p, self.start)
-        _find_hosts(p, self.flow)
+        self.at_homes(_refuse_mixture, self.models.material)
+        tense = any(self.at_homes(_is_tense))
+        if self.homes is None:
+            self.particles.number[:] = np.arange(self.size)
+        self.at_homes(_refuse_extreme, self.medium)
+        self._refuse_early()
+        if self.homes is None:
+            find_hosts(self.particles, self.flow)
+        self.stokes_numbers: tuple[float, float] | None = None
+        """Largest of the shape and of the path, if the integrator follows from them."""
         if self.models.integrator == "auto":
-            moving = p.take(p.status <= Status.ACTIVE)
-            medium = medium_at(self.medium, self.flow, moving, self.time)
-            shape = shape_stokes_number(moving, self.flow, medium.mu, self.time)
-            path = path_stokes_number(moving, self.flow, medium, self.time)
-            self.models = replace(self.models, integrator=automatic(max(shape, path), self.models.material))
+            self.stokes_numbers = self._find_stokes_numbers()
+            chosen = automatic(max(self.stokes_numbers), self.models.material)
+            self.models = replace(self.models, integrator=chosen)
         check(self.models, tense)
-        for model in (*model_of(self.medium.mu), *self.models.surroundings):
+        around = (*model_of(self.medium.mu), *self.models.surroundings)
+        for model in around:
             model.check(self.flow.patches)
-            model.begin(p)
             for kernel in model.required_kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
+        self.at_homes(_begin, around)
         self._warned: set[str] = set()
         self._next_check = self.step + _FIRST_CHECK
         self._reach_grows = True
-        self._largest = float(p.R.max(initial=0.0))
+        self._largest = max(self.at_homes(_largest_radius))
         self._refuse_large()
         self.tracker = Tracker(
             self.models,
@@ -151,10 +204,57 @@ class Cloud:
             self.interactions,
             self.dt,
             self.start,
-            shaped=bool((np.eye(3).ravel() != p.F0).any()),
+            shaped=any(self.at_homes(_is_shaped)),
             tense=tense,
             patches=self.flow.patches,
         )
+
+    @property
+    def size(self) -> int:
+        """Number of particles, those of other processes included."""
+        return self.particles.size if self.homes is None else self.homes.size
+
+    def at_homes(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """Return what a function finds of the particles of each process.
+
+        Parameters
+        ----------
+        function
+            Called with particles of consecutive numbers, and the ``arguments``.
+        """
+        if self.homes is None:
+            return [function(self.particles, *arguments)]
+        return self.homes.at_homes(function, *arguments)
+
+    def in_order(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+        """Yield what a function finds of all particles, part by part in the order of their numbers.
+
+        A cloud without particles has one part. See :meth:`at_homes`.
+        """
+        if self.homes is None:
+            return parts_in_order(self.particles, function, *arguments)
+        return self.homes.in_order(function, *arguments)
+
+    def of(self, numbers: NDArray[np.int64]) -> Particles:
+        """Return particles by their numbers, in this order."""
+        if self.homes is None:
+            return self.particles.take(numbers)
+        sought, order = np.unique(numbers, return_inverse=True)
+        return concatenate(self.homes.at_homes(_chosen, sought)).take(order)
+
+    def values_of(self, numbers: NDArray[np.int64], name: str) -> NDArray[Any]:
+        """Return one array of particles by their numbers, in this order."""
+        sought, order = np.unique(numbers, return_inverse=True)
+        return np.asarray(np.concatenate(self.at_homes(_values_of, sought, name))[order])
+
+    def whole(self) -> Particles:
+        """Return all particles, which takes the memory of the whole cloud if there are ``homes``."""
+        return self.particles if self.homes is None else concatenate(self.homes.at_homes(same))
+
+    def counts(self) -> dict[Status, int]:
+        """Return the number of particles of each status."""
+        found = self.at_homes(Particles.counts)
+        return {status: sum(counts[status] for counts in found) for status in Status}
 
     @property
     def time(self) -> float:
@@ -263,8 +363,8 @@ class Cloud:
         particles = self.particles.copy_changing(into, self.tracker.changing, self.threads)
         return Snapshot(particles, self.flow, self.time, self.step, self.recovered, self.reach)
 
-    def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Return unit normals, into the fluid, of the walls on which particles ended.
+    def contact_normals(self, p: Particles) -> NDArray[np.float64]:
+        """Return unit normals, into the fluid, of the walls on which particles of the cloud ended.
 
         Returns
         -------
@@ -273,9 +373,9 @@ class Cloud:
         self._grow_reach()
         remote = getattr(self.flow, "normals_of", None)
         if remote is not None:
-            found: NDArray[np.float64] = remote(rows)
+            found: NDArray[np.float64] = remote(p.number)
             return found
-        return self.tracker.contact_normals(self.flow_arrays(), self.particles, rows)
+        return self.tracker.contact_normals(self.flow_arrays(), p, np.arange(p.size))
 
     def flow_arrays(self) -> Any:
         """Return the arguments of the flow's kernels, with walls within :attr:`reach` or a model's range."""
@@ -307,7 +407,7 @@ class Cloud:
     def _grow_reach(self) -> None:
         """Set the reach at the start beyond the range of the longest particle."""
         if self.reach == 0.0:
-            self.reach = SEEN * _REACH_MARGIN * longest_semi_axis(self.particles)
+            self.reach = SEEN * _REACH_MARGIN * max(self.at_homes(longest_semi_axis))
 
     def extend_reach(self) -> None:
         """List walls farther away, unless the lists would be too long: then bodies that need it fail."""
@@ -319,16 +419,34 @@ class Cloud:
 
     def _refuse_large(self) -> None:
         """Raise InputError if a particle that has not ended is larger than the flow is wide."""
-        p, most = self.particles, self.bounds.maxLength
-        longest = p.R * longest_stretch(tuple(p.F.T))
-        wrong = np.flatnonzero((longest > most) & (p.status <= Status.ACTIVE))
-        if len(wrong):
+        most = self.bounds.maxLength
+        numbers, lengths = map(np.concatenate, zip(*self.at_homes(_longer_than, most), strict=True))
+        if len(numbers):
             raise InputError(
-                f"{len(wrong)} of {p.size} particles are too large for the flow, which is "
-                f"{self.flow.width:g} m wide: the longest semi-axis of particle {wrong[0]} is "
-                f"{longest[wrong[0]]:g} m. Allowed: up to {most:g} m, maxSize = {self.limits.maxSize:g} "
+                f"{len(numbers)} of {self.size} particles are too large for the flow, which is "
+                f"{self.flow.width:g} m wide: the longest semi-axis of particle {numbers[0]} is "
+                f"{lengths[0]:g} m. Allowed: up to {most:g} m, maxSize = {self.limits.maxSize:g} "
                 "times the width; are diameters in m"
             )
+
+    def _refuse_early(self) -> None:
+        """Raise InputError if a particle would appear before the start."""
+        early = np.concatenate(self.at_homes(_released_before, self.start))
+        if len(early):
+            raise InputError(
+                f"{len(early)} of {self.size} particles would appear before the start of the run at "
+                f"{self.start:g} s, the first at {early.min():g} s"
+            )
+
+    def _find_stokes_numbers(self) -> tuple[float, float]:
+        """Return the largest Stokes numbers of shape and path of the particles that have not ended."""
+        found = [(0.0, 0.0)]
+        for moving in self.in_order(_moving):
+            medium = medium_at(self.medium, self.flow, moving, self.time)
+            shape = shape_stokes_number(moving, self.flow, medium.mu, self.time)
+            found.append((shape, path_stokes_number(moving, self.flow, medium, self.time)))
+        shapes, paths = zip(*found, strict=True)
+        return max(shapes), max(paths)
 
 
 _LEAST, _MOST = 1e-30, 1e30
@@ -347,8 +465,9 @@ def _refuse_extreme(p: Particles, medium: Medium) -> None:
     for name, values, unit in properties:
         wrong = np.flatnonzero((values != 0.0) & ~((values >= _LEAST) & (values <= _MOST)))
         if len(wrong):
+            number = p.number[wrong[0]] if p.size else 0
             raise InputError(
-                f"{name.format(wrong[0])} is {values[wrong[0]]:g} {unit}. Allowed: {_LEAST:g} to {_MOST:g} "
+                f"{name.format(number)} is {values[wrong[0]]:g} {unit}. Allowed: {_LEAST:g} to {_MOST:g} "
                 f"{unit}; are the units right"
             )
 
@@ -363,9 +482,6 @@ class Stepper:
     cloud
         The cloud; its arrays change in place.
     """
-
-    firsts: tuple[int, ...] = (0,)
-    """Number of the first gathered particle of each process that has some."""
 
     def __init__(self, cloud: Cloud) -> None:
         self.cloud = cloud
@@ -417,29 +533,6 @@ class Stepper:
     def regroup(self) -> None:
         """Distribute the gathered particles again if that pays; no-op on one process."""
 
-    def at_homes(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
-        """Return what a function finds of the gathered particles of each process.
-
-        Parameters
-        ----------
-        function
-            Called with particles of consecutive numbers, and the ``arguments``.
-        """
-        return [function(self.cloud.particles, *arguments)]
-
-    def in_order(
-        self, function: Callable[..., Value], *arguments: Any, own: tuple[Any, ...] = ()
-    ) -> Iterator[Value]:
-        """Yield what a function finds of all gathered particles, part by part in the order of their numbers.
-
-        Parameters
-        ----------
-        function
-            Called with particles of consecutive numbers, the ``arguments``, and those that only the first
-            process has.
-        """
-        yield from parts_in_order(self.cloud.particles, function, *arguments, *own)
-
     def counts(self) -> dict[Status, int]:
         """Return the number of particles of each status, gathered or not."""
         return self.cloud.particles.counts()
@@ -452,10 +545,31 @@ class Stepper:
         )
 
 
+def parts_of(n: int) -> Iterator[slice]:
+    """Yield the rows of each part of n particles; once without particles."""
+    return (slice(start, start + PART) for start in range(0, max(n, 1), PART))
+
+
 def parts_in_order(p: Particles, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
     """Yield what a function finds of particles, part by part; once without particles."""
-    for start in range(0, max(p.size, 1), PART):
-        yield function(p.take(slice(start, start + PART)), *arguments)
+    return (function(p.take(part), *arguments) for part in parts_of(p.size))
+
+
+def same(p: Particles) -> Particles:
+    """Return the particles themselves, for :meth:`Cloud.at_homes` and :meth:`Cloud.in_order`."""
+    return p
+
+
+def regrouped(parts: Iterable[Particles], n: int) -> Iterator[Particles]:
+    """Yield the same particles in parts of n, the last of which may be smaller; at least one part."""
+    kept: list[Particles] = []
+    for part in parts:
+        kept.append(part)
+        while sum(p.size for p in kept) > n:
+            whole = concatenate(kept)
+            yield whole.take(slice(n))
+            kept = [whole.take(slice(n, None))]
+    yield concatenate(kept)
 
 
 def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
@@ -502,16 +616,57 @@ def _refuse_mixture(p: Particles, material: str) -> None:
         raise InputError("a drop is a sphere at rest with the tension mu R. Allowed: neither F0 nor gamma")
 
 
-def _refuse_early(p: Particles, start: float) -> None:
-    early = np.flatnonzero((p.status == Status.PENDING) & (p.t0 < start))
-    if len(early):
-        raise InputError(
-            f"{len(early)} of {p.size} particles would appear before the start of the run at {start:g} s, "
-            f"the first at {p.t0[early].min():g} s"
-        )
+def _is_tense(p: Particles) -> bool:
+    return bool((p.gamma != 0.0).any())
 
 
-def _find_hosts(p: Particles, flow: Flow) -> None:
+def _is_shaped(p: Particles) -> bool:
+    return bool((np.eye(3).ravel() != p.F0).any())
+
+
+def _largest_radius(p: Particles) -> float:
+    return float(p.R.max(initial=0.0))
+
+
+def _moving(p: Particles) -> Particles:
+    return p.take(as_slice(np.flatnonzero(p.status <= Status.ACTIVE)))
+
+
+def _begin(p: Particles, models: Sequence[Any]) -> None:
+    """Set the arrays of particles that models of the surroundings keep."""
+    for model in models:
+        model.begin(p)
+
+
+def _released_before(p: Particles, start: float) -> NDArray[np.float64]:
+    """Return the times of release before the start, s."""
+    return np.asarray(p.t0[(p.status == Status.PENDING) & (p.t0 < start)])
+
+
+def _longer_than(p: Particles, most: float) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return numbers and longest semi-axes, m, of particles beyond a length that have not ended."""
+    longest = p.R * longest_stretch(tuple(p.F.T))
+    wrong = (longest > most) & (p.status <= Status.ACTIVE)
+    return p.number[wrong], longest[wrong]
+
+
+def _rows_of(p: Particles, numbers: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the rows of the particles that have some of the numbers, in ascending order."""
+    first = int(p.number[0]) if p.size else 0
+    return numbers[(numbers >= first) & (numbers < first + p.size)] - first
+
+
+def _chosen(p: Particles, numbers: NDArray[np.int64]) -> Particles:
+    return p.take(_rows_of(p, numbers))
+
+
+def _values_of(p: Particles, numbers: NDArray[np.int64], name: str) -> NDArray[Any]:
+    values: NDArray[Any] = getattr(p, name)
+    return values[_rows_of(p, numbers)]
+
+
+def find_hosts(p: Particles, flow: Flow) -> None:
+    """Find the hosts of particles that have none; raise InputError for those outside the flow."""
     homeless = np.flatnonzero((p.host < 0) & (p.status <= Status.ACTIVE))
     if len(homeless) == 0:
         return

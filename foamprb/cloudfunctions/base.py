@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Cloud, Value, parts_of
 from foamprb.cloud.contact import Rebounds, passages
 from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts, fields_at
 from foamprb.cloud.patches import CYCLIC, Interaction
@@ -36,6 +36,7 @@ __all__ = [
     "append",
     "columns",
     "masses",
+    "memory_of",
     "names_of",
     "store",
     "taylor_of",
@@ -57,11 +58,54 @@ class ObservedCloud:
     patches: tuple[str, ...]
     tables: str = "csv"
     """Kind of the tables of functions, and suffix of their files."""
+    seen: Particles | None = None
+    """Particles that are observed; None for all."""
+    name: str = ""
+    """Name of the function that observes."""
 
     @property
     def particles(self) -> Particles:
-        """The whole cloud, pending particles included."""
-        return self.cloud.particles
+        """The observed particles, pending ones included; their rows are those of the other methods."""
+        return self.cloud.whole() if self.seen is None else self.seen
+
+    def seeing(self, p: Particles) -> ObservedCloud:
+        """Return the same cloud with other observed particles."""
+        return replace(self, seen=p)
+
+    def of(self, numbers: Rows) -> ObservedCloud:
+        """Return the same cloud with the particles of some numbers, in their order."""
+        return self.seeing(self.cloud.of(numbers))
+
+    def at_homes(self, remembered: Memory, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """Return what a function finds of the particles of each process.
+
+        Parameters
+        ----------
+        remembered
+            Arrays of the function that observes with a row for each particle, see
+            :meth:`CloudFunction.of_particles`.
+        function
+            Called with particles of consecutive numbers, the arrays of these particles, and the
+            ``arguments``; other processes import it.
+        """
+        if self.cloud.homes is None:
+            return [function(self.cloud.particles, remembered, *arguments)]
+        return self.cloud.homes.at_homes(function, *arguments, of=self.name)
+
+    def in_order(
+        self, remembered: Memory, function: Callable[..., Value], *arguments: Any
+    ) -> Iterator[Value]:
+        """Yield what a function finds of all particles, part by part in the order of their numbers.
+
+        See :meth:`at_homes`. A cloud without particles has one part.
+        """
+        if self.cloud.homes is not None:
+            return self.cloud.homes.in_order(function, *arguments, of=self.name)
+        p = self.cloud.particles
+        return (
+            function(p.take(part), {key: array[part] for key, array in remembered.items()}, *arguments)
+            for part in parts_of(p.size)
+        )
 
     @property
     def time(self) -> float:
@@ -81,8 +125,9 @@ class ObservedCloud:
 
         See :func:`foamprb.cloud.measures.contexts`; they come in parts.
         """
+        p = self.particles
         for start in range(0, max(len(rows), 1), PER_CONTEXT):
-            yield from self._contexts_of(self.particles.take(as_slice(rows[start : start + PER_CONTEXT])))
+            yield from self._contexts_of(p.take(as_slice(rows[start : start + PER_CONTEXT])))
 
     def collect_of(self, p: Particles, *values: Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
         """Return values of particles that may differ from the cloud's present state."""
@@ -124,9 +169,15 @@ class CloudFunction:
         """Tracking steps between two samples: ``sampleInterval``, or 0 for samples at write times only."""
         return int(getattr(self, "sampleInterval", 0))
 
+    whole: ClassVar[bool] = True
+    """Whether it reads ``particles`` of the whole cloud, which the first process of several then collects for
+    each call. Otherwise it uses :meth:`ObservedCloud.of`, ``at_homes`` and ``in_order``, or has
+    :attr:`rows`."""
+    rows: ClassVar[bool] = False
+    """Whether all its arrays have a row for each particle, but :attr:`events` and :attr:`common`. It can then
+    begin and sample with some particles and their rows at a time."""
     travels: ClassVar[bool] = False
-    """Whether it can sample particles wherever they are, as its data of a particle can go with it. All arrays
-    then have a row for each particle, but :attr:`events` and :attr:`common`."""
+    """Whether it can sample particles wherever they are, as its :attr:`rows` can go with them."""
     events: ClassVar[str] = ""
     """Name of the array with a row for each event: number of the particle, time, and others."""
     common: ClassVar[frozenset[str]] = frozenset({"history", "written", "warned"})
@@ -141,8 +192,17 @@ class CloudFunction:
         """Return the initial data; raise InputError if the cloud lacks a name in the entries."""
         return {}
 
+    def of_particles(self, memory: Memory) -> Memory:
+        """Return the arrays with a row for each particle."""
+        if not self.rows:
+            return {}
+        return {key: array for key, array in memory.items() if key not in {self.events, *self.common}}
+
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Record a sample of the cloud, every ``interval`` steps and before each writing."""
+
+    def end_sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Complete a sample after all particles have been sampled, some at a time or all together."""
 
     def watched(self, memory: Memory) -> Rows | None:  # noqa: ARG002
         """Return the numbers of the particles that it samples next; by default None, for all."""
@@ -153,7 +213,7 @@ class CloudFunction:
         raise NotImplementedError
 
     def fates(self, memory: Memory, cloud: ObservedCloud) -> Mapping[str, Column]:  # noqa: ARG002
-        """Return columns of ``fates``, with a row for each particle of the cloud; by default none."""
+        """Return columns of ``fates``, with a row for each observed particle; by default none."""
         return {}
 
     def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:  # noqa: ARG002
@@ -173,6 +233,9 @@ class SampledFunction(CloudFunction):
 
     Between two samples a particle is not observed, but the last sample is at its exact end.
     """
+
+    whole: ClassVar[bool] = False
+    rows: ClassVar[bool] = True
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return the values of particles that are stored at each sample, by name."""
@@ -209,6 +272,12 @@ def store(memory: Memory, rows: Rows, values: Memory) -> None:
     """Store values of the particles of some rows."""
     for name, array in values.items():
         memory[name][rows] = array
+
+
+def memory_of(memory: Mapping[str, NDArray[Any]], name: str) -> Memory:
+    """Return the arrays of a function among those of all, by ``function/array``; all without a name."""
+    own = f"{name}/" if name else ""
+    return {key.removeprefix(own): array for key, array in memory.items() if key.startswith(own)}
 
 
 def append(memory: Memory, name: str, lines: Any) -> NDArray[np.float64]:

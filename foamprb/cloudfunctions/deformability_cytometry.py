@@ -123,7 +123,7 @@ class DeformabilityCytometry(PlaneFunction):
         names = ("area", "perimeter", "a", "b", "deformation")
         write_table(
             folder / f"cytometry.{cloud.tables}",
-            {"id": rows, "injector": names_of(cloud.injectors, cloud.particles.injector[rows]),
+            {"id": rows, "injector": names_of(cloud.injectors, cloud.cloud.values_of(rows, "injector")),
              "t": seen[:, 1], **columns("xyz", seen[:, 2:5]), "direction": seen[:, 5].astype(np.int64),
              **columns(names, seen[:, 6:])},
         )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -10,7 +10,7 @@ from typing import Annotated
 import numpy as np
 
 from foamprb.cloud.measures import name_of_field
-from foamprb.cloud.state import Status
+from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
     Memory,
@@ -24,7 +24,8 @@ from foamprb.dictionary.constraints import Meaning, Words
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.fields import FieldValues, columns_of
-from foamprb.results.tables import Column, write_table
+from foamprb.results.tables import Column, rows_of, write_rows
+from foamprb.results.tables import Rows as TableRows
 
 __all__ = ["FieldSampling"]
 
@@ -84,21 +85,9 @@ class FieldSampling(SampledFunction):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the values of all particles that were released."""
-        p = cloud.particles
-        rows = np.flatnonzero(p.status != Status.PENDING)
-        duration = (memory["t"] - p.t0)[rows, None]
-        table: dict[str, Column] = {
-            "id": rows,
-            "injector": names_of(cloud.injectors, p.injector[rows]),
-            "fate": names_of(STATUS_NAMES, p.status[rows]),
-            "time": memory["t"][rows],
-        }
-        last = memory["value"][rows]
-        mean = np.divide(memory["integral"][rows], duration, out=last.copy(), where=duration > 0.0)
-        for k, (name, own) in enumerate(self._columns(cloud)):
-            table |= _named(name, "", last[:, own]) | _named(name, "Mean", mean[:, own])
-            table[f"{name}Max"] = memory["largest"][rows, k]
-        write_table(folder / f"fields.{cloud.tables}", table)
+        columns = self._columns(cloud)
+        rows = cloud.in_order(self.of_particles(memory), _values_of, columns, cloud.injectors, cloud.tables)
+        write_rows(folder / f"fields.{cloud.tables}", rows)
 
     def fates(self, memory: Memory, cloud: ObservedCloud) -> Mapping[str, Column]:
         """Return the last values."""
@@ -118,6 +107,26 @@ class FieldSampling(SampledFunction):
 
     def _table(self, fields: Mapping[str, FieldValues]) -> Floats:
         return np.concatenate([f.values for _, f in self._own(fields)], axis=1)
+
+
+def _values_of(
+    p: Particles, memory: Memory, fields: Sequence[tuple[str, slice]], injectors: Sequence[str], tables: str
+) -> TableRows:
+    """Return the rows of the particles that were released."""
+    rows = np.flatnonzero(p.status != Status.PENDING)
+    duration = (memory["t"] - p.t0)[rows, None]
+    table: dict[str, Column] = {
+        "id": p.number[rows],
+        "injector": names_of(injectors, p.injector[rows]),
+        "fate": names_of(STATUS_NAMES, p.status[rows]),
+        "time": memory["t"][rows],
+    }
+    last = memory["value"][rows]
+    mean = np.divide(memory["integral"][rows], duration, out=last.copy(), where=duration > 0.0)
+    for k, (name, own) in enumerate(fields):
+        table |= _named(name, "", last[:, own]) | _named(name, "Mean", mean[:, own])
+        table[f"{name}Max"] = memory["largest"][rows, k]
+    return rows_of(table, tables)
 
 
 _COMPONENTS = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from foamprb.body.morphology import Rates, morphology_step
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.patches import CYCLIC, Interaction
-from foamprb.cloud.state import Status
+from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
     Memory,
@@ -29,7 +29,8 @@ from foamprb.cloudfunctions.base import (
 )
 from foamprb.dictionary.constraints import Choice, Meaning, Positive
 from foamprb.errors import InputError
-from foamprb.results.tables import write_table
+from foamprb.results.tables import Rows as TableRows
+from foamprb.results.tables import rows_of, write_rows, write_table
 
 __all__ = [
     "POWER_LAWS",
@@ -282,21 +283,20 @@ class Haemolysis(SampledFunction):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the damage of all particles that were released, and the means by injection model."""
-        p = cloud.particles
-        rows = np.flatnonzero(p.status != Status.PENDING)
-        self._warn(memory, cloud, rows, folder.name)
-        # The laws exceed 100 % beyond the stresses of their fits.
-        index = np.minimum(index_of_haemolysis(self.law, memory["dose"]), 100.0)
-        write_table(
-            folder / f"haemolysis.{cloud.tables}",
-            {"id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),
-             "fate": names_of(STATUS_NAMES, p.status[rows]), "residenceTime": (memory["t"] - p.t0)[rows],
-             "haemolysis": index[rows]},
-        )  # fmt: skip
+        found: list[_Damage] = []
+
+        def rows() -> Iterator[TableRows]:
+            of_particles = self.of_particles(memory)
+            for damage in cloud.in_order(of_particles, self._damage, cloud.injectors, cloud.tables):
+                found.append(damage._replace(rows=TableRows((), b"")))
+                yield damage.rows
+
+        write_rows(folder / f"haemolysis.{cloud.tables}", rows())
+        self._warn(memory, found, folder.name)
         lines = []
         for number in range(len(cloud.injectors)):
-            own = rows[(p.injector[rows] == number) & (p.status[rows] != Status.FAILED)]
-            lines.append([cloud.time, number, len(own), index[own].mean() if len(own) else np.nan])
+            own = np.concatenate([damage.indices[number] for damage in found])
+            lines.append([cloud.time, number, len(own), own.mean() if len(own) else np.nan])
         time, injector, n, mean = append(memory, "history", lines).T
         write_table(
             folder / f"means.{cloud.tables}",
@@ -304,19 +304,56 @@ class Haemolysis(SampledFunction):
              "parcels": n.astype(np.int64), "haemolysis": mean},
         )  # fmt: skip
 
-    def _warn(self, memory: Memory, cloud: ObservedCloud, rows: Rows, name: str) -> None:
+    def _damage(self, p: Particles, memory: Memory, injectors: Sequence[str], tables: str) -> _Damage:
+        """Return the damage of some particles."""
+        rows = np.flatnonzero(p.status != Status.PENDING)
+        # The laws exceed 100 % beyond the stresses of their fits.
+        index = np.minimum(index_of_haemolysis(self.law, memory["dose"]), 100.0)[rows]
+        times, peak = (memory["t"] - p.t0)[rows], memory["peak"][rows]
+        sound, injector = p.status[rows] != Status.FAILED, p.injector[rows]
+        return _Damage(
+            rows_of(
+                {"id": p.number[rows], "injector": names_of(injectors, injector),
+                 "fate": names_of(STATUS_NAMES, p.status[rows]), "residenceTime": times,
+                 "haemolysis": index},
+                tables,
+            ),
+            [index[sound & (injector == number)] for number in range(len(injectors))],
+            len(rows),
+            int(np.count_nonzero((peak > self.law.most) | (times > self.law.longest))),
+            float(peak.max(initial=-np.inf)),
+            float(times.max(initial=-np.inf)),
+        )  # fmt: skip
+
+    def _warn(self, memory: Memory, found: Sequence[_Damage], name: str) -> None:
         """Warn, once in a run, of stresses and times beyond the experiments of the constants."""
-        times, peak = (memory["t"] - cloud.particles.t0)[rows], memory["peak"][rows]
-        beyond = (peak > self.law.most) | (times > self.law.longest)
-        if not beyond.any() or memory["warned"][0]:
+        beyond = sum(damage.beyond for damage in found)
+        if not beyond or memory["warned"][0]:
             return
         memory["warned"] = np.ones(1)
         log.warning(
             "cloudFunctions/%s: %d of %d particles are beyond the range of the constants %s, stresses from "
             "%g to %g Pa and times up to %g s: their largest stress is %.3g Pa, the longest time %.3g s.",
-            name, np.count_nonzero(beyond), len(rows), self.constants, self.law.least, self.law.most,
-            self.law.longest, peak.max(), times.max(),
+            name, beyond, sum(damage.released for damage in found), self.constants, self.law.least,
+            self.law.most, self.law.longest, max(damage.peak for damage in found),
+            max(damage.longest for damage in found),
         )  # fmt: skip
+
+
+class _Damage(NamedTuple):
+    """Damage of some particles."""
+
+    rows: TableRows
+    """Of those that were released."""
+    indices: list[Floats]
+    """Index of haemolysis of the sound ones of each injection model, %."""
+    released: int
+    beyond: int
+    """Number beyond the range of the constants."""
+    peak: float
+    """Largest stress, Pa."""
+    longest: float
+    """Longest time, s."""
 
 
 def _between(a: Floats, b: Floats, share: Floats) -> Floats:

@@ -80,7 +80,7 @@ class ParticleCollector(PlaneFunction):
         crossings = memory["crossings"]
         id_, t, x, y, z, sense, D, mass = crossings.T
         rows = id_.astype(np.int64)
-        injector = cloud.particles.injector[rows]
+        injector = cloud.cloud.values_of(rows, "injector")
         names = names_of(cloud.injectors, injector)
         write_table(
             folder / f"crossings.{cloud.tables}",

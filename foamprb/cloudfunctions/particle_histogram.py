@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
@@ -22,7 +22,8 @@ from foamprb.cloudfunctions.base import (
 )
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
-from foamprb.results.tables import Column, write_table
+from foamprb.results.tables import Column, rows_of, write_rows, write_table
+from foamprb.results.tables import Rows as TableRows
 
 __all__ = ["ParticleHistogram"]
 
@@ -86,22 +87,46 @@ class ParticleHistogram(SampledFunction):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the tables of all particles that were released; the distributions leave out the failed."""
-        p = cloud.particles
-        rows = np.flatnonzero(p.status != Status.PENDING)
-        values = {name: exposure(memory, p)[rows] for name, exposure in _EXPOSURES.items()}
-        write_table(
-            folder / f"exposure.{cloud.tables}",
-            {"id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),
-             "fate": names_of(STATUS_NAMES, p.status[rows]), **values},
-        )  # fmt: skip
-        sound = p.status[rows] != Status.FAILED
+        own = self.of_particles(memory)
+        rows = cloud.in_order(own, _exposures_of, cloud.injectors, cloud.tables)
+        write_rows(folder / f"exposure.{cloud.tables}", rows)
         for name in self.fields:
-            x, injector = values[name][sound], p.injector[rows][sound]
-            edges = np.histogram_bin_edges(x, self.nBins)
+            # The edges follow from the smallest and the largest value.
+            edges = np.histogram_bin_edges(np.concatenate(cloud.at_homes(own, _ends_of, name)), self.nBins)
+            counts = np.sum(cloud.at_homes(own, _numbers_in, name, edges, len(cloud.injectors)), axis=0)
             table: dict[str, Column] = {"lower": edges[:-1], "upper": edges[1:]}
-            for index, own in enumerate(cloud.injectors):
-                table[own] = np.histogram(x[injector == index], edges)[0]
+            table |= dict(zip(cloud.injectors, counts, strict=True))
             write_table(folder / f"{name}.{cloud.tables}", table)
+
+
+def _exposures_of(p: Particles, memory: Memory, injectors: Sequence[str], tables: str) -> TableRows:
+    """Return the rows of the particles that were released."""
+    rows = np.flatnonzero(p.status != Status.PENDING)
+    return rows_of(
+        {"id": p.number[rows], "injector": names_of(injectors, p.injector[rows]),
+         "fate": names_of(STATUS_NAMES, p.status[rows]),
+         **{name: exposure(memory, p)[rows] for name, exposure in _EXPOSURES.items()}},
+        tables,
+    )  # fmt: skip
+
+
+def _sound(p: Particles) -> Rows:
+    """Return the rows of the particles that were released and have not failed."""
+    return np.flatnonzero((p.status != Status.PENDING) & (p.status != Status.FAILED))
+
+
+def _ends_of(p: Particles, memory: Memory, name: str) -> Floats:
+    """Return the smallest and the largest exposure, none without particles."""
+    x = _EXPOSURES[name](memory, p)[_sound(p)]
+    return np.array([x.min(), x.max()]) if len(x) else x
+
+
+def _numbers_in(p: Particles, memory: Memory, name: str, edges: Floats, injectors: int) -> Rows:
+    """Return the numbers of particles of each injection model between the edges, (injectors, bins)."""
+    rows = _sound(p)
+    x, injector = _EXPOSURES[name](memory, p)[rows], p.injector[rows]
+    counts = [np.histogram(x[injector == index], edges)[0] for index in range(injectors)]
+    return np.array(counts, dtype=np.int64).reshape(injectors, len(edges) - 1)
 
 
 def _mean_deformation(memory: Memory, p: Particles) -> Floats:

@@ -5,14 +5,21 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows, SampledFunction, SampleInterval
+from foamprb.cloud.state import Particles, Status
+from foamprb.cloudfunctions.base import (
+    Memory,
+    ObservedCloud,
+    Rows,
+    SampledFunction,
+    SampleInterval,
+    append,
+)
 from foamprb.dictionary.constraints import Meaning
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshSizes
@@ -47,6 +54,9 @@ class ParticleStatistics(SampledFunction):
     sampleInterval: SampleInterval = 1
     sigmaParticles: Annotated[bool, Meaning("whether to write the particles' stress and volume, too")] = False
 
+    events: ClassVar[str] = "passed"
+    common: ClassVar[frozenset[str]] = SampledFunction.common | {"time", "timeD", "timeS"}
+
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return cells, −1 outside, and Taylor's D."""
         hosts = cloud.particles.host[rows]
@@ -60,24 +70,35 @@ class ParticleStatistics(SampledFunction):
 
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return sums of zero; raise InputError if the flow has no mesh."""
-        n = _flow(cloud).mesh.n_cells
+        n, columns = _flow(cloud).mesh.n_cells, 9 if self.sigmaParticles else 2
         stress = {"timeS": np.zeros((7, n))} if self.sigmaParticles else {}
-        return {"time": np.zeros(n), "timeD": np.zeros(n), **stress}
+        passed = np.empty((0, 3 + 2 * columns))
+        return {"time": np.zeros(n), "timeD": np.zeros(n), **stress, "passed": passed}
 
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
-        """Add the time since the last sample to the sums of the cells."""
-        n = _flow(cloud).mesh.n_cells
+        """Store half the time since the last sample, and cells and values at both its ends.
+
+        The sums are those of :meth:`end_sample`, so that they do not depend on the order of the particles.
+        """
         half = 0.5 * (now["t"] - memory["t"][rows])
         # A particle that the mesh has lost counts in its last cell.
         now["cell"] = np.where(now["cell"] >= 0, now["cell"], memory["cell"][rows])
-        for end in ({name: memory[name][rows] for name in ("cell", "D", "S") if name in now}, now):
-            known = end["cell"] >= 0
-            cell, weight = end["cell"][known], half[known]
+        names = ("cell", "D", *(("S",) if self.sigmaParticles else ()))
+        ends = [values[name] for values in ({k: memory[k][rows] for k in names}, now) for name in names]
+        append(memory, "passed", np.column_stack([cloud.particles.number[rows], 0.0 * half, half, *ends]))
+
+    def end_sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Add the sample to the sums of the cells."""
+        passed, n = memory["passed"], _flow(cloud).mesh.n_cells
+        for end in np.split(passed[:, 3:], 2, axis=1):
+            known = end[:, 0] >= 0
+            cell, weight = end[known, 0].astype(np.int64), passed[known, 2]
             memory["time"] += np.bincount(cell, weight, n)
-            memory["timeD"] += np.bincount(cell, weight * end["D"][known], n)
+            memory["timeD"] += np.bincount(cell, weight * end[known, 1], n)
             if self.sigmaParticles:
-                for total, values in zip(memory["timeS"], end["S"][known].T, strict=True):
+                for total, values in zip(memory["timeS"], end[known, 2:].T, strict=True):
                     total += np.bincount(cell, weight * values, n)
+        memory["passed"] = passed[:0]
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
@@ -114,11 +135,19 @@ def _flow(cloud: ObservedCloud) -> Any:
 
 def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:
     """Count particles on each boundary face: the face of their patch with the nearest centre."""
-    p, counts = cloud.particles, np.zeros(len(sizes.areas))
-    for index in range(len(cloud.cloud.flow.patches)):
-        first, last = sizes.patch_start[index : index + 2].tolist()
-        x = p.x[(p.status == Status.STUCK) & (p.patch == index)]
-        if len(x) and last > first:
-            nearest = cKDTree(sizes.centres[first:last]).query(x)[1]
-            counts[first:last] += np.bincount(nearest, minlength=last - first)
+    counts = np.zeros(len(sizes.areas))
+    trees: dict[int, cKDTree] = {}
+    for x, patch in cloud.cloud.in_order(_stuck):
+        for index in np.unique(patch):
+            first, last = sizes.patch_start[index : index + 2].tolist()
+            if last > first:
+                tree = trees.setdefault(index, cKDTree(sizes.centres[first:last]))
+                nearest = tree.query(x[patch == index])[1]
+                counts[first:last] += np.bincount(nearest, minlength=last - first)
     return counts
+
+
+def _stuck(p: Particles) -> tuple[Floats, NDArray[np.int32]]:
+    """Return places and patches of stuck particles."""
+    stuck = (p.status == Status.STUCK) & (p.patch >= 0)
+    return p.x[stuck], p.patch[stuck]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +43,8 @@ class ParticleTracks(CloudFunction):
         int, AtLeastOne, Meaning("largest number of paths, evenly spread over the particles")
     ] = 1000
 
+    whole: ClassVar[bool] = False
+
     @property
     def interval(self) -> int:
         """Steps between two points."""
@@ -50,13 +52,14 @@ class ParticleTracks(CloudFunction):
 
     def begin(self, cloud: ObservedCloud) -> Memory:
         """Return paths with one point each, the place of release."""
-        n = cloud.particles.size
+        n = cloud.cloud.size
         tracks = min(n, self.maxTracks)
         rows = np.arange(tracks) * n // max(tracks, 1)
-        points = self._points(cloud, rows)
+        tracked = cloud.of(rows)
+        points = self._points(tracked, np.arange(tracks))
         memory = {
             "row": rows,
-            "host": cloud.particles.host[rows],
+            "host": tracked.particles.host.copy(),
             "closed": np.zeros(tracks, dtype=bool),
             "count": np.zeros(tracks, dtype=np.int64),
             "points": np.zeros((tracks, min(self.maxSamples, 16), points.shape[1])),
@@ -77,7 +80,7 @@ class ParticleTracks(CloudFunction):
         tracked = rows[np.isin(rows[:, 0], memory["row"])]
         for passage in cloud.passages(tracked):
             for met, begins in zip(passage, (0.0, 1.0), strict=True):
-                p = cloud.particles.take(met.number)._replace(F=met.F)
+                p = cloud.of(met.number).particles._replace(F=met.F)
                 axes, D = cloud.collect_of(p, *(MEASURES[name].value for name in _TRACKED[:2]))
                 tracks = np.searchsorted(memory["row"], met.number)
                 # The flow may have changed since: shear rate and fields are those of the point before.
@@ -88,17 +91,18 @@ class ParticleTracks(CloudFunction):
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add a point to the path of every particle that has moved since."""
-        status = cloud.particles.status[memory["row"]]
+        tracked = cloud.of(memory["row"])
+        status = tracked.particles.status
         last = memory["points"][np.arange(len(status)), memory["count"] - 1, 3]
-        moved = cloud.particles.t[memory["row"]] > last
+        moved = tracked.particles.t > last
         tracks = np.flatnonzero(~memory["closed"] & (status != Status.PENDING) & moved)
         first = tracks[memory["count"][tracks] == 1]
-        fields = cloud.fields_at_release(memory["row"][first], memory["host"][first])
+        fields = tracked.fields_at_release(first, memory["host"][first])
         if fields and len(first):
             values = np.concatenate([f.values for f in fields.values()], axis=1)
             memory["points"][first, 0, len(_POINT) :] = values
-        self._append(memory, tracks, self._points(cloud, memory["row"][tracks]))
-        memory["closed"] |= cloud.has_ended(memory["row"])
+        self._append(memory, tracks, self._points(tracked, tracks))
+        memory["closed"] |= tracked.has_ended(np.arange(len(status)))
 
     def _points(self, cloud: ObservedCloud, rows: Rows) -> NDArray[np.float64]:
         p = cloud.particles
@@ -118,14 +122,15 @@ class ParticleTracks(CloudFunction):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the paths of the particles that have moved."""
+        cloud = cloud.of(memory["row"])
         p = cloud.particles
-        tracks = np.flatnonzero((memory["count"] > 1) & (p.status[memory["row"]] != Status.PENDING))
+        tracks = np.flatnonzero((memory["count"] > 1) & (p.status != Status.PENDING))
         count = memory["count"][tracks]
         filled = np.arange(memory["points"].shape[1]) < count[:, None]
         points = memory["points"][tracks][filled]
         first = np.cumsum(count) - count
         start = np.union1d(first, np.flatnonzero(points[:, 12])).astype(np.int64)
-        rows = memory["row"][tracks][np.searchsorted(first, start, side="right") - 1]
+        rows = tracks[np.searchsorted(first, start, side="right") - 1]
         fields = cloud.fields(rows[:0])
         ends = len(_POINT) + np.cumsum([f.values.shape[1] for f in fields.values()], dtype=int)
         found = {
@@ -139,8 +144,8 @@ class ParticleTracks(CloudFunction):
                 np.append(start, len(points)),
                 {"time": points[:, 3], "U": points[:, 4:7], "semiAxes": points[:, 7:10],
                  "taylorDeformation": points[:, 10], "shearRate": points[:, 11], **found},
-                {"origId": rows, "d": 2.0 * p.R[rows], "Ca": p.Ca[rows], "injector": p.injector[rows],
-                 "status": p.status[rows], "patch": p.patch[rows]},
+                {"origId": memory["row"][rows], "d": 2.0 * p.R[rows], "Ca": p.Ca[rows],
+                 "injector": p.injector[rows], "status": p.status[rows], "patch": p.patch[rows]},
                 {"time": "s", "d": "m", "Ca": "1"} | {n: MEASURES[n].unit for n in ("U", *_TRACKED)}
                 | {name: f.unit for name, f in fields.items()},
                 {"status": STATUS_NAMES, "patch": cloud.patches, "injector": cloud.injectors},

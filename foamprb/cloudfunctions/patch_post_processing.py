@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.cloud import parts_of
 from foamprb.cloud.contact import Rebounds, in_order, rebounds_of
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.patches import REBOUND, Interaction
-from foamprb.cloud.state import Status
+from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
     CloudFunction,
@@ -27,7 +28,7 @@ from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import patches_named
 from foamprb.results.folder import file_name
-from foamprb.results.tables import write_table
+from foamprb.results.tables import Rows, rows_of, write_rows
 
 __all__ = ["PatchPostProcessing"]
 
@@ -48,6 +49,8 @@ class PatchPostProcessing(CloudFunction):
     maxStoredParcels: Annotated[
         int | None, AtLeastOne, Meaning("only the first of each patch", default="all")
     ] = None
+
+    whole: ClassVar[bool] = False
 
     def begin(self, cloud: ObservedCloud) -> Memory:
         """Check the names of the patches; return an empty table of rebounds if particles bounce off one.
@@ -85,14 +88,16 @@ class PatchPostProcessing(CloudFunction):
         bouncing = self._bouncing(cloud)
         if bouncing:
             self._drop(memory, bouncing)
+        met: Iterator[Rebounds]
         for patch in self._chosen(cloud):
             path = folder / f"{file_name(cloud.patches[patch])}.{cloud.tables}"
             if patch in bouncing:
                 found = rebounds_of(memory["rebounds"])
                 mine = found.patch == patch
-                self._write(path, cloud, Rebounds(*(array[mine] for array in found)))
+                met = (Rebounds(*(array[mine][part] for array in found)) for part in parts_of(mine.sum()))
             else:
-                self._write(path, cloud, self._landings(cloud, patch))
+                met = self._landings(cloud, patch)
+            write_rows(path, (_rows_of(cloud, some, patch in bouncing) for some in met))
 
     def _chosen(self, cloud: ObservedCloud) -> list[int]:
         """Return the indices of the patches."""
@@ -109,37 +114,43 @@ class PatchPostProcessing(CloudFunction):
         kept = [rows[patch == which][: self.maxStoredParcels] for which in bouncing]
         memory["rebounds"] = in_order(kept)
 
-    def _landings(self, cloud: ObservedCloud, patch: int) -> Rebounds:
-        """Return the ends of particles on a patch, in the form of rebounds."""
-        p = cloud.particles
-        ended = (p.status == Status.STUCK) | (p.status == Status.ESCAPED)
-        rows = np.flatnonzero(ended & (p.patch == patch))
-        rows = rows[np.argsort(p.t[rows], kind="stable")][: self.maxStoredParcels]
-        n = cloud.cloud.contact_normals(rows)
-        return Rebounds(rows, p.patch[rows].astype(np.int64), p.t[rows], p.x[rows], p.v[rows], n, p.F[rows])
+    def _landings(self, cloud: ObservedCloud, patch: int) -> Iterator[Rebounds]:
+        """Yield the ends of particles on a patch in the order of time, in the form of rebounds."""
+        numbers, times = map(np.concatenate, zip(*cloud.cloud.in_order(_landed, patch), strict=True))
+        numbers = numbers[np.argsort(times, kind="stable")][: self.maxStoredParcels]
+        for part in parts_of(len(numbers)):
+            p = cloud.of(numbers[part]).particles
+            n = cloud.cloud.contact_normals(p)
+            yield Rebounds(p.number, p.patch.astype(np.int64), p.t, p.x, p.v, n, p.F)
 
-    def _write(self, path: Path, cloud: ObservedCloud, met: Rebounds) -> None:
-        """Write the table of a patch."""
-        p = cloud.particles.take(met.number)
-        p.F[:] = met.F
-        axes, D, longest = cloud.collect_of(
-            p,
-            MEASURES["semiAxes"].value,
-            MEASURES["taylorDeformation"].value,
-            lambda c: np.stack(c.frame[:3], axis=1),
-        )
-        bounces = cloud.cloud.interactions[met.patch[0]].code == REBOUND if len(met.patch) else False
-        write_table(
-            path,
-            {
-                "id": met.number, "injector": names_of(cloud.injectors, p.injector),
-                "fate": ["rebound"] * p.size if bounces else names_of(STATUS_NAMES, p.status), "t": met.t,
-                **columns("xyz", met.x), **columns(("Ux", "Uy", "Uz"), met.v),
-                "d": 2.0 * p.R, "mass": masses(p, np.arange(p.size)), "Ca": p.Ca,
-                **columns("abc", axes), "D": D,
-                "impactAngle": _angle(met.v, -met.n), "axisAngle": _axis_angle(longest, met.n),
-            },
-        )  # fmt: skip
+
+def _landed(p: Particles, patch: int) -> tuple[NDArray[np.int64], Floats]:
+    """Return numbers and times of the particles that have ended on a patch."""
+    ended = (p.patch == patch) & ((p.status == Status.STUCK) | (p.status == Status.ESCAPED))
+    return p.number[ended], p.t[ended]
+
+
+def _rows_of(cloud: ObservedCloud, met: Rebounds, bounces: bool) -> Rows:
+    """Return the rows of the table of a patch."""
+    p = cloud.of(met.number).particles
+    p.F[:] = met.F
+    axes, D, longest = cloud.collect_of(
+        p,
+        MEASURES["semiAxes"].value,
+        MEASURES["taylorDeformation"].value,
+        lambda c: np.stack(c.frame[:3], axis=1),
+    )
+    return rows_of(
+        {
+            "id": met.number, "injector": names_of(cloud.injectors, p.injector),
+            "fate": ["rebound"] * p.size if bounces else names_of(STATUS_NAMES, p.status), "t": met.t,
+            **columns("xyz", met.x), **columns(("Ux", "Uy", "Uz"), met.v),
+            "d": 2.0 * p.R, "mass": masses(p, np.arange(p.size)), "Ca": p.Ca,
+            **columns("abc", axes), "D": D,
+            "impactAngle": _angle(met.v, -met.n), "axisAngle": _axis_angle(longest, met.n),
+        },
+        cloud.tables,
+    )  # fmt: skip
 
 
 def _patches_named(cloud: ObservedCloud, word: str) -> list[int]:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.cloud import same
+from foamprb.cloud.state import Particles, empty
 from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, Rows, append
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.field_sampling import FieldSampling
@@ -58,11 +62,28 @@ class CloudFunctions:
         self.functions = dict(functions)
         self.cloud = cloud
         self._memory: dict[str, Memory] = {}
+        """What the functions remember; of processes that hold the particles, without their rows."""
         for name, function in self.functions.items():
             try:
-                self._memory[name] = function.begin(cloud)
+                self._begin(name, function)
             except InputError as error:
                 raise InputError(f"cloudFunctions/{name}: {error}") from error
+
+    def _begin(self, name: str, function: CloudFunction) -> None:
+        """Let a function return its initial data."""
+        cloud, homes = self._seen_by(name), self.cloud.cloud.homes
+        if homes is None or not function.rows:
+            self._memory[name] = function.begin(cloud)
+            return
+        self._memory[name] = memory = function.begin(cloud.seeing(empty(0)))
+        homes.remember({f"{name}/{key}": array for key, array in function.of_particles(memory).items()})
+        homes.update(name, lambda p, _: function.of_particles(function.begin(cloud.seeing(p))))
+
+    def _seen_by(self, name: str) -> ObservedCloud:
+        """Return the cloud as a function observes it."""
+        cloud = replace(self.cloud, name=name)
+        collects = cloud.cloud.homes is not None and self.functions[name].whole
+        return cloud.seeing(cloud.cloud.whole()) if collects else cloud
 
     def next_sample(self, last: int) -> int:
         """Return the step of the next sample, at most ``last``."""
@@ -93,20 +114,55 @@ class CloudFunctions:
         """Let some functions record a sample."""
         self._record_rebounds()
         for name in names:
-            self.functions[name].sample(self._memory[name], self.cloud)
+            function = self.functions[name]
+            self._observe(name, function.sample)
+            function.end_sample(self._memory[name], self.cloud)
+
+    def _observe(
+        self, name: str, observe: Callable[[Memory, ObservedCloud], None], numbers: Rows | None = None
+    ) -> None:
+        """Let a function observe all particles, some at a time if other processes hold them.
+
+        Parameters
+        ----------
+        name
+            The function.
+        observe
+            Changes its data by the observed particles.
+        numbers
+            Particles that alone are of interest, None for all.
+        """
+        function, memory, cloud = self.functions[name], self._memory[name], self._seen_by(name)
+        homes, events = cloud.cloud.homes, function.events
+        before = memory.get(events)
+        found = [] if before is None else [before[:0]]
+
+        def observe_some(own: Memory, some: ObservedCloud) -> Memory:
+            part = {**memory, **own} | ({events: found[0]} if events else {})
+            observe(part, some)
+            if events:
+                found.append(part[events])
+            memory.update({key: array for key, array in part.items() if key not in own})
+            return function.of_particles(part)
+
+        if homes is None or not function.rows:
+            observe_some({}, cloud)
+        else:
+            homes.update(name, lambda p, own: observe_some(own, cloud.seeing(p)), numbers)
+        if before is not None:
+            memory[events] = np.concatenate([before, _in_time(np.concatenate(found))])
 
     def write(self, folder: Path) -> None:
         """Let every function write into a folder of its name."""
         for name, function in self.functions.items():
-            function.write(self._memory[name], self.cloud, folder / name)
+            function.write(self._memory[name], self._seen_by(name), folder / name)
 
     def with_particles(self, names: Iterable[str]) -> Memory:
         """Return the arrays of some functions with a row for each particle, by ``function/array``."""
         return {
             f"{name}/{key}": array
             for name in names
-            for key, array in self._memory[name].items()
-            if key != self.functions[name].events and key not in self.functions[name].common
+            for key, array in self.functions[name].of_particles(self._memory[name]).items()
         }
 
     def new_events(self, names: Iterable[str]) -> Memory:
@@ -118,34 +174,76 @@ class CloudFunctions:
         """Add tables of events, which were recorded apart, in the order of their times."""
         for name in found[0]:
             new = np.concatenate([tables[name] for tables in found])
-            append(self._memory[name], self.functions[name].events, new[np.lexsort((new[:, 0], new[:, 1]))])
+            append(self._memory[name], self.functions[name].events, _in_time(new))
 
-    def fates(self) -> dict[str, Column]:
-        """Return the columns that the functions add to ``fates``."""
-        functions = self.functions.items()
-        return {k: c for name, f in functions for k, c in f.fates(self._memory[name], self.cloud).items()}
+    @property
+    def has_fates(self) -> bool:
+        """Whether a function adds columns to ``fates``."""
+        return any(type(function).fates is not CloudFunction.fates for function in self.functions.values())
+
+    def fates(self) -> Iterator[tuple[Particles, dict[str, Column]]]:
+        """Yield parts of the particles in order, and the columns that the functions add to ``fates``."""
+        clouds = {name: self._seen_by(name) for name in self.functions}
+        parts = [
+            clouds[name].in_order(function.of_particles(self._memory[name]), _remembered)
+            for name, function in self.functions.items()
+        ]
+        for p, *own in zip(self.cloud.cloud.in_order(same), *parts, strict=True):
+            found: dict[str, Column] = {}
+            for (name, function), memory in zip(self.functions.items(), own, strict=True):
+                found |= function.fates({**self._memory[name], **memory}, clouds[name].seeing(p))
+            yield p, found
 
     def state(self) -> Memory:
-        """Return the data of all functions, by ``function/array``."""
+        """Return the data of all functions, by ``function/array``; of particles elsewhere, no rows."""
         self._record_rebounds()
-        return {f"{name}/{key}": array for name, m in self._memory.items() for key, array in m.items()}
+        own = {f"{name}/{key}": array for name, m in self._memory.items() for key, array in m.items()}
+        return own if self.cloud.cloud.homes is None else own | dict(self.cloud.cloud.homes.memory)
 
     def _record_rebounds(self) -> None:
         if self.cloud.cloud.models.rebounds and len(rows := self.cloud.cloud.take_rebounds()):
             for name, function in self.functions.items():
-                function.record_rebounds(self._memory[name], self.cloud, rows)
+                record = partial(_record, function, rows)
+                self._observe(name, record, np.unique(rows[:, 0]).astype(np.int64))
 
-    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+    def restore(self, stored: Collection[str], read: Callable[[str], NDArray[Any]]) -> None:
         """Restore the data that :meth:`state` returned in an earlier run.
+
+        Parameters
+        ----------
+        stored
+            Names of all arrays, ``function/array``.
+        read
+            Returns one of them, with all rows.
 
         Raises
         ------
         InputError
             If it belongs to other functions.
         """
-        expected, found = sorted(self.state()), sorted(state)
+        homes = self.cloud.cloud.homes
+        expected, found = {*self.state()}, {*stored}
         if expected != found:
-            changed = ", ".join(sorted({key.split("/")[0] for key in {*expected} ^ {*found}}))
+            changed = ", ".join(sorted({key.split("/")[0] for key in expected ^ found}))
             raise InputError(f"cloudFunctions: {changed} was not observed from the start, or no longer is.")
         for name, memory in self._memory.items():
-            memory.update({key: state[f"{name}/{key}"].copy() for key in memory})
+            own = {key: f"{name}/{key}" for key in memory}
+            memory.update({k: read(path) for k, path in own.items() if not homes or path not in homes.memory})
+
+
+def _in_time(events: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return events in the order of their times, then of particle numbers."""
+    return events[np.lexsort((events[:, 0], events[:, 1]))]
+
+
+def _remembered(_: Particles, memory: Memory) -> Memory:
+    return memory
+
+
+def _record(function: CloudFunction, rows: NDArray[np.float64], memory: Memory, cloud: ObservedCloud) -> None:
+    """Let a function record the rebounds of the observed particles, by their rows if it has rows of them."""
+    if function.rows and cloud.seen is not None:
+        first = int(cloud.seen.number[0]) if cloud.seen.size else 0
+        rows = rows[(rows[:, 0] >= first) & (rows[:, 0] < first + cloud.seen.size)]
+        rows = np.column_stack([rows[:, 0] - first, rows[:, 1:]])
+    function.record_rebounds(memory, cloud, rows)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
 from foamprb.body.tensor import dev, sym
-from foamprb.cloud.measures import MEASURES
-from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, Rows, append, names_of
+from foamprb.cloud.cloud import regrouped
+from foamprb.cloud.measures import MEASURES, PER_CONTEXT
+from foamprb.cloud.state import Particles, Status
+from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, append, names_of
 from foamprb.results.tables import write_table
 
 __all__ = ["SuspensionStress"]
@@ -26,17 +29,18 @@ class SuspensionStress(CloudFunction):
     intrinsic viscosity Σ S:d_f/(2 μ_f Σ V d_f:d_f), 5/2 for rigid spheres: their dissipation per φ.
     """
 
+    whole: ClassVar[bool] = False
+
     def begin(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
         """Return an empty table."""
         return {"history": np.empty((0, 11))}
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the table, with one more row for each injection model."""
-        p = cloud.particles
         lines = []
         for index in range(len(cloud.injectors)):
-            rows = np.flatnonzero((p.status == Status.ACTIVE) & (p.injector == index))
-            lines.append([cloud.time, index, len(rows), *_suspension(cloud, rows)])
+            moving = regrouped(cloud.cloud.in_order(_moving, index), PER_CONTEXT)
+            lines.append([cloud.time, index, *_suspension(cloud, moving)])
         time, index, n, *values = append(memory, "history", lines).T
         names = ("volume", "Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz", "intrinsicViscosity")
         write_table(
@@ -50,12 +54,20 @@ class SuspensionStress(CloudFunction):
         )
 
 
-def _suspension(cloud: ObservedCloud, rows: Rows) -> list[float]:
-    """Return volume, stress per volume (xx yy zz xy yz xz) and intrinsic viscosity; NaN without particles."""
+def _moving(p: Particles, injector: int) -> Particles:
+    return p.take(np.flatnonzero((p.status == Status.ACTIVE) & (p.injector == injector)))
+
+
+def _suspension(cloud: ObservedCloud, parts: Iterable[Particles]) -> list[float]:
+    """Return number, volume, stress per volume (xx yy zz xy yz xz) and intrinsic viscosity of particles.
+
+    The last seven are NaN without particles.
+    """
     # The components off the diagonal count twice.
     weight = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
-    total, added, dissipated, mu = np.zeros(7), 0.0, 0.0, 0.0
-    for c in cloud.contexts(rows):
+    total, added, dissipated, mu, number = np.zeros(7), 0.0, 0.0, 0.0, 0
+    for c in (c for p in parts for c in cloud.seeing(p).contexts(np.arange(p.size))):
+        number += c.particles.size
         volume = 4.0 / 3.0 * math.pi * c.particles.R**3 * MEASURES["J"].value(c)
         S = MEASURES["stresslet"].value(c)
         d = np.stack(dev(sym(c.l_f)), axis=1)[:, [0, 4, 8, 1, 5, 2]]
@@ -67,4 +79,4 @@ def _suspension(cloud: ObservedCloud, rows: Rows) -> list[float]:
     with np.errstate(invalid="ignore"):
         stress = total[1:] / total[0]
         viscosity = added / (2.0 * mu * np.float64(dissipated))
-    return [float(total[0]), *map(float, stress), float(viscosity)]
+    return [number, float(total[0]), *map(float, stress), float(viscosity)]

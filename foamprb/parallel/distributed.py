@@ -183,10 +183,6 @@ class DistributedFlow:
         self._summarise(self._open_parts(self.depth, load))
         self._share_again()
 
-    def owners(self, hosts: NDArray[Any]) -> list[NDArray[np.intp]]:
-        """Return the rows of the hosts that each node owns."""
-        return [rows for rows, _ in self._ask("own_hosts", hosts)]
-
     def load(self, start: float, end: float) -> float:  # noqa: ARG002
         """Return infinity: the flow is steady."""
         return math.inf

@@ -45,10 +45,10 @@ def record(carried: Iterable[tuple[str, str, tuple[int, ...]]] = ()) -> np.dtype
 
 
 def pack(share: Share, rows: Rows, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Return records of the particles in some rows."""
-    records = np.empty(len(rows), dtype=dtype)
-    for name, array in share.arrays().items():
-        records[name] = array[rows]
+    """Return records of the particles in some rows, with the arrays of the type."""
+    records, arrays = np.empty(len(rows), dtype=dtype), share.arrays()
+    for name in dtype.names or ():
+        records[name] = arrays[name][rows]
     return records
 
 
@@ -67,7 +67,7 @@ def join(shares: Sequence[Share]) -> Share:
     return Share(concatenate(share.particles for share in shares), ids, memory)
 
 
-def homes_of(n: int, size: int, whole: bool) -> NDArray[np.int64]:
+def homes_of(n: int, size: int) -> NDArray[np.int64]:
     """Return the number of the first particle whose home is each of several processes, and n, (size + 1,).
 
     A process is the home of particles of consecutive numbers: it gathers their states, wherever they are.
@@ -76,11 +76,7 @@ def homes_of(n: int, size: int, whole: bool) -> NDArray[np.int64]:
     ----------
     n, size
         Number of particles and of processes.
-    whole
-        Whether the first process is the home of all.
     """
-    if whole:
-        return np.array([0] + [n] * size, dtype=np.int64)
     # Rounded up, so that the first process has some if there are any.
     return -(-np.arange(size + 1, dtype=np.int64) * n // size)
 

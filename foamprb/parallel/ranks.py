@@ -16,14 +16,14 @@ from __future__ import annotations
 import logging
 import pickle
 import time as clock
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import PART, Cloud, Stepper, Value, parts_in_order
+from foamprb.cloud.cloud import Cloud, Stepper, Value
 from foamprb.cloud.measures import largest_slip
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Outcome, never
@@ -31,13 +31,13 @@ from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields, columns_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.parallel.distributed import DistributedFlow, distributed_flow, why_whole
-from foamprb.parallel.exchange import Share, homes_of, idle_share, plan_exchange
+from foamprb.parallel.exchange import idle_share, plan_exchange
+from foamprb.parallel.homes import RankHomes
 from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.shared_memory import Publisher
 from foamprb.parallel.worker import Answer, Worker, piece_file
 from foamprb.results.pvd import with_ending
 from foamprb.results.vtk import write_pieces
-from foamprb.settings.libs import loaded_libs
 
 log = logging.getLogger("foamprb")
 
@@ -130,6 +130,10 @@ class Ranks:
         self.order("wait_for_all")
         return next(iter(self.signals), 0)
 
+    def homes_of(self, size: int, parts: Iterable[Particles]) -> RankHomes:
+        """Send particles to their homes; see :class:`foamprb.parallel.homes.RankHomes`."""
+        return RankHomes(self.worker, self.order, size, parts)
+
     def dismiss(self, status: int) -> None:
         """End all processes with an exit status."""
         if self._amid_order:
@@ -155,22 +159,18 @@ class RankStepper(Stepper):
     Parameters
     ----------
     cloud
-        The cloud, whose particles and flow are distributed.
+        The cloud, whose particles the processes hold, and whose flow is distributed.
     ranks
         The processes.
     functions
-        Cloud functions, with which the first process gathers all particles. Without them each process is the
-        home of as many, and the cloud keeps those of the first.
+        Cloud functions.
     """
 
     _order = "advance"
 
     def __init__(self, cloud: Cloud, ranks: Ranks, functions: CloudFunctions) -> None:
         super().__init__(cloud)
-        self.ranks, size = ranks, cloud.particles.size
-        self._functions = functions
-        self._homes = homes_of(size, ranks.size, bool(functions.functions))
-        self.firsts = tuple(np.unique(self._homes[:-1][np.diff(self._homes) > 0]).tolist())
+        self.ranks, self._functions = ranks, functions
         self.published = Publisher(ranks.worker.windows, ranks.order)
         self._placed = b""
         self._gathered = True
@@ -178,18 +178,15 @@ class RankStepper(Stepper):
         """Cloud functions that go with the particles, and have not sampled them since the last steps."""
         cloud.flow.move(self.published.move)
         models = pickle.dumps((cloud.tracker, Sampling.of(functions, cloud.medium)))
-        ranks.order("prepare", loaded_libs(), models, cloud.threads)
+        ranks.order("prepare", models, cloud.threads)
+        self._ranks_of = [list(range(ranks.size))]
+        """Processes of each node."""
         self._begin()
-        carried = functions.with_particles(functions.travelling)
-        whole = Share(cloud.particles, np.arange(size), carried)
-        ranks.order("settle", self._homes, own=(whole,))
-        cloud.particles = ranks.worker.home.particles
-        del whole
         self._set_out()
         self._counts = [share.counts for share in ranks.order("share")]
         nodes = ranks.worker.windows.nodes
         log.info("\nSharing out %d particles among %d processes of %d thread%s on %d computer%s",
-                 size, ranks.size, cloud.threads, "s"[: cloud.threads > 1], nodes,
+                 cloud.size, ranks.size, cloud.threads, "s"[: cloud.threads > 1], nodes,
                  "s"[: nodes > 1])  # fmt: skip
         log.info("    %-24s %.1f", "shared memory [MB]", self._shared_bytes / 1e6)
 
@@ -199,12 +196,12 @@ class RankStepper(Stepper):
         return self.published.size
 
     def _begin(self) -> None:
-        """Prepare the flow while the cloud is whole."""
+        """Prepare the flow."""
         self._publish(self.cloud.make_ready())
 
     def _set_out(self) -> None:
         """Send the particles to the processes."""
-        self.ranks.order("set_out", [list(range(self.ranks.size))])
+        self.ranks.order("set_out", self._ranks_of)
 
     def gather(self, numbers: NDArray[np.int64] | None = None) -> None:
         """Collect changed particles at their homes, rebounds and events from all processes."""
@@ -231,20 +228,6 @@ class RankStepper(Stepper):
         """See :meth:`Stepper.each`."""
         self._publish_present()
         return self.ranks.order("each", function, self.cloud.time, *arguments)
-
-    def at_homes(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
-        """See :meth:`Stepper.at_homes`."""
-        return self.ranks.order("at_home", function, None, slice(None), *arguments)
-
-    def in_order(
-        self, function: Callable[..., Value], *arguments: Any, own: tuple[Any, ...] = ()
-    ) -> Iterator[Value]:
-        """See :meth:`Stepper.in_order`."""
-        yield from parts_in_order(self.cloud.particles, function, *arguments, *own)
-        for rank, n in enumerate(np.diff(self._homes).tolist()):
-            for start in range(0, n if rank else 0, PART):
-                part = slice(start, start + PART)
-                yield self.ranks.order("at_home", function, rank, part, *arguments)[rank]
 
     def counts(self) -> dict[Status, int]:
         """Return the number of particles of each status, gathered or not."""
@@ -332,19 +315,12 @@ class PartStepper(RankStepper):
 
     def _begin(self) -> None:
         cloud, ranks = self.cloud, self.ranks
-        self._flow.expect(largest_slip(cloud.particles, cloud.medium))
+        self._flow.expect(max(cloud.at_homes(largest_slip, cloud.medium)))
         cloud.make_ready()
         numbers = ranks.order("node_number")
         self._ranks_of = [[r for r, n in enumerate(numbers) if n == k] for k in range(max(numbers) + 1)]
         self._seconds, self._lost = 0.0, 0.0
         log.info("    %-24s %d", "steps between exchanges", self._few)
-
-    def _set_out(self) -> None:
-        hosts = np.concatenate(self.at_homes(_hosts_of))
-        node_of = np.zeros(len(hosts), dtype=np.int32)
-        for number, rows in enumerate(self._flow.owners(hosts)):
-            node_of[rows] = number
-        self.ranks.order("set_out", self._ranks_of, own=(node_of,))
 
     def regroup(self) -> None:
         """Let the nodes take other processor folders, if the most loaded one then has fewer particles.
@@ -426,10 +402,6 @@ def stepper_of(cloud: Cloud, ranks: Ranks, functions: CloudFunctions) -> RankSte
     """
     flow: Any = cloud.flow
     return (PartStepper if isinstance(flow, DistributedFlow) else RankStepper)(cloud, ranks, functions)
-
-
-def _hosts_of(p: Particles) -> NDArray[np.int64]:
-    return np.asarray(p.host)
 
 
 MOST_AT_ONCE = 1000

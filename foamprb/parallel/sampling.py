@@ -11,14 +11,13 @@ from numpy.typing import NDArray
 from foamprb.cloud.block import Medium
 from foamprb.cloud.state import Particles
 from foamprb.cloud.tracker import Tracker
-from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud
+from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, memory_of
 from foamprb.cloudfunctions.registry import CloudFunctions
 
 
 class _Share(NamedTuple):
     """What functions see of a cloud of which this process has a share."""
 
-    particles: Particles
     flow: Any
     medium: Medium
     tracker: Tracker
@@ -76,11 +75,10 @@ class Sampling:
         events
             Events so far.
         """
-        share: Any = _Share(p, flow, self.medium, tracker, time)
-        cloud, found = ObservedCloud(share, self.injectors, self.patches), {}
+        share: Any = _Share(flow, self.medium, tracker, time)
+        cloud, found = ObservedCloud(share, self.injectors, self.patches, seen=p), {}
         for name in names:
-            function, own = self.functions[name], f"{name}/"
-            known = {k.removeprefix(own): array for k, array in memory.items() if k.startswith(own)}
+            function, known = self.functions[name], memory_of(memory, name)
             if function.events:
                 known[function.events] = events.get(name, self.events[name])
             function.sample(known, cloud)

@@ -7,6 +7,7 @@ import pickle
 import sys
 import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -19,7 +20,7 @@ from foamprb.cloud.report import report
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings.wall_lift import wall_distances
 from foamprb.cloud.tracker import Outcome, Tracker
-from foamprb.cloudfunctions.base import Memory
+from foamprb.cloudfunctions.base import Memory, memory_of
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields
@@ -30,12 +31,13 @@ from foamprb.parallel.exchange import Share, join, pack, record, unpack
 from foamprb.parallel.parts import Part, Summary
 from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.shared_memory import Windows, wait_for_all
+from foamprb.results.checkpoint import FUNCTIONS, PARTICLES, StoredCheckpoint
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
 
 _AT_ONCE = 1 << 22
 """Most particles that all processes send together; a process packs its part of them."""
-_COLLECTIVE = ("make", "spread", "free", "settle", "set_out", "exchange", "gather")
+_COLLECTIVE = ("make", "spread", "free", "put", "set_out", "exchange", "gather")
 """Orders during which processes wait for each other; an error in one of them aborts all processes."""
 
 
@@ -140,9 +142,56 @@ class Worker:
         """Particles that this process advances."""
         return self.own.particles
 
-    def prepare(self, libs: Sequence[Path], models: bytes, threads: int) -> None:
-        """Compile the loop; ``models`` are a tracker and a :class:`Sampling`."""
+    def settle(self, libs: Sequence[Path], homes: NDArray[np.int64]) -> None:
+        """Make room for the particles whose home this process is.
+
+        Parameters
+        ----------
+        libs
+            Files of models to load.
+        homes
+            First numbers, see :func:`foamprb.parallel.exchange.homes_of`.
+        """
         load_libs(libs)
+        self._homes = homes
+        first, last = homes[self.rank : self.rank + 2].tolist()
+        self.home = Share(empty(last - first), np.arange(first, last))
+
+    def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
+        """Make room for what cloud functions remember of these particles, by arrays without rows."""
+        n = len(self.home.ids)
+        more = {name: np.zeros((n, *array.shape[1:]), dtype=array.dtype) for name, array in layout.items()}
+        self.home = self.home._replace(memory={**self.home.memory, **more})
+
+    def put(self, rank: int, first: int, arrays: Mapping[str, NDArray[Any]] | None = None) -> None:
+        """Store arrays of particles at a home.
+
+        Parameters
+        ----------
+        rank, first
+            The home, and the first of its rows.
+        arrays
+            By their names in a record; on the first process only.
+        """
+        if self.rank == 0 != rank:
+            self.comm.send(arrays, rank)
+        elif self.rank == rank:
+            given = self.comm.recv(source=0) if arrays is None else arrays
+            own = self.home.arrays()
+            for name, array in given.items():
+                own[name][first : first + len(array)] = array
+
+    def restore(self, file: PathLike[str]) -> None:
+        """Read the particles whose home this process is, and what is remembered, from a checkpoint."""
+        stored = StoredCheckpoint(Path(file))
+        rows = slice(*self._homes[self.rank : self.rank + 2].tolist())
+        for name, array in self.home.particles._asdict().items():
+            stored.read_into(array, f"{PARTICLES}{name}", rows.start)
+        for name, array in self.home.memory.items():
+            stored.read_into(array, f"{FUNCTIONS}{name}", rows.start)
+
+    def prepare(self, models: bytes, threads: int) -> None:
+        """Compile the loop; ``models`` are a tracker and a :class:`Sampling`."""
         self._tracker: Tracker
         self._sampling: Sampling
         self._tracker, self._sampling = pickle.loads(models)
@@ -150,28 +199,7 @@ class Worker:
         self._dtype = record(self._sampling.carried)
         self._record = self._MPI.BYTE.Create_contiguous(self._dtype.itemsize).Commit()
 
-    def settle(self, homes: NDArray[np.int64], whole: Share | None = None) -> None:
-        """Receive the particles whose home this process is from the first one, which has the whole.
-
-        Parameters
-        ----------
-        homes
-            First numbers, see :func:`foamprb.parallel.exchange.homes_of`.
-        whole
-            All particles; on the first process only.
-        """
-        self._homes = homes
-        if self.rank > 0:
-            self.home = unpack(self._receive(0))
-            return
-        assert whole is not None
-        for rank in range(1, self.comm.size):
-            rows = np.arange(homes[rank], homes[rank + 1])
-            self.comm.Send([pack(whole, rows, self._dtype), len(rows), self._record], rank)
-        n = homes[1]
-        self.home = whole if n == homes[-1] else unpack(pack(whole, np.arange(n), self._dtype))
-
-    def set_out(self, ranks_of: list[list[int]], node_of: NDArray[np.int32] | None = None) -> None:
+    def set_out(self, ranks_of: list[list[int]]) -> None:
         """Send the particles from their homes to the processes that advance them.
 
         Injection models release particles roughly in the order of their numbers. The processes of a node take
@@ -181,26 +209,26 @@ class Worker:
         ----------
         ranks_of
             Processes of each node.
-        node_of
-            Node of each particle; on the first process only, None for a single one.
         """
         self._ranks_of = ranks_of
-        ids = self.home.ids
-        node = np.zeros(len(ids), dtype=np.int32)
-        if self._part is not None:
-            if self.rank == 0:
-                assert node_of is not None
-                for rank in range(1, self.comm.size):
-                    self.comm.Send(node_of[slice(*self._homes[rank : rank + 2])], rank)
-                node = node_of[: len(ids)]
-            else:
-                self.comm.Recv(node, 0)
-        rank_of = self._ranks_in(node, ids)
+        rank_of = self._ranks_in(self._nodes_of(self.home.particles.host), self.home.ids)
         arrived = self._trade(lambda rows: pack(self.home, rows, self._dtype), rank_of)
         self.own = join([unpack(records) for records in arrived])
         if self._part is not None:
             self.particles.host[:] = self._held.hosts_of(self.particles.host)
         self._fresh = self._unfinished(self.particles)
+
+    def _nodes_of(self, hosts: NDArray[np.int64]) -> NDArray[np.int32]:
+        """Return the node of each of the hosts of this process' particles, 0 for hosts without a cell."""
+        nodes = np.zeros(len(hosts), dtype=np.int32)
+        for rank in range(self.comm.size if self._part is not None else 0):
+            sought = self.comm.bcast(hosts if rank == self.rank else None, rank)
+            flow = self._held.flow
+            rows = None if flow is None else flow.own_hosts(sought)[0]
+            for number, own in self.comm.gather((self._held.number, rows), rank) or ():
+                if own is not None:
+                    nodes[own] = number
+        return nodes
 
     def _ranks_in(self, node: NDArray[np.int32], ids: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the process of a node for each particle, by its number."""
@@ -406,8 +434,9 @@ class Worker:
             rows = rows[np.isin(self.own.ids[rows], numbers)]
         homes = np.searchsorted(self._homes[1:], self.own.ids[rows], side="right")
         for records in self._trade(lambda some: self._packed(rows[some]), homes):
-            for name, array in self.home.arrays().items():
-                array[records["id"] - first] = records[name]
+            arrays = self.home.arrays()
+            for name in self._dtype.names or ():
+                arrays[name][records["id"] - first] = records[name]
         if settled:
             self._fresh = self._unfinished(self.particles)
 
@@ -428,9 +457,26 @@ class Worker:
         """Return what a function finds of the particles that this process advances."""
         return function(self.particles, self._seen, time, *arguments)
 
-    def at_home(self, function: Callable[..., Any], rank: int | None, part: slice, *arguments: Any) -> Any:
-        """Return what a function finds of a part of the gathered particles, on one process or on all."""
-        return function(self.home.particles.take(part), *arguments) if rank in (self.rank, None) else None
+    def at_home(
+        self, function: Callable[..., Any], rank: int | None, part: slice, of: str | None, *arguments: Any
+    ) -> Any:
+        """Return what a function finds of gathered particles, on one process or on all.
+
+        Parameters
+        ----------
+        function
+            Called with particles of consecutive numbers, what a cloud function remembers of them if there is
+            one, and the arguments.
+        rank, part
+            The process, None for all; and the rows of its particles.
+        of
+            Name of the cloud function.
+        """
+        if rank not in (self.rank, None):
+            return None
+        share = self.home.take(part)
+        memory = () if of is None else (memory_of(share.memory, of),)
+        return function(share.particles, *memory, *arguments)
 
     @property
     def _seen(self) -> _SharedFlow:
@@ -495,13 +541,6 @@ class Worker:
         sys.stdout.flush()
         sys.stderr.flush()
         self._MPI.Finalize()
-
-    def _receive(self, source: int) -> NDArray[Any]:
-        status = self._MPI.Status()
-        self.comm.Probe(source, status=status)
-        records = np.empty(status.Get_count(self._record), dtype=self._dtype)
-        self.comm.Recv([records, len(records), self._record], source)
-        return records
 
 
 def piece_file(folder: Path, rank: int) -> Path:

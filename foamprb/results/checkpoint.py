@@ -13,14 +13,17 @@ rows and the checksums.
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import logging
+import math
+import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xxhash
@@ -32,6 +35,8 @@ from foamprb.results.atomic import atomic_write, drop_cache
 log = logging.getLogger("foamprb")
 
 VERSION = 9
+PARTICLES, FUNCTIONS = "particles/", "functions/"
+"""What the names of arrays begin with: of the state of particles, and of what cloud functions remember."""
 MOST_FILES = 2
 """Number of checkpoints that stay on disk."""
 
@@ -94,8 +99,8 @@ class Checkpoints:
             _remove(file)
         return path
 
-    def latest(self) -> Checkpoint | None:
-        """Read the latest undamaged checkpoint, and remove the damaged ones after it.
+    def latest(self) -> StoredCheckpoint | None:
+        """Find the latest undamaged checkpoint, and remove the damaged ones after it.
 
         Returns
         -------
@@ -109,7 +114,7 @@ class Checkpoints:
         files = self.files()
         for time, file in sorted(files.items(), reverse=True):
             try:
-                checkpoint = read_checkpoint(file)
+                checkpoint = StoredCheckpoint(file, verify=True)
             except DamagedError as error:
                 log.warning("%s is damaged: %s. The checkpoint before it is used.", file, error)
                 continue
@@ -173,43 +178,136 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> str:
     return checksum.hex()
 
 
-def read_checkpoint(path: Path) -> Checkpoint:
-    """Read a checkpoint with its parts, after comparing checksums with bytes.
+class _Place(NamedTuple):
+    """Array in a file."""
+
+    offset: int
+    """Where its first row begins, bytes."""
+    shape: tuple[int, ...]
+    dtype: np.dtype[Any]
+    repeated: bool
+    """Whether the file contains one of its rows, which are all equal."""
+
+
+class _File(NamedTuple):
+    """Header and places of the arrays of one file."""
+
+    path: Path
+    time: float
+    header: dict[str, Any]
+    arrays: dict[str, _Place]
+
+    def read_into(self, array: NDArray[Any], name: str, first: int) -> None:
+        """Read rows of an array from a number on."""
+        place = self.arrays[name]
+        own = array[:1] if place.repeated else array
+        row = math.prod(place.shape[1:]) * place.dtype.itemsize
+        left = own.reshape(-1).view(np.uint8)
+        with self.path.open("rb", buffering=0) as file:
+            file.seek(place.offset + (0 if place.repeated else first * row))
+            while len(left):
+                n = file.readinto(left.data)
+                if not n:
+                    raise OSError(errno.EIO, "the file was cut after it was opened", str(self.path))
+                left = left[n:]
+        if place.repeated:
+            array[1:] = array[0]
+
+
+class StoredCheckpoint:
+    """A checkpoint on disk, of which any rows of any array can be read.
+
+    Parameters
+    ----------
+    path
+        Its file.
+    verify
+        Whether to compare the checksums of the file and its parts with their bytes.
 
     Raises
     ------
     DamagedError
-        If the file is damaged.
+        If a file is damaged.
     InputError
         If it is undamaged, but has another version.
     """
-    whole, _ = _read(path)
-    parts = []
-    for first, expected in whole.header.get("parts", ()):
-        own = part_file(path, first)
-        try:
-            part, checksum = _read(own)
-        except FileNotFoundError:
-            raise DamagedError(f"{own.name} is missing") from None
-        except DamagedError as error:
-            raise DamagedError(f"in {own.name} {error}") from error
-        if checksum != expected:
-            raise DamagedError(f"{own.name} belongs to another checkpoint")
-        parts.append(part.arrays)
-    further = {
-        name: np.concatenate([whole.arrays[name], *(part[name] for part in parts)])
-        for name in (parts[0] if parts else ())
-    }
-    return replace(whole, arrays={**whole.arrays, **further})
+
+    def __init__(self, path: Path, verify: bool = False) -> None:
+        self.path = path
+        whole, _ = _open(path, verify)
+        self.time, self.header = whole.time, whole.header
+        self._files = [(0, whole)]
+        for first, expected in self.header.get("parts", ()):
+            own = part_file(path, first)
+            try:
+                part, checksum = _open(own, verify)
+            except FileNotFoundError:
+                raise DamagedError(f"{own.name} is missing") from None
+            except DamagedError as error:
+                raise DamagedError(f"in {own.name} {error}") from error
+            if checksum != expected:
+                raise DamagedError(f"{own.name} belongs to another checkpoint")
+            self._files.append((first, part))
+        self.layout: dict[str, tuple[tuple[int, ...], np.dtype[Any]]] = {}
+        """Shapes and types of the arrays."""
+        for name, place in whole.arrays.items():
+            more = sum(part.arrays[name].shape[0] for part in self._parts(name))
+            shape = (place.shape[0] + more, *place.shape[1:]) if more else place.shape
+            self.layout[name] = shape, place.dtype
+
+    def _parts(self, name: str) -> list[_File]:
+        """Return the parts with further rows of an array."""
+        return [part for _, part in self._files[1:] if name in part.arrays]
+
+    def read(self, name: str) -> NDArray[Any]:
+        """Return an array."""
+        shape, dtype = self.layout[name]
+        array = np.empty(shape, dtype=dtype)
+        self.read_into(array, name, 0)
+        return array
+
+    def read_into(self, array: NDArray[Any], name: str, first: int) -> None:
+        """Read as many rows of an array as another contiguous array of its type has.
+
+        Parameters
+        ----------
+        array
+            Takes the rows.
+        name
+            The array in the checkpoint.
+        first
+            Its first row to read.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be read.
+        """
+        rows, begin = np.atleast_1d(array), 0
+        for file in (self._files[0][1], *self._parts(name)):
+            end = begin + (file.arrays[name].shape[0] if array.ndim else 1)
+            low, high = max(first, begin), min(first + len(rows), end)
+            if low < high:
+                file.read_into(rows[low - first : high - first], name, low - begin)
+            begin = end
+
+    def whole(self) -> Checkpoint:
+        """Return header and all arrays."""
+        return Checkpoint(self.time, self.header, {name: self.read(name) for name in self.layout})
 
 
-def _read(path: Path) -> tuple[Checkpoint, str]:
-    """Read one file; return also its checksum. See :func:`read_checkpoint`."""
+def read_checkpoint(path: Path) -> Checkpoint:
+    """Read a whole checkpoint, after comparing checksums with bytes; see :class:`StoredCheckpoint`."""
+    return StoredCheckpoint(path, verify=True).whole()
+
+
+def _open(path: Path, verify: bool) -> tuple[_File, str]:
+    """Read the header of one file; return also its checksum. See :class:`StoredCheckpoint`."""
     with path.open("rb") as file:
         first = file.readline(_LONGEST_FIRST)
         version = first.removeprefix(_FORMAT).strip().decode(errors="replace")
         checksum = file.read(_SUM_BYTES)
-        if checksum != _checksum(file, first):
+        if verify and checksum != _checksum(file, first):
             other = first.startswith(_FORMAT) and version.isdigit() and version != str(VERSION)
             # Other versions may have other checksums.
             raise DamagedError(
@@ -223,10 +321,14 @@ def _read(path: Path) -> tuple[Checkpoint, str]:
             )
         file.seek(len(first) + _SUM_BYTES)
         header = json.loads(file.readline())
-        arrays = {name: np.lib.format.read_array(file, allow_pickle=False) for name in header.pop("arrays")}
-    for name, n in header.pop("rows").items():
-        arrays[name] = np.repeat(arrays[name], n, axis=0)
-    return Checkpoint(header.pop("time"), header, arrays), checksum.hex()
+        rows, places = header.pop("rows"), {}
+        for name in header.pop("arrays"):
+            np.lib.format.read_magic(file)
+            stored, _, dtype = np.lib.format.read_array_header_1_0(file)
+            shape = (rows[name], *stored[1:]) if name in rows else stored
+            places[name] = _Place(file.tell(), shape, dtype, name in rows)
+            file.seek(math.prod(stored) * dtype.itemsize, os.SEEK_CUR)
+    return _File(path, header.pop("time"), header, places), checksum.hex()
 
 
 def is_one_row(array: NDArray[Any]) -> bool:

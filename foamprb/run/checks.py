@@ -21,7 +21,6 @@ from foamprb.flow.nodes import NodeValues
 STEADY_CAPILLARY = 0.3
 """Approximate largest μ_f γ̇/μ_s at which a neo-Hookean sphere has a steady shape in uniaxial extension."""
 _MOST_NODES, _SMALL_SHARE = 20_000, 0.01
-_CHUNK = 16_384
 _STIFF = 1e8
 """Approximate largest μ_s Δt/μ_f without shorter steps by round-off, without inertia."""
 SMALL_REYNOLDS = 0.1
@@ -77,17 +76,14 @@ def groups(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> Group
     extension
         :func:`extension_rates` of the flow.
     """
-    rows = np.flatnonzero(cloud.particles.injector == injector)
-    # Part by part: a copy of all particles would double the memory.
-    chosen = (as_slice(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK))
-    parts = [_ranges(cloud, cloud.particles.take(some)) for some in chosen]
-    found = np.array(parts) if parts else np.full((1, 8, 2), np.nan)
+    parts = [(p.size, _ranges(cloud, p)) for p in cloud.in_order(_released_by, injector) if p.size]
+    found = np.array([own for _, own in parts]) if parts else np.full((1, 8, 2), np.nan)
     lowest, largest = found[:, :, 0].min(axis=0), found[:, :, 1].max(axis=0)
     rate, capillary, reynolds, stokes, step, size, path, stiffness = (
         (float(low), float(high)) for low, high in zip(lowest, largest, strict=True)
     )
-    extending = _extending(cloud, rows, extension)
-    return Groups(len(rows), rate, capillary, reynolds, stokes, step, size, path, stiffness, extending)
+    n, extending = sum(size for size, _ in parts), _extending(cloud, injector, extension)
+    return Groups(n, rate, capillary, reynolds, stokes, step, size, path, stiffness, extending)
 
 
 def _ranges(cloud: Cloud, p: Particles) -> list[tuple[float, float]]:
@@ -112,20 +108,34 @@ def _range(values: NDArray[np.float64]) -> tuple[float, float]:
     return float(values.min()), float(values.max())
 
 
-def _extending(cloud: Cloud, rows: NDArray[np.intp], extension: NDArray[np.float64]) -> float:
+def _released_by(p: Particles, injector: int) -> Particles:
+    return p.take(as_slice(np.flatnonzero(p.injector == injector)))
+
+
+def _softest_of(p: Particles, injector: int) -> list[tuple[float, float]]:
+    """Return shear modulus, Pa, and viscosity, Pa s, of the softest particle that a model releases."""
+    rows = np.flatnonzero(p.injector == injector)
+    if len(rows) == 0:
+        return []
+    softest = rows[np.argmin(p.mu[rows])]
+    return [(float(p.mu[softest]), float(p.eta[softest]))]
+
+
+def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> float:
     """Return the share of the nodes where the softest particle has no steady shape.
 
     A solid has none beyond a capillary number of extension. A drop breaks up where it grows faster than its
     surface tension restores it.
     """
-    if len(extension) == 0 or len(rows) == 0:
+    found = [own for of_home in cloud.at_homes(_softest_of, injector) for own in of_home]
+    if len(extension) == 0 or not found:
         return 0.0
-    p, values = cloud.particles, _at_few_nodes(cloud.flow)
+    values = _at_few_nodes(cloud.flow)
     mu = np.asarray(viscosity_at_nodes(cloud.medium.mu, values))
-    softest = rows[np.argmin(p.mu[rows])]
-    times = mu / p.mu[softest]
+    modulus, eta = min(found, key=lambda own: own[0])
+    times = mu / modulus
     if MATERIALS[cloud.models.material].liquid:
-        ratio = p.eta[softest] / mu
+        ratio = eta / mu
         l: Any = tuple(values.l.T)
         growth, limit = drop_growth(l, ratio, times)
         growing = np.stack(np.broadcast_arrays(*growth), axis=-1).reshape(-1, 3, 3)

@@ -5,20 +5,21 @@ from __future__ import annotations
 import json
 import math
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.material import MATERIALS
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.measures import path_stokes_number, shape_stokes_number
-from foamprb.cloud.viscosity import VaryingViscosity
+from foamprb.cloud.state import VARIABLES, Particles
+from foamprb.cloud.viscosity import VaryingViscosity, medium_at, model_of
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
@@ -60,17 +61,15 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         if g.n:
             liquid = MATERIALS[models.material].liquid
             warnings += doubts(g, models.integrator, f"injection model {injection.name}", liquid)
+    p = _surveyed(cloud)
+    medium = medium_at(cloud.medium, flow, p, cloud.time) if models.surroundings else cloud.medium
     for model in models.surroundings:
-        warnings += model.warnings(cloud.particles, flow, cloud.medium_there, cloud.dt)
-    if cloud.particles.size == 0:
+        warnings += model.warnings(p, flow, medium, cloud.dt)
+    if cloud.size == 0:
         warnings.append("there is no particle: no injection model releases any.")
     arrays = cloud.make_ready()
-    notes = [line for model in models.surroundings for line in model.notes(cloud.particles, arrays, flow)]
-    number, path_number = None, None
-    if settings.solution.integrationSchemes.shape == "auto":
-        medium = cloud.medium_there
-        number = shape_stokes_number(cloud.particles, flow, medium.mu, cloud.time)
-        path_number = path_stokes_number(cloud.particles, flow, medium, cloud.time)
+    notes = [line for model in models.surroundings for line in model.notes(p, arrays, flow)]
+    number, path_number = cloud.stokes_numbers or (None, None)
     description: dict[str, Any] = _as_json({
         "format": RECORD_FORMAT,
         "versions": {"python": platform.python_version(), **{name: version(name) for name in _PACKAGES}},
@@ -107,6 +106,29 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         "warnings": warnings,
     })  # fmt: skip
     return description
+
+
+def _surveyed(cloud: Cloud) -> Particles:
+    """Return all particles with the arrays that notes and warnings read.
+
+    Of several processes the first gathers these; the others are zero, and take no memory of the machine.
+    """
+    if cloud.homes is None:
+        return cloud.particles
+    names = {name for model in cloud.models.surroundings for name in model.surveyed()}
+    if model_of(cloud.medium.mu):
+        names |= {"x", "host"}
+    arrays = {name: np.zeros((cloud.size, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}
+    for some in cloud.in_order(_arrays_of, tuple(names)):
+        rows = some.pop("number")
+        for name, array in some.items():
+            arrays[name][rows] = array
+    return Particles(**arrays)
+
+
+def _arrays_of(p: Particles, names: Sequence[str]) -> dict[str, NDArray[Any]]:
+    """Return the numbers and some further arrays of particles."""
+    return {name: getattr(p, name) for name in (*names, "number")}
 
 
 def _viscosity(settings: Settings, cloud: Cloud) -> dict[str, Any]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import math
 import re
-import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -14,34 +13,28 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from foamprb.body.compressibility import lame_from_bulk_modulus, sufficient_bulk_modulus
 from foamprb.body.imex import relaxation_time
-from foamprb.body.material import MATERIALS, lame_parameter, modulus_of_capsule
+from foamprb.body.material import MATERIALS
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.injection.distribution import Distribution, draw
+from foamprb.cloud.cloud import PART, Cloud
+from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.models import (
     START_OF_FLOW,
     PatchFlowRateInjection,
     PatchInjection,
-    given_shear_modulus,
-    release,
     start_of_injection,
 )
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import automatic
-from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.patches import CYCLIC
-from foamprb.cloud.state import Particles, concatenate
+from foamprb.cloud.state import concatenate
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
-from foamprb.cloud.viscosity import medium_at, viscosity_at_rate
+from foamprb.cloud.viscosity import viscosity_at_rate
 from foamprb.cloudfunctions.base import ObservedCloud
 from foamprb.cloudfunctions.registry import CloudFunctions
-from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
 from foamprb.flow.meshflow import MeshFlow
@@ -55,7 +48,7 @@ from foamprb.results.tables import require_kind
 from foamprb.run.compilation import Compilation
 from foamprb.run.description import describe
 from foamprb.run.follow import Follow, Following, begin_to_follow
-from foamprb.settings.injections import InjectionSettings, Solid
+from foamprb.run.release import Release
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import Settings, read_settings
 from foamprb.settings.solution import Solution
@@ -216,7 +209,7 @@ def prepare(
                 log.info("    %s", note)
         if following is not None:
             _wait_for_injections(settings, following)
-        job = assemble(settings, flow, threads, tables, growing=following is not None)
+        job = assemble(settings, flow, threads, tables, following is not None, ranks)
         return replace(job, compilation=compilation, output=output, following=following)
     except BaseException:
         if following is not None:
@@ -364,9 +357,16 @@ def _wait_for_injections(settings: Settings, following: Following) -> None:
 
 
 def assemble(
-    settings: Settings, flow: Flow, threads: int | None = None, tables: str = "csv", growing: bool = False
+    settings: Settings,
+    flow: Flow,
+    threads: int | None = None,
+    tables: str = "csv",
+    growing: bool = False,
+    ranks: Ranks | None = None,
 ) -> Job:
     """Place the particles of the settings in a flow; a ``growing`` one may end before the run.
+
+    With ``ranks`` each process of ``mpirun`` holds some of them, otherwise this one holds all.
 
     Raises
     ------
@@ -376,13 +376,12 @@ def assemble(
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = _medium(settings)
     start = _start(settings, flow, growing)
-    # Not a list, which would keep the parts in memory.
-    particles = concatenate(
-        _inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)
-    )
+    release = Release(settings.injections, flow, medium)
     solids = sorted({injection.solid.type for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
+    homes = None if ranks is None else ranks.homes_of(release.size, release.parts(PART))
+    particles = concatenate(release.parts()) if homes is None else homes.particles
     solution = settings.solution
     models = _models(settings, solution.integrationSchemes.shape, bool(getattr(flow, "rotating", ())))
     by_name = {patch.name: i for patch, i in zip(flow.patches, interactions, strict=True)}
@@ -400,6 +399,7 @@ def assemble(
             start=start,
             limits=solution.limits,
             decoupled=[patch.name for patch in flow.patches if by_name[patch.name].code != CYCLIC],
+            homes=homes,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
@@ -439,68 +439,3 @@ def _start(settings: Settings, flow: Flow, growing: bool) -> float:
 def _steps(solution: Solution, start: float) -> int:
     """Return the number of steps from the start to the end of the run."""
     return max(1, round((solution.endTime - start) / solution.deltaT))
-
-
-def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
-    solid = injection.solid
-    try:
-        p, given = release(injection.model, flow, _random(injection.name), read_positions)
-        mu = viscosity_at_rate(medium.mu, solid.referenceShearRate)
-        stiffness = given_shear_modulus(given, solid.poissonsRatio, mu, solid.referenceShearRate)
-        if injection.sizeDistribution is None and "d" not in given:
-            raise InputError("sizeDistribution is missing, and the file of positions has no column d.")
-    except InputError as error:
-        raise InputError(f"injection model {injection.name}: {error}") from error
-
-    def values(own: NDArray[np.float64] | None, quantity: float | Distribution, key: str) -> Any:
-        """Return the values in the file of positions, or random ones."""
-        return draw(quantity, p.size, _random(injection.name, key)) if own is None else own
-
-    p.R[:] = 0.5 * values(given.get("d"), injection.sizeDistribution or 0.0, "size")
-    p.rho[:] = values(given.get("rho"), injection.rho0, "rho")
-    p.mu[:] = values(stiffness, solid.shearModulus, "stiffness")
-    p.eta[:] = values(given.get("viscosity"), solid.viscosity, "viscosity")
-    p.gamma[:] = values(given.get("surfaceTension"), solid.surfaceTension, "surfaceTension")
-    p.k[:] = injection.parameter
-    liquid, membrane = MATERIALS[solid.type].liquid, MATERIALS[solid.type].membrane
-    if stiffness is not None and (liquid or membrane):
-        raise InputError(
-            f"injection model {injection.name}: the file of positions gives a stiffness, which the solid "
-            f"{solid.type} does not have."
-        )
-    if membrane:
-        G_s = values(None, solid.surfaceShearModulus or 0.0, "stiffness")
-        p.mu[:] = modulus_of_capsule(G_s, solid.surfacePoissonsRatio, p.R)
-    if liquid:
-        p.mu[:], p.gamma[:], p.drop[:] = p.gamma / p.R, 0.0, 1
-    injection.shape.form(p, _random(injection.name, "shape"))
-    p.injector[:] = index
-    wrong = ~((p.mu > 0.0) & (p.mu < math.inf))
-    if wrong.any():
-        what = "tension over radius" if liquid else "shear modulus"
-        raise InputError(
-            f"injection model {injection.name}: the {what} of {np.count_nonzero(wrong)} of {p.size} "
-            f"particles is {p.mu[wrong][0]:g}, no positive number; the fluid has {mu:g} Pa s."
-        )
-    rate: Any = solid.referenceShearRate
-    if rate is None:
-        start = start_of_injection(injection.model, flow)
-        rate, mu = shear_rate_at(flow, p, start), medium_at(medium, flow, p, start).mu
-    p.Ca[:] = mu * rate / p.mu
-    p.lame[:] = _lame(solid, p.mu, float(np.max(mu * rate, initial=0.0)))
-    return p
-
-
-def _lame(solid: Solid, mu: NDArray[np.float64], viscous_stress: float) -> NDArray[np.float64]:
-    """Return λ_s, Pa, for shear moduli μ_s, Pa, and the largest viscous stress around the particles, Pa."""
-    if solid.poissonsRatio is not None:
-        return np.asarray(lame_parameter(mu, solid.poissonsRatio))
-    bulk = solid.bulkModulus
-    return np.asarray(
-        lame_from_bulk_modulus(sufficient_bulk_modulus(mu, viscous_stress) if bulk is None else bulk, mu)
-    )
-
-
-def _random(*names: str) -> np.random.Generator:
-    """Return a generator whose seed depends on the names alone: of an injection model and a quantity."""
-    return np.random.default_rng([zlib.crc32(name.encode()) for name in names])

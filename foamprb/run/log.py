@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -104,9 +105,7 @@ def _log_range(name: str, ends: Sequence[float | None]) -> None:
 
 def log_dry_run(job: Job) -> None:
     """Log the plan of a run that is not executed."""
-    log.info(
-        "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, job.steps
-    )
+    log.info("\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.size, job.steps)
 
 
 class RunLog:
@@ -115,8 +114,8 @@ class RunLog:
     def __init__(self, job: Job) -> None:
         self._job = job
         self._started, self._cpu = clock.perf_counter(), clock.process_time()
-        p = job.cloud.particles
-        self._listed = set(p.number[p.status == Status.FAILED][:_MAX_LISTED_FAILURES].tolist())
+        failed = np.concatenate(job.cloud.at_homes(_failed_of, _MAX_LISTED_FAILURES))
+        self._listed = set(failed[:_MAX_LISTED_FAILURES].tolist())
         """Numbers of failed particles that need no line; no more than lines."""
         self._unstable = 0
         self._slip = SlipRecord()
@@ -248,6 +247,11 @@ def _failures_of(
     rows = rows[np.argsort(p.number[rows])[:most]]
     columns = (array[rows].tolist() for array in (p.number, p.t, p.x, p.reason))
     return list(zip(*columns, strict=True))
+
+
+def _failed_of(p: Particles, most: int) -> NDArray[np.int64]:
+    """Return the numbers of the first failed particles."""
+    return np.asarray(p.number[np.flatnonzero(p.status == Status.FAILED)[:most]])
 
 
 def _unstable_of(

@@ -64,13 +64,13 @@ def execute(
         If the address space of this process is limited, and too small.
     """
     cloud = job.cloud
-    announce("particles", cloud.particles.size, BYTES)
+    announce("particles", cloud.size, BYTES)
     require(_COPIES * cloud.particles.size + _BESIDE)
     compile_run(cloud, job.compilation, alone=ranks is None)
     with open_results(job) as results:
         results.begin(start_from or job.settings.solution.startFrom)
         if results.finished:
-            return cloud.particles.counts()
+            return cloud.counts()
         following = job.following
         log = RunLog(job)
         if following is not None and not following.wait(cloud, stop):

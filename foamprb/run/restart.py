@@ -22,11 +22,20 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
+from foamprb.cloudfunctions.base import Memory
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 from foamprb.flow.timeline import Timeline
-from foamprb.results.checkpoint import Checkpoint, Checkpoints, part_file, write_checkpoint
+from foamprb.results.checkpoint import (
+    FUNCTIONS,
+    PARTICLES,
+    Checkpoint,
+    Checkpoints,
+    StoredCheckpoint,
+    part_file,
+    write_checkpoint,
+)
 from foamprb.results.folder import FATES, ResultsFolder
 from foamprb.results.manifest import Checksum, checksum
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd, with_ending
@@ -41,7 +50,6 @@ Fingerprint: TypeAlias = dict[str, str | Sums]
 # Settings without effect on the physics, and settings that the cloud's own fields represent.
 _LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching", "overrides")
 _PARTICLES = "particles at the start"
-_CLOUD, _FUNCTIONS = "particles/", "functions/"
 _MOST_NAMED = 6
 _RELATIVE, _OF_LARGEST = 1e-9, 1e-13
 _CHUNK = 1 << 18
@@ -62,12 +70,38 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         texts |= {f"patch {patch.name}": interaction}
     marks: Fingerprint = {name: str(value) for name, value in texts.items()}
-    for what, arrays in ((_PARTICLES, cloud.particles._asdict()), ("flow", cloud.flow.traits())):
-        values = {name: np.atleast_1d(array) for name, array in arrays.items()}
-        most = max((len(array) for array in values.values() if array.dtype.kind == "f"), default=0)
-        weights = np.random.default_rng(0).random(most)
-        marks |= {f"{what}/{name}": _sums(array, weights) for name, array in values.items()}
+    marks |= {f"{_PARTICLES}/{name}": sums for name, sums in _sums_of_particles(cloud).items()}
+    for name, array in cloud.flow.traits().items():
+        values = np.atleast_1d(array)
+        integers = values.dtype.kind != "f"
+        marks |= {f"flow/{name}": _of_integers(values) if integers else _means(_totals(values), len(values))}
     return marks
+
+
+def _sums_of_particles(cloud: Cloud) -> dict[str, Sums]:
+    """Return the fingerprint of each array of the particles."""
+    n, totals = cloud.size, cloud.at_homes(_totals_of)
+    found: dict[str, Sums] = {
+        name: _means(np.sum([t[name] for t in totals], axis=0), n) for name in totals[0]
+    }
+    checksums = dict.fromkeys(_INTEGERS, 0)
+    for arrays in cloud.in_order(_integers_of):
+        checksums = {name: zlib.crc32(array.tobytes(), checksums[name]) for name, array in arrays.items()}
+    found |= {name: [[float(n), float(value)]] for name, value in checksums.items()}
+    return {name: found[name] for name in Particles._fields}
+
+
+_INTEGERS = tuple(name for name, variable in VARIABLES.items() if not variable.dtype.startswith("f"))
+
+
+def _totals_of(p: Particles) -> dict[str, NDArray[np.float64]]:
+    """Return the sums of the arrays of numbers that are no integers, see :func:`_totals`."""
+    first = int(p.number[0]) if p.size else 0
+    return {name: _totals(a, first) for name, a in p._asdict().items() if name not in _INTEGERS}
+
+
+def _integers_of(p: Particles) -> dict[str, NDArray[Any]]:
+    return {name: getattr(p, name) for name in _INTEGERS}
 
 
 def checkpoint_of(
@@ -79,7 +113,7 @@ def checkpoint_of(
     parts: Sequence[tuple[int, str]] = (),
     around: Sequence[Sums] = (),
 ) -> Checkpoint:
-    """Return the checkpoint of a run.
+    """Return the checkpoint of a run, or the file of its first particles.
 
     Parameters
     ----------
@@ -110,18 +144,18 @@ def checkpoint_of(
         **({"around": list(around)} if around else {}),
         "parts": list(parts),
     }
-    arrays = _arrays_of(cloud.particles)
-    arrays |= {f"{_FUNCTIONS}{name}": array for name, array in functions.items()}
-    return Checkpoint(cloud.time, header, arrays)
+    return Checkpoint(cloud.time, header, _arrays_of(cloud.particles, functions))
 
 
-def write_part(p: Particles, file: Path, time: float) -> tuple[int, str] | None:
+def write_part(p: Particles, memory: Memory, file: Path, time: float) -> tuple[int, str] | None:
     """Write consecutive particles as a part of a checkpoint, if they are not its first.
 
     Parameters
     ----------
     p, time
         The particles and their time, s.
+    memory
+        What cloud functions remember of them, by ``function/array``.
     file
         The checkpoint.
 
@@ -137,11 +171,14 @@ def write_part(p: Particles, file: Path, time: float) -> tuple[int, str] | None:
     first = int(p.number[0]) if p.size else 0
     if first == 0:
         return None
-    return first, write_checkpoint(part_file(file, first), Checkpoint(time, {}, _arrays_of(p)))
+    return first, write_checkpoint(part_file(file, first), Checkpoint(time, {}, _arrays_of(p, memory)))
 
 
-def _arrays_of(p: Particles) -> dict[str, NDArray[Any]]:
-    return {f"{_CLOUD}{name}": array for name, array in p._asdict().items()}
+def _arrays_of(p: Particles, memory: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Return the arrays of a checkpoint: particles, and what cloud functions remember."""
+    return {f"{PARTICLES}{name}": array for name, array in p._asdict().items()} | {
+        f"{FUNCTIONS}{name}": array for name, array in memory.items()
+    }
 
 
 def checksums(
@@ -170,7 +207,7 @@ def require_choice(folder: ResultsFolder, start_from: StartFrom | None) -> None:
         )
 
 
-def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> None:
+def refuse_changes(checkpoint: StoredCheckpoint, marks: Fingerprint, where: str) -> None:
     """Raise InputError if a run began with other physics.
 
     Parameters
@@ -191,7 +228,7 @@ def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> No
         )
 
 
-def refuse_other_times(checkpoint: Checkpoint, flow: Flow, where: str) -> None:
+def refuse_other_times(checkpoint: StoredCheckpoint, flow: Flow, where: str) -> None:
     """Raise InputError if the flow until a checkpoint has other times than in the run, or other fields there.
 
     The fields are compared at the times around the checkpoint. A solver may have written later times, and
@@ -228,7 +265,7 @@ def _times_until(flow: Flow, t: float) -> tuple[float, ...]:
     return flow.times_until(t) if isinstance(flow, Timeline) and flow.period is None else ()
 
 
-def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, where: str) -> None:
+def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoint, where: str) -> None:
     """Put a cloud that has not been advanced, and its functions, into the state that a checkpoint holds.
 
     Parameters
@@ -241,21 +278,26 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, whe
     InputError
         If another version of foamprb, or a run with other cloud functions, wrote the checkpoint.
     """
-    header = checkpoint.header
-    arrays = _part(checkpoint, _CLOUD)
-    n = cloud.particles.size
-    layout = {name: ((n, *variable.shape), np.dtype(variable.dtype)) for name, variable in VARIABLES.items()}
-    if {name: (array.shape, array.dtype) for name, array in arrays.items()} != layout:
+    header, n = checkpoint.header, cloud.size
+    layout = {
+        f"{PARTICLES}{name}": ((n, *variable.shape), np.dtype(variable.dtype))
+        for name, variable in VARIABLES.items()
+    }
+    if {name: own for name, own in checkpoint.layout.items() if name.startswith(PARTICLES)} != layout:
         raise InputError(
             f"{where}: foamprb {header['foamprb']} wrote the checkpoint, with other variables than those of "
             f"foamprb {version('foamprb')}. Start over: -overwrite, or startFrom startTime."
         )
-    functions.restore(_part(checkpoint, _FUNCTIONS))
-    cloud.particles = Particles(**arrays)
+    stored = [name.removeprefix(FUNCTIONS) for name in checkpoint.layout if name.startswith(FUNCTIONS)]
+    functions.restore(stored, lambda name: checkpoint.read(f"{FUNCTIONS}{name}"))
+    if cloud.homes is None:
+        cloud.particles = Particles(**{name: checkpoint.read(f"{PARTICLES}{name}") for name in VARIABLES})
+    else:
+        cloud.homes.restore(checkpoint.path)
     cloud.step, cloud.recovered, cloud.reach = header["step"], header["recovered"], header["reach"]
 
 
-def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[SnapshotFile, ...]:
+def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tuple[SnapshotFile, ...]:
     """Return the snapshots that a run had written when it wrote a checkpoint, if all are there.
 
     Parameters
@@ -310,11 +352,6 @@ def _stems(entries: Sequence[SnapshotFile]) -> list[list[float | str]]:
     return [[entry.time, Path(entry.file).stem] for entry in entries]
 
 
-def _part(checkpoint: Checkpoint, prefix: str) -> dict[str, NDArray[Any]]:
-    arrays = checkpoint.arrays.items()
-    return {name.removeprefix(prefix): array for name, array in arrays if name.startswith(prefix)}
-
-
 def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
     """Give the values in nested dataclasses by their paths; for a file its name, wherever it lies."""
     if is_dataclass(value):
@@ -332,30 +369,40 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
         yield name, value.name if isinstance(value, Path) else value
 
 
-def _sums(values: NDArray[Any], weights: NDArray[np.float64]) -> Sums:
-    """Return a fingerprint of an array: a checksum of integers, or sums of each column.
+def _of_integers(values: NDArray[Any]) -> Sums:
+    """Return a fingerprint of an array of integers: their number and a checksum."""
+    return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
+
+
+def _means(totals: NDArray[np.float64], n: int) -> Sums:
+    """Return a fingerprint of an array of n rows from its :func:`_totals`: the size, and means of columns.
 
     The last bits of a flow may depend on the processor on which it was reconstructed.
+    """
+    return [[float(n * totals.shape[1])], *(totals / max(n, 1)).tolist()]
+
+
+def _totals(values: NDArray[np.float64], first: int = 0) -> NDArray[np.float64]:
+    """Return for each column of an array the sum of absolute values, and a weighted sum, (2, columns).
+
+    The weights are random numbers, so that the sum depends on the order of the rows.
 
     Parameters
     ----------
     values
-        An array of at least one axis, (n, ...).
-    weights
-        Of the rows in the second sum: n random numbers or more, where the values are no integers. They tell
-        the order of the rows.
+        (n, ...).
+    first
+        Number of the first row.
     """
-    if values.dtype.kind != "f":
-        return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
     columns = values.reshape(len(values), math.prod(values.shape[1:]))
-    weights = weights[: len(columns)]
+    weights = np.random.Generator(np.random.PCG64(0).advance(first))
     total = np.zeros((2, columns.shape[1]))
     for start in range(0, len(columns), _CHUNK):
         chunk = columns[start : start + _CHUNK]
         if not np.isfinite(chunk).all():
             chunk = np.nan_to_num(chunk, posinf=0.0, neginf=0.0)
-        total += np.abs(chunk).sum(axis=0), weights[start : start + _CHUNK] @ chunk
-    return [[float(values.size)], *(total / max(len(columns), 1)).tolist()]
+        total += np.abs(chunk).sum(axis=0), weights.random(len(chunk)) @ chunk
+    return total
 
 
 def _differences(old: Mapping[str, str | Sums], new: Mapping[str, str | Sums]) -> list[str]:

@@ -13,9 +13,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Cloud, Snapshot, Stepper, explain
+from foamprb.cloud.cloud import Cloud, Snapshot, Stepper, explain, regrouped
 from foamprb.cloud.limits import Limits
-from foamprb.cloud.measures import FlowSamples, flow_samples, released, shapes
+from foamprb.cloud.measures import (
+    PER_CONTEXT,
+    FlowSamples,
+    flow_samples,
+    number_of_contexts,
+    released,
+    shapes,
+)
 from foamprb.cloud.report import report
 from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models
@@ -27,11 +34,11 @@ from foamprb.memory import OutOfMemory, ran_out
 from foamprb.parallel.ranks import RankStepper
 from foamprb.results.atomic import only_writer, remove_unfinished
 from foamprb.results.background import Writer
-from foamprb.results.checkpoint import Checkpoint, Checkpoints, part_file, parts_of
+from foamprb.results.checkpoint import PARTICLES, Checkpoints, StoredCheckpoint, part_file, parts_of
 from foamprb.results.folder import FAILURES, FATES, KINDS
 from foamprb.results.manifest import Checksum, Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
-from foamprb.results.tables import Column, Rows, as_column, rows_of, write_rows
+from foamprb.results.tables import Column, Rows, rows_of, write_rows
 from foamprb.results.vtk import Parts
 from foamprb.run.description import renew_record, write_record
 from foamprb.run.job import Job
@@ -162,8 +169,13 @@ class Results:
         cloud.load_flow(1)
         file = with_ending(self._series.next(cloud.time), ".vtp")
         self._manifest.expect([self._job.folder.pvd, file])
-        particles = released(cloud.particles, cloud.flow, cloud.time)
-        self._series.append(self._report(particles, cloud.flow, cloud.time))
+        due = (
+            released(p, cloud.flow, cloud.time)
+            for p in regrouped(cloud.in_order(_due_at, cloud.time), PER_CONTEXT)
+        )
+        n = sum(cloud.at_homes(_number_due, cloud.time))
+        clouds = (part for p in due for part in self._report(p, cloud.flow, cloud.time, p.number).snapshots)
+        self._series.append(Parts(cloud.time, number_of_contexts(n), clouds))
 
     def check(self) -> None:
         """Raise OSError if the thread could not write a file, or the folder is no longer at its place."""
@@ -245,14 +257,16 @@ class Results:
             if failed:
                 write_rows(
                     self._failures,
-                    stepper.in_order(_failures_of, cloud.models, cloud.limits, self._job.tables),
+                    cloud.in_order(_failures_of, cloud.models, cloud.limits, self._job.tables),
                 )
             others = {file for file in self._manifest.files - {self._fates} if file.suffix[1:] in KINDS}
             others |= {self._job.folder.record, self._job.folder.pvd}
             self._manifest.seal({file: file for file in others if file.is_file()} | {self._fates: fates})
 
-        further = self._job.functions.fates()
-        rows = stepper.in_order(_fates_of, self._job.patch_names, self._job.tables, own=(further,))
+        names, kind, functions = self._job.patch_names, self._job.tables, self._job.functions
+        rows = cloud.in_order(_fates_of, names, kind)
+        if functions.has_fates:
+            rows = (_fates_of(p, names, kind, further) for p, further in functions.fates())
         write_rows(self._fates, rows, finish)
 
     def _sample(self, stepper: Stepper, names: list[str]) -> None:
@@ -281,9 +295,15 @@ class Results:
         cloud = self._report(p, seen, time)
         return lambda: self._series.append(cloud)
 
-    def _report(self, particles: Particles, flow: Sampled | FlowSamples, time: float) -> Parts:
+    def _report(
+        self,
+        particles: Particles,
+        flow: Sampled | FlowSamples,
+        time: float,
+        ids: NDArray[np.int64] | None = None,
+    ) -> Parts:
         """Return a cloud with the arrays of the run, see :func:`foamprb.cloud.report.report`."""
-        return report(particles, flow, self._job.cloud.medium.mu, time, self._names, self._further)
+        return report(particles, flow, self._job.cloud.medium.mu, time, self._names, self._further, ids)
 
     def _begin_pieces(self, stepper: RankStepper, stem: Path) -> Callable[[], object]:
         """Let all processes write their pieces; return a function that lists them."""
@@ -304,8 +324,10 @@ class Results:
 
     def _write_parts(self, stepper: Stepper) -> list[tuple[int, str]]:
         """Let all processes write their parts of the checkpoint; return the parts of the others."""
-        time = stepper.cloud.time
-        written = stepper.at_homes(write_part, self._checkpoints.file(time), time)
+        homes, time = stepper.cloud.homes, stepper.cloud.time
+        if homes is None:
+            return []
+        written = homes.at_homes(write_part, self._checkpoints.file(time), time, of="")
         return [part for part in written if part is not None]
 
     def _write_checkpoint(
@@ -321,7 +343,8 @@ class Results:
         found = [f for file in self._checkpoints.files().values() for f in (file, *parts_of(file))]
         if stepper is not None:
             file = self._checkpoints.file(stepper.cloud.time)
-            found += [file, *(part_file(file, first) for first in stepper.firsts[1:])]
+            homes = stepper.cloud.homes
+            found += [file, *(part_file(file, first) for first in (homes.firsts[1:] if homes else ()))]
         return found
 
     def _write_functions(self) -> list[Path]:
@@ -369,9 +392,9 @@ class Results:
         self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
 
-    def _is_finished(self, checkpoint: Checkpoint) -> bool:
+    def _is_finished(self, checkpoint: StoredCheckpoint) -> bool:
         """Return whether the run has ended at a checkpoint, and has written its tables."""
-        status = checkpoint.arrays["particles/status"]
+        status = checkpoint.read(f"{PARTICLES}status")
         ended = (
             checkpoint.header["step"] >= self._job.steps
             or not np.isin(status, self._job.cloud.tracker.movable).any()
@@ -384,7 +407,7 @@ class Results:
             self._job.following.close()
         remove_links(self._job.folder.links)
 
-    def _resume(self, checkpoint: Checkpoint) -> None:
+    def _resume(self, checkpoint: StoredCheckpoint) -> None:
         """Restore a checkpoint, and remove the files of later times."""
         job = self._job
         where = f"{job.folder.path}: cannot continue from t = {checkpoint.time:.12g} s"
@@ -444,22 +467,30 @@ def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
     return found
 
 
+def _number_due(p: Particles, time: float) -> int:
+    """Return the number of particles that are in the flow at a time, s, or appear then."""
+    return int(np.count_nonzero((p.status != Status.PENDING) | (p.t0 <= time)))
+
+
+def _due_at(p: Particles, time: float) -> Particles:
+    return p.take(np.flatnonzero((p.status != Status.PENDING) | (p.t0 <= time)))
+
+
 def _fates_of(
     p: Particles, patch_names: Sequence[str], kind: str, further: Mapping[str, Column] | None = None
 ) -> Rows:
-    """Return rows of ``fates``; ``further`` are columns of all particles."""
+    """Return rows of ``fates``; ``further`` are columns of cloud functions."""
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last name belongs to the code −1.
     patches = np.array((*patch_names, ""), dtype=object)
     axes, D = shapes(p)
-    further = {name: as_column(name, column)[p.number] for name, column in (further or {}).items()}
     return rows_of(
         {
             "id": p.number, "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
             "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
             "fate": fates[p.status], "patch": patches[p.patch],
-            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **further,
+            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **(further or {}),
         },
         kind,
     )  # fmt: skip

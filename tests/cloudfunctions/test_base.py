@@ -63,7 +63,7 @@ def test_what_is_remembered_survives_a_restart(function, tmp_path):
         array[:] = saved
     second.step = first.step
     with np.load(tmp_path / "state.npz", allow_pickle=False) as saved:
-        functions.restore(dict(saved))
+        functions.restore(saved, lambda name: saved[name].copy())
     go_on(second, functions, tmp_path / "parts", (400, 700))
     whole = sorted(path.relative_to(tmp_path / "whole") for path in (tmp_path / "whole").rglob("*.*"))
     assert whole
@@ -75,7 +75,7 @@ def test_the_memory_of_other_functions_is_refused():
     look = observed(pipe_cloud(2))
     state = CloudFunctions({"a": ParticleTracks(1, 1), "b": ParticleHistogram()}, look).state()
     with pytest.raises(InputError, match="cloudFunctions: b, c was not observed from the start"):
-        CloudFunctions({"a": ParticleTracks(1, 1), "c": ParticleHistogram()}, look).restore(state)
+        CloudFunctions({"a": ParticleTracks(1, 1), "c": ParticleHistogram()}, look).restore(state, state.get)
 
 
 def test_registry_names_are_openfoams_where_it_has_them():

@@ -276,7 +276,8 @@ def test_cells_with_a_memory_go_on_after_a_restart_with_the_same_bits(tmp_path):
             functions = observe(cloud, function, tmp_path, writes=first)
             if len(first) == 1:
                 again = CloudFunctions({"f": function}, observed(cloud))
-                again.restore(functions.state())
+                state = functions.state()
+                again.restore(state, state.get)
                 go_on(cloud, again, tmp_path, (100,))
             texts.append([(tmp_path / f"f/{name}.csv").read_text() for name in ("haemolysis", "means")])
         assert texts[0] == texts[1]

@@ -118,7 +118,7 @@ def test_rebounds_after_a_restart(tmp_path):
     cloud.advance(77)
     memory = {name: array.copy() for name, array in functions.state().items()}
     again = CloudFunctions({"f": parts}, observed(cloud))
-    again.restore(memory)
+    again.restore(memory, memory.get)
     go_on(cloud, again, tmp_path / "parts", (400, 700))
     assert (tmp_path / "parts/f/wall.csv").read_bytes() == (tmp_path / "whole/f/wall.csv").read_bytes()
     observe(bouncing_cloud(), PatchPostProcessing(("wall",), maxStoredParcels=4), tmp_path / "few")

@@ -452,7 +452,7 @@ Worker.touch, Worker.tell = touch, tell
 found = connect()
 if isinstance(found, Worker):
     sys.exit(found.serve(()))
-job = prepare(sys.argv[1], threads=1)
+job = prepare(sys.argv[1], threads=1, ranks=found)
 stepper = RankStepper(job.cloud, found, job.functions)
 shared = stepper.published.move(np.full(1 << 24, 1.5))
 # The flow's own arrays and those of its mesh are the shared ones.

@@ -25,6 +25,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 from benchmarks.records import Results, read_rows
 from benchmarks.report import number, table
 
+from foamprb.cloud.cloud import PART
 from foamprb.results.tables import write_table
 
 RADIUS, LENGTH, WALL_RATE, GRAVITY = 2.1e-3, 0.75, 923.8, 9.81
@@ -33,6 +34,10 @@ MEAN = WALL_RATE * RADIUS / 4
 CELLS = 200_000_000
 PREPARED = 1800.0
 """Bytes for each cell that a node holds while it prepares the flow, measured with 4e5 cells on four nodes."""
+PLACE = 100.0
+"""Bytes for each particle on the first process while places of release are drawn, measured with 1e6."""
+PASSES = 5
+"""How often all particles pass the first process part by part: four times at the start, once at the end."""
 RINGS = 5
 """Layers of cells around those of a node."""
 PAUSE = 2e-3
@@ -262,7 +267,10 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         f"{writes} checkpoints: onto the file system": writes
         * max(gathered / c.disk, gathered / c.nodes / c.per_node_disk),
         f"{writes} snapshots and checkpoints: metadata, two files a core": 2 * writes * operations * ranks,
-        "the cloud at the start, sent by the first process": gathered / c.link,
+        "the cloud at the start, sent by the first process part by part": gathered / c.link,
+        f"parts of the cloud that the first process asks for, {PASSES} times": PASSES
+        * max(particles / PART, ranks)
+        * PAUSE,
         "the table of fates, as text, a process a core": particles * m.row / ranks,
         "the table of fates, written by the first process": particles * m.row_bytes / c.per_node_disk,
         "start of Python, a process a core, from the parallel file system": ranks
@@ -277,8 +285,7 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         "mesh, the part of a node with its layers": held * m.cell,
         "mesh, the part, during its preparation": held * PREPARED,
         "particles of a node and those whose home it is, evenly": particles / c.nodes * (m.state + m.peak),
-        "first process: the whole cloud, at the start": particles * m.state,
-        "the same with cloud functions, throughout": particles * m.peak,
+        "first process: places of all particles, while they are drawn": particles * PLACE,
     }
     text = TEMPLATE.read_text(encoding="utf-8").format(
         particles=number(particles),
@@ -330,8 +337,7 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         snapshot=number(particles * m.file / 1e9),
         all_snapshots=number(writes * particles * m.file / 1e12),
         table_size=number(particles * m.row_bytes / 1e9),
-        most_particles=number(c.memory / m.state),
-        most_sampled=number(c.memory / m.peak),
+        most_particles=number(c.memory / PLACE),
         order=_order(whole, compute),
     )
     return text, {"life": life, "places": places}

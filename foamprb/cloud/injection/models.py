@@ -17,6 +17,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.cloud import parts_of
 from foamprb.cloud.state import VARIABLES, Particles, empty
 from foamprb.dictionary.constraints import (
     Angle,
@@ -33,7 +34,7 @@ from foamprb.dictionary.constraints import (
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow, PatchFaces, patches_named
-from foamprb.memory import announce, memory, size_text
+from foamprb.memory import memory, size_text
 
 Floats = NDArray[np.float64]
 log = logging.getLogger("foamprb")
@@ -185,7 +186,7 @@ class PatchInjection(Injection):
                 "patchFlowRateInjection, which follows the inflow in time."
             )
         chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
-        x = _in_triangles(faces.vertices[chosen], inflow[chosen], random)
+        x = _in_triangles(faces.vertices, inflow, chosen, random)
         t = SOI + np.arange(n) / self.parcelsPerSecond
         return Places(x, faces.hosts[chosen], t, self.U0)
 
@@ -251,7 +252,7 @@ class PatchFlowRateInjection(Injection):
                 density = a + b
                 flux = density.mean(axis=1) * before.areas
                 chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
-                x = _in_triangles(before.vertices[chosen], density[chosen], random)
+                x = _in_triangles(before.vertices, density, chosen, random)
                 parts.append((x, before.hosts[chosen], t0 + h * (j + np.minimum(s, 1.0))))
             before = after
         if not parts:
@@ -521,17 +522,33 @@ def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
     return directions
 
 
-def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator) -> Floats:
-    """Draw a point in each triangle (n, 3, 3), from a linear density given at its vertices (n, 3)."""
-    weights = np.empty(density.shape)
-    open_rows = np.arange(len(density))
+def _in_triangles(
+    vertices: Floats, density: Floats, chosen: NDArray[np.int64], random: np.random.Generator
+) -> Floats:
+    """Draw a point in each of n triangles, from a linear density.
+
+    Parameters
+    ----------
+    vertices, density
+        Vertices of triangles, (m, 3, 3), m, and the density at each of them, (m, 3).
+    chosen
+        The triangles, (n,).
+    random
+        Source of random numbers.
+    """
+    points = np.empty((len(chosen), 3))
+    open_rows = np.arange(len(chosen))
     while len(open_rows):
-        w = random.dirichlet((1.0, 1.0, 1.0), len(open_rows))
-        at = np.einsum("nv,nv->n", w, density[open_rows])
-        accepted = random.random(len(open_rows)) * density[open_rows].max(axis=1) <= at
-        weights[open_rows[accepted]] = w[accepted]
-        open_rows = open_rows[~accepted]
-    points: Floats = np.einsum("nv,nvi->ni", weights, vertices)
+        weights = random.dirichlet((1.0, 1.0, 1.0), len(open_rows))
+        accepted = random.random(len(open_rows))
+        for part in parts_of(len(open_rows)):
+            own = density[chosen[open_rows[part]]]
+            accepted[part] = accepted[part] * own.max(axis=1) <= np.einsum("nv,nv->n", weights[part], own)
+        inside = accepted.astype(bool)
+        points[open_rows[inside]] = weights[inside]
+        open_rows = open_rows[~inside]
+    for part in parts_of(len(chosen)):
+        points[part] = np.einsum("nv,nvi->ni", points[part], vertices[chosen[part]])
     return points
 
 
@@ -568,41 +585,15 @@ def start_of_injection(model: Injection, flow: Flow) -> float:
     return model.SOI if model.SOI != START_OF_FLOW else first if math.isfinite(first) else 0.0
 
 
-class Released(NamedTuple):
-    """Particles of an injection model."""
-
-    particles: Particles
-    """Pending spheres, of zero size, density and stiffness."""
-    given: Mapping[str, Floats]
-    """Values per particle of some of :data:`GIVEN`, (n,) each."""
-
-
-def release(model: Injection, flow: Flow, random: np.random.Generator, read: ReadPositions) -> Released:
-    """Return pending spheres at the places of an injection model, and their given values.
-
-    Parameters
-    ----------
-    model, flow
-        The injection model and the flow.
-    random
-        Source of every random number.
-    read
-        Function that reads a file of positions.
-
-    Raises
-    ------
-    InputError
-        See the model's ``places``.
-    """
-    places = model.places(flow, random, read)
-    n = len(places.t)
-    announce("particles", n, BYTES)
-    p = empty(n)
-    p.x[:] = p.x0[:] = places.x
-    p.host[:] = places.hosts
-    p.t0[:] = p.t[:] = places.t
-    p.v[:] = np.nan if places.v is None else places.v
-    return Released(p, places.given)
+def pending(places: Places, rows: slice = slice(None)) -> Particles:
+    """Return pending spheres at some places of release, of zero size, density and stiffness."""
+    x, t = places.x[rows], places.t[rows]
+    p = empty(len(t))
+    p.x[:] = p.x0[:] = x
+    p.host[:] = places.hosts[rows]
+    p.t0[:] = p.t[:] = t
+    p.v[:] = np.broadcast_to(np.nan if places.v is None else places.v, (len(places.t), 3))[rows]
+    return p
 
 
 def given_shear_modulus(

@@ -115,6 +115,15 @@ class Surrounding:
         """
         return ()
 
+    surveys: ClassVar[tuple[str, ...]] = Particles._fields
+    """Names of the arrays of particles that :meth:`notes` and :meth:`warnings` read."""
+
+    @classmethod
+    def surveyed(cls) -> tuple[str, ...]:
+        """Return :attr:`surveys`; no names if the model has neither notes nor warnings."""
+        own = cls.notes is not Surrounding.notes or cls.warnings is not Surrounding.warnings
+        return cls.surveys if own else ()
+
     def long_step(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> str:  # noqa: ARG002
         """Return a warning that Δt (s) is too long for the model; empty if not. See :meth:`warnings`."""
         return ""

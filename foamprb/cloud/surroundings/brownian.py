@@ -163,6 +163,7 @@ class BrownianMotion(Surrounding):
 
     rows: ClassVar = BrownianRows
     rows_name: ClassVar = "thermal"
+    surveys: ClassVar = ("R", "rho", "mu")
     update: ClassVar = staticmethod(draw)
     prepare: ClassVar = staticmethod(compute_force)
     disturb: ClassVar = staticmethod(apply_force)

@@ -152,6 +152,7 @@ class Dispersion(Surrounding):
 
     rows: ClassVar = EddyRows
     rows_name: ClassVar = "eddies"
+    surveys: ClassVar = ("R", "mu")
     update: ClassVar = staticmethod(update_eddy)
     disturb: ClassVar = staticmethod(add_eddies)
     needs_turbulence: ClassVar = True

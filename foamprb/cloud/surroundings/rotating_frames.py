@@ -105,6 +105,7 @@ class RotatingFrames(Surrounding):
 
     rows: ClassVar = FrameRows
     rows_name: ClassVar = "frames"
+    surveys: ClassVar = ()
     update: ClassVar = staticmethod(enter_frame)
     disturb: ClassVar = staticmethod(no_disturbance)
 

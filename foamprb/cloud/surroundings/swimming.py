@@ -95,6 +95,7 @@ class Swimming(Surrounding):
 
     rows: ClassVar = SwimmerRows
     rows_name: ClassVar = "swimmers"
+    surveys: ClassVar = ()
     update: ClassVar = staticmethod(draw_spin)
     disturb: ClassVar = staticmethod(swim)
     mirrors: ClassVar = True

@@ -516,6 +516,7 @@ class WallLift(Surrounding):
 
     rows: ClassVar = WallRows
     rows_name: ClassVar = "near"
+    surveys: ClassVar = ("x", "host", "R")
     update: ClassVar = staticmethod(find_walls)
     disturb: ClassVar = staticmethod(lift)
 

@@ -17,7 +17,6 @@ from mesh_shapes import block, box_patches
 from paths import PIPE
 from scipy import stats
 
-from foamprb.cloud.injection import models
 from foamprb.cloud.injection.models import (
     BYTES,
     GIVEN,
@@ -30,6 +29,7 @@ from foamprb.cloud.injection.models import (
     PatchInjection,
     SphereInjection,
     given_shear_modulus,
+    pending,
 )
 from foamprb.errors import InputError
 from foamprb.flow import analytic
@@ -56,7 +56,7 @@ def no_file(path, columns):
 
 
 def release(model, flow, random, read):
-    return models.release(model, flow, random, read).particles
+    return pending(model.places(flow, random, read))
 
 
 def rng(seed=5):
@@ -312,9 +312,9 @@ class TestGiven:
             return x, {"d": np.array([1.0, 2.0, 3.0])}
 
         model = ManualInjection(Path("file"), ignoreOutOfBounds=True)
-        released = models.release(model, analytic.pipe(1.0, 1.0), rng(), read)
-        np.testing.assert_array_equal(released.particles.x, x[[0, 2]])
-        np.testing.assert_array_equal(released.given["d"], [1.0, 3.0])
+        places = model.places(analytic.pipe(1.0, 1.0), rng(), read)
+        np.testing.assert_array_equal(pending(places).x, x[[0, 2]])
+        np.testing.assert_array_equal(places.given["d"], [1.0, 3.0])
 
     @pytest.mark.parametrize(
         ("outside", "told"),
@@ -331,7 +331,7 @@ class TestGiven:
             return np.array(x), {}
 
         with pytest.raises(InputError) as caught:
-            models.release(ManualInjection(Path("file")), analytic.pipe(1.0, 1.0), rng(), read)
+            ManualInjection(Path("file")).places(analytic.pipe(1.0, 1.0), rng(), read)
         assert str(caught.value).startswith(
             f"file: {outside} of {outside + 1} positions lie outside the mesh: {told}Move them inside"
         )

@@ -1,0 +1,173 @@
+"""Particles of a run at their start, made part by part in the order of their numbers."""
+
+from __future__ import annotations
+
+import math
+import sys
+import zlib
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.compressibility import lame_from_bulk_modulus, sufficient_bulk_modulus
+from foamprb.body.material import MATERIALS, lame_parameter, modulus_of_capsule
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import find_hosts, parts_of
+from foamprb.cloud.injection.distribution import Distribution, draw
+from foamprb.cloud.injection.models import BYTES, given_shear_modulus, pending, start_of_injection
+from foamprb.cloud.measures import shear_rate_at
+from foamprb.cloud.state import Particles
+from foamprb.cloud.viscosity import medium_at, viscosity_at_rate
+from foamprb.dictionary.positions import read_positions
+from foamprb.errors import InputError
+from foamprb.flow.base import Flow
+from foamprb.memory import announce
+from foamprb.settings.injections import InjectionSettings
+
+__all__ = ["Release"]
+
+Floats = NDArray[np.float64]
+
+
+class Release:
+    """Places of all particles of a run, from which their states follow part by part.
+
+    The particles do not depend on the size of the parts.
+
+    Parameters
+    ----------
+    injections
+        Settings of the injection models.
+    flow, medium
+        The flow, and its viscosity, density and gravity.
+
+    Raises
+    ------
+    InputError
+        If an injection model cannot release particles in the flow.
+    """
+
+    def __init__(self, injections: Sequence[InjectionSettings], flow: Flow, medium: Medium) -> None:
+        self._sources = [_Source(i, injection, flow, medium) for i, injection in enumerate(injections)]
+        self.size = sum(source.size for source in self._sources)
+        announce("particles", self.size, BYTES)
+
+    def parts(self, most: int = sys.maxsize) -> Iterator[Particles]:
+        """Yield the particles in the order of their numbers, at most so many together.
+
+        Raises
+        ------
+        InputError
+            If a stiffness is not positive, or a particle lies outside the flow.
+        """
+        first = 0
+        for source in self._sources:
+            for p in source.parts(most):
+                p.number[:] = first + np.arange(p.size)
+                first += p.size
+                yield p
+
+
+class _Source:
+    """One injection model; see :class:`Release`."""
+
+    def __init__(self, index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> None:
+        self._index, self._injection, self._flow, self._medium = index, injection, flow, medium
+        solid = injection.solid
+        try:
+            self._places = injection.model.places(flow, self._random(), read_positions)
+            self._given = self._places.given
+            mu = viscosity_at_rate(medium.mu, solid.referenceShearRate)
+            self._stiffness = given_shear_modulus(
+                self._given, solid.poissonsRatio, mu, solid.referenceShearRate
+            )
+            if injection.sizeDistribution is None and "d" not in self._given:
+                raise InputError("sizeDistribution is missing, and the file of positions has no column d.")
+            kind = MATERIALS[solid.type]
+            if self._stiffness is not None and (kind.liquid or kind.membrane):
+                raise InputError(
+                    f"the file of positions gives a stiffness, which the solid {solid.type} does not have."
+                )
+        except InputError as error:
+            raise InputError(f"injection model {injection.name}: {error}") from error
+        self.size = len(self._places.t)
+
+    def parts(self, most: int) -> Iterator[Particles]:
+        """Yield the particles, at most so many together, but for their numbers."""
+        solid, size = self._injection.solid, self._injection.sizeDistribution or 0.0
+        streams = {key: self._random(key) for key in ("size", "rho", "viscosity", "surfaceTension", "shape")}
+        stiff, membrane = self._random("stiffness"), self._random("stiffness")
+        for start in range(0, self.size, most):
+            rows = slice(start, min(start + most, self.size))
+            p = pending(self._places, rows)
+
+            def values(name: str, quantity: float | Distribution, key: str) -> Floats:
+                """Return the values in the file of positions, or random ones."""
+                own = self._given.get(name)
+                return draw(quantity, p.size, streams[key]) if own is None else own[rows]  # noqa: B023
+
+            p.R[:] = 0.5 * values("d", size, "size")
+            p.rho[:] = values("rho", self._injection.rho0, "rho")
+            p.mu[:] = (
+                draw(solid.shearModulus, p.size, stiff) if self._stiffness is None else self._stiffness[rows]
+            )
+            p.eta[:] = values("viscosity", solid.viscosity, "viscosity")
+            p.gamma[:] = values("surfaceTension", solid.surfaceTension, "surfaceTension")
+            p.k[:] = self._injection.parameter
+            if MATERIALS[solid.type].membrane:
+                G_s = draw(solid.surfaceShearModulus or 0.0, p.size, membrane)
+                p.mu[:] = modulus_of_capsule(G_s, solid.surfacePoissonsRatio, p.R)
+            if MATERIALS[solid.type].liquid:
+                p.mu[:], p.gamma[:], p.drop[:] = p.gamma / p.R, 0.0, 1
+            self._injection.shape.form(p, streams["shape"])
+            p.injector[:] = self._index
+            self._refuse_moduli(p)
+            stress = self._viscous_stress(p)
+            p.Ca[:] = stress / p.mu
+            p.lame[:] = self._lame(p.mu)
+            find_hosts(p, self._flow)
+            yield p
+
+    def _viscous_stress(self, p: Particles) -> Any:
+        """Return μ_f γ̇ at particles, or that of the reference shear rate, Pa."""
+        rate = self._injection.solid.referenceShearRate
+        if rate is not None:
+            return viscosity_at_rate(self._medium.mu, rate) * rate
+        start = start_of_injection(self._injection.model, self._flow)
+        mu = medium_at(self._medium, self._flow, p, start).mu
+        return mu * shear_rate_at(self._flow, p, start)
+
+    @cached_property
+    def _largest_stress(self) -> float:
+        """Largest viscous stress around the particles, Pa."""
+        parts = (pending(self._places, rows) for rows in parts_of(self.size))
+        return max(float(np.max(self._viscous_stress(p), initial=0.0)) for p in parts)
+
+    def _lame(self, mu: Floats) -> Floats:
+        """Return λ_s, Pa, for shear moduli μ_s, Pa."""
+        solid = self._injection.solid
+        if solid.poissonsRatio is not None:
+            return np.asarray(lame_parameter(mu, solid.poissonsRatio))
+        bulk = solid.bulkModulus
+        if bulk is None:
+            return np.asarray(lame_from_bulk_modulus(sufficient_bulk_modulus(mu, self._largest_stress), mu))
+        return np.asarray(lame_from_bulk_modulus(bulk, mu))
+
+    def _refuse_moduli(self, p: Particles) -> None:
+        """Raise InputError if a stiffness is not a positive number."""
+        wrong = ~((p.mu > 0.0) & (p.mu < math.inf))
+        if wrong.any():
+            solid = self._injection.solid
+            what = "tension over radius" if MATERIALS[solid.type].liquid else "shear modulus"
+            mu = viscosity_at_rate(self._medium.mu, solid.referenceShearRate)
+            raise InputError(
+                f"injection model {self._injection.name}: the {what} of {np.count_nonzero(wrong)} of "
+                f"{p.size} particles is {p.mu[wrong][0]:g}, no positive number; the fluid has {mu:g} Pa s."
+            )
+
+    def _random(self, *names: str) -> np.random.Generator:
+        """Return a generator whose seed depends on the names of the injection model and a quantity alone."""
+        return np.random.default_rng([zlib.crc32(name.encode()) for name in (self._injection.name, *names)])

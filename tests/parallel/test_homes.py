@@ -1,0 +1,248 @@
+"""Particles at homes, without MPI: the workers of several processes in one."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import small_clouds
+from observing import observed, pipe_cloud
+
+from foamprb.cloud.cloud import Cloud, regrouped, same
+from foamprb.cloud.patches import Escape, Rebound
+from foamprb.cloud.state import Particles, concatenate, empty, spheres
+from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
+from foamprb.cloudfunctions.haemolysis import Haemolysis
+from foamprb.cloudfunctions.particle_collector import ParticleCollector
+from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
+from foamprb.cloudfunctions.particle_statistics import ParticleStatistics
+from foamprb.cloudfunctions.particle_tracks import ParticleTracks
+from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
+from foamprb.cloudfunctions.registry import CloudFunctions
+from foamprb.cloudfunctions.suspension_stress import SuspensionStress
+from foamprb.errors import InputError
+from foamprb.parallel.exchange import Share
+from foamprb.parallel.homes import RankHomes
+from foamprb.parallel.worker import Worker
+from foamprb.results.checkpoint import Checkpoint, part_file, write_checkpoint
+from foamprb.run.description import _surveyed
+from foamprb.run.restart import _agree, _sums_of_particles, write_part
+
+PLANE = (0.004, 0.0, 0.0), (1.0, 0.0, 0.0)
+FUNCTIONS = {
+    "loads": ParticleHistogram(sampleInterval=5),
+    "plane": ParticleCollector("plane", *PLANE, sampleInterval=5),
+    "camera": DeformabilityCytometry(*PLANE, view=(0.0, 0.0, 1.0), sampleInterval=5),
+    "blood": Haemolysis("Ding", "morphology", sampleInterval=5),
+    "paths": ParticleTracks(5, 100, maxTracks=13),
+    "hits": PatchPostProcessing(("wall", "outlet")),
+    "stress": SuspensionStress(),
+}
+
+
+class Mail:
+    """What one process sends to another."""
+
+    def __init__(self, size: int) -> None:
+        self.size, self.letters = size, []
+
+    def send(self, letter: Any, rank: int) -> None:  # noqa: ARG002
+        self.letters.append(letter)
+
+    def recv(self, source: int) -> Any:  # noqa: ARG002
+        return self.letters.pop()
+
+
+class Processes:
+    """Workers that execute orders one after the other."""
+
+    def __init__(self, n: int) -> None:
+        mail, self.workers = Mail(n), []
+        for rank in range(n):
+            worker = Worker.__new__(Worker)
+            worker.comm, worker.rank = mail, rank
+            worker.home = Share(empty(0), np.empty(0, dtype=np.int64))
+            self.workers.append(worker)
+
+    def order(self, name: str, *arguments: Any, own: tuple[Any, ...] = ()) -> list[Any]:
+        return [getattr(w, name)(*arguments, *(own if w.rank == 0 else ())) for w in self.workers]
+
+    def homes_of(self, p: Particles) -> RankHomes:
+        parts = [p.take(slice(k, k + 11)) for k in range(0, p.size, 11)]
+        return RankHomes(self.workers[0], self.order, p.size, parts)
+
+    def gather(self, p: Particles) -> None:
+        """Send the state of all particles home."""
+        for worker in self.workers:
+            for own, array in zip(worker.home.particles, p, strict=True):
+                own[:] = array[worker.home.ids]
+
+    def joined(self) -> dict[str, np.ndarray]:
+        """Return what cloud functions remember at all homes."""
+        names = self.workers[0].home.memory
+        return {k: np.concatenate([w.home.memory[k] for w in self.workers]) for k in names}
+
+
+@pytest.fixture(autouse=True)
+def _small_parts(monkeypatch):
+    monkeypatch.setattr("foamprb.cloud.cloud.PART", 7)
+
+
+def at_homes(cloud: Cloud, n: int, **changes: Any) -> tuple[Cloud, Processes]:
+    """Return a cloud of the same particles that n processes hold."""
+    processes = Processes(n)
+    homes = processes.homes_of(cloud.particles.copy())
+    made_of = {f.name: getattr(cloud, f.name) for f in dataclasses.fields(cloud)}
+    return Cloud(**{**made_of, **changes, "particles": homes.particles, "homes": homes}), processes
+
+
+def assert_same_files(folder: Path, others: Path) -> None:
+    files = sorted(f.relative_to(folder) for f in folder.rglob("*") if f.is_file())
+    assert files == sorted(f.relative_to(others) for f in others.rglob("*") if f.is_file())
+    for file in files:
+        assert (folder / file).read_bytes() == (others / file).read_bytes(), file
+
+
+def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, tables: str = "csv") -> None:
+    """Observe a cloud here and at homes; all files and all that is remembered are the same."""
+    afar, processes = at_homes(cloud, n)
+    ends = [dataclasses.replace(observed(c), tables=tables) for c in (cloud, afar)]
+    here, there = (CloudFunctions(functions, end) for end in ends)
+    for k in range(30):
+        cloud.advance(10)
+        processes.gather(cloud.particles)
+        afar.step = cloud.step
+        afar.tracker.rebounds = [rows.copy() for rows in cloud.tracker.rebounds]
+        here.sample(list(functions))
+        there.sample(list(functions))
+        if k % 10 == 9:
+            here.write(folder / "here")
+            there.write(folder / "there")
+    assert_same_files(folder / "here", folder / "there")
+    found, expected = there.state() | processes.joined(), here.state()
+    assert list(found) == list(expected)
+    for name, array in expected.items():
+        assert found[name].dtype == array.dtype
+        assert found[name].tobytes() == array.tobytes(), name
+
+
+@pytest.mark.parametrize("n", [1, 3])
+@pytest.mark.parametrize("tables", ["csv", "parquet"])
+def test_functions_write_the_same_of_particles_elsewhere(n, tables, tmp_path):
+    pytest.importorskip("pyarrow")
+    for name in ("here", "there"):
+        (tmp_path / name).mkdir()
+    cloud = pipe_cloud()
+    observe_both(cloud, FUNCTIONS, n, tmp_path, tables)
+    assert {*cloud.particles.status.tolist()} >= {1, 2}
+
+
+def test_rebounds_of_particles_elsewhere_are_recorded(tmp_path):
+    for name in ("here", "there"):
+        (tmp_path / name).mkdir()
+    cloud = pipe_cloud(walls=(Rebound(0.5, 0.1), Escape(), Escape()), integrator="rosenbrock", rebounds=True)
+    observe_both(cloud, FUNCTIONS, 3, tmp_path)
+    assert (tmp_path / "here/hits/wall.csv").read_text().count("rebound") > 10
+
+
+def test_fields_on_the_mesh_are_those_of_one_process(tmp_path):
+    cloud = small_clouds.box_cloud("stokes")
+    for name in ("here", "there"):
+        (tmp_path / name).mkdir()
+    observe_both(cloud, {"cells": ParticleStatistics(sigmaParticles=True)}, 3, tmp_path)
+    assert (tmp_path / "here/cells/0.6/concentration").exists()
+
+
+def test_particles_are_found_by_their_numbers():
+    cloud = pipe_cloud()
+    afar, _ = at_homes(cloud, 3)
+    numbers = np.array([39, 0, 17, 17, 2])
+    for found, expected in zip(afar.of(numbers), cloud.of(numbers), strict=True):
+        assert found.tobytes() == expected.tobytes()
+    assert afar.values_of(numbers, "R").tolist() == cloud.values_of(numbers, "R").tolist()
+    assert afar.whole().x.tobytes() == cloud.particles.x.tobytes()
+    assert (afar.size, afar.particles.size) == (40, 14)
+    assert afar.counts() == cloud.counts()
+    assert [p.number[0] for p in afar.in_order(same)] == [0, 7, 14, 21, 27, 34]
+    assert [p.size for p in afar.in_order(same)] == [7, 7, 7, 6, 7, 6]
+
+
+def test_a_cloud_elsewhere_is_the_same_cloud():
+    """Its models, its limits, its fingerprint and what notes and warnings read."""
+    cloud = pipe_cloud(integrator="auto")
+    afar, _ = at_homes(cloud, 3, models=dataclasses.replace(cloud.models, integrator="auto"))
+    assert (afar.models, afar.stokes_numbers, afar._largest) == (
+        cloud.models, cloud.stokes_numbers, cloud._largest,
+    )  # fmt: skip
+    assert afar.make_ready() == cloud.make_ready()
+    assert afar.reach == cloud.reach
+    found, expected = (_sums_of_particles(c) for c in (afar, cloud))
+    assert list(found) == list(expected)
+    assert all(_agree(found[name], expected[name]) for name in expected)
+    models = dataclasses.replace(cloud.models, surroundings=(BrownianMotion(T=293.15),))
+    afar.models = cloud.models = models
+    surveyed = _surveyed(afar)
+    for name in BrownianMotion.surveys:
+        assert getattr(surveyed, name).tobytes() == getattr(cloud.particles, name).tobytes()
+    assert surveyed.size == 40
+
+
+def test_faults_of_particles_elsewhere_have_the_same_message():
+    cloud = pipe_cloud()
+    for name, value in (("R", 1.0), ("t0", -1.0), ("rho", 1e300)):
+        p = cloud.particles.copy()
+        getattr(p, name)[[20, 35]] = value
+        messages = []
+        for homes in (None, Processes(3).homes_of(p)):
+            made_of = {f.name: getattr(cloud, f.name) for f in dataclasses.fields(cloud)}
+            own = p if homes is None else homes.particles
+            with pytest.raises(InputError) as caught:
+                Cloud(**{**made_of, "particles": own, "homes": homes})
+            messages.append(str(caught.value))
+        assert messages[0] == messages[1]
+        assert "20" in messages[0] or "2 of 40" in messages[0]
+
+
+@pytest.mark.parametrize("before", [1, 2, 5])
+def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path):
+    cloud = pipe_cloud()
+    written, processes = at_homes(cloud, before)
+    CloudFunctions(FUNCTIONS, observed(written))
+    cloud.advance(20)
+    processes.gather(cloud.particles)
+    for worker in processes.workers:
+        for array in worker.home.memory.values():
+            array[:] = np.arange(array.size).reshape(array.shape) % 7
+    file = tmp_path / "1.checkpoint"
+    parts = [part for part in written.homes.at_homes(write_part, file, 1.0, of="") if part is not None]
+    assert len(parts) == before - 1
+    assert all(part_file(file, first).exists() for first, _ in parts)
+    first = processes.workers[0].home
+    arrays = {f"particles/{k}": a for k, a in first.particles._asdict().items()}
+    arrays |= {f"functions/{k}": a for k, a in first.memory.items()}
+    write_checkpoint(file, Checkpoint(1.0, {"parts": parts}, arrays))
+
+    again, others = at_homes(pipe_cloud(), 3)
+    CloudFunctions(FUNCTIONS, observed(again))
+    again.homes.restore(file)
+    for found, expected in zip(again.whole(), cloud.particles, strict=True):
+        assert found.tobytes() == expected.tobytes()
+    expected = processes.joined()
+    for name, found in others.joined().items():
+        assert found.tobytes() == expected[name].tobytes(), name
+    assert len(others.workers[1].home.ids) == 13
+
+
+def test_regrouped_parts_have_the_size_that_is_asked_for():
+    p = spheres(np.arange(60.0).reshape(20, 3), d=1.0, rho=1.0, mu=1.0)
+    for cuts in ((), (3,), (5, 5, 12), (19,)):
+        parts = [p.take(slice(a, b)) for a, b in zip((0, *cuts), (*cuts, 20), strict=True)]
+        found = list(regrouped(parts, 8))
+        assert [part.size for part in found] == [8, 8, 4]
+        assert concatenate(found).x.tobytes() == p.x.tobytes()
+    assert [part.size for part in regrouped([p.take(slice(0))], 8)] == [0]
+    assert [part.size for part in regrouped([p.take(slice(16))], 8)] == [8, 8]

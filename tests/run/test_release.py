@@ -1,0 +1,81 @@
+"""Particles at their start, made in parts of any size."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from paths import PIPE
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.injection import models
+from foamprb.cloud.injection.distribution import Normal, RosinRammler, Uniform
+from foamprb.cloud.injection.models import BoxInjection, ConeInjection, PatchInjection
+from foamprb.cloud.injection.shapes import Ellipsoid, Sphere
+from foamprb.cloud.state import concatenate
+from foamprb.errors import InputError
+from foamprb.flow.read.openfoam import read_case
+from foamprb.run.release import Release
+from foamprb.settings.injections import InjectionSettings, Solid
+
+AIR = Medium(1.8e-5, 1.2, (0.0, -9.81, 0.0))
+SIZES = Normal(3e-6, 8e-6, 5e-6, 1e-6)
+CONE = ConeInjection((((0.1, 0.0, 0.0), (1.0, 0.0, 0.0)),), 0.01, 200.0, 1.0, 0.0, 20.0)
+BOX = BoxInjection(min=(0.1, -0.002, -0.002), max=(0.2, 0.002, 0.002), number=300)
+
+
+@pytest.fixture(scope="module")
+def flow():
+    return read_case(PIPE)
+
+
+def injection(name, model, solid, sizes=SIZES, rho=1000.0, shape=Sphere()):  # noqa: B008
+    return InjectionSettings(name, model, rho, solid, 0.0, sizes, shape)
+
+
+INJECTIONS = (
+    # The first Lamé parameter follows from the largest viscous stress around all particles.
+    injection(
+        "one", PatchInjection("inlet", 1e5, 0.005), Solid(type="neoHooke", shearModulus=Uniform(0.1, 1.0))
+    ),
+    injection(
+        "two", CONE, Solid(type="neoHooke", poissonsRatio=0.49, shearModulus=1.0), rho=Uniform(900.0, 2000.0)
+    ),
+    injection(
+        "three",
+        BOX,
+        Solid(
+            type="neoHooke", bulkModulus=10.0, shearModulus=0.5, viscosity=RosinRammler(1e-3, 1e-2, 2e-3, 2.0)
+        ),
+        shape=Ellipsoid((2.0, 1.0, 0.5), "random"),
+    ),
+)
+
+
+@pytest.mark.parametrize("most", [1, 7, 250])
+def test_particles_do_not_depend_on_the_size_of_the_parts(most, flow, monkeypatch):
+    whole = concatenate(Release(INJECTIONS, flow, AIR).parts())
+    assert whole.size == 1000
+    assert whole.number.tolist() == list(range(1000))
+    monkeypatch.setattr("foamprb.cloud.cloud.PART", most)
+    release = Release(INJECTIONS, flow, AIR)
+    parts = list(release.parts(most))
+    assert release.size == 1000
+    assert max(part.size for part in parts) <= most
+    for name, found, expected in zip(whole._fields, concatenate(parts), whole, strict=True):
+        assert found.tobytes() == expected.tobytes(), name
+    for name in ("R", "rho", "mu", "eta", "Ca", "lame", "v", "F0"):
+        assert len(np.unique(getattr(whole, name)[~np.isnan(whole.t)], axis=0)) > 2, name
+
+
+def test_the_draw_of_places_does_not_depend_on_the_size_of_its_parts(flow, monkeypatch):
+    model = PatchInjection("inlet", 1e5, 0.005)
+    whole = models.pending(model.places(flow, np.random.default_rng(1), None))
+    monkeypatch.setattr("foamprb.cloud.cloud.PART", 7)
+    again = models.pending(model.places(flow, np.random.default_rng(1), None))
+    assert again.x.tobytes() == whole.x.tobytes()
+
+
+def test_a_stiffness_that_is_no_number_is_reported(flow):
+    solid = Solid(type="neoHooke", poissonsRatio=0.49, shearModulus=np.inf)
+    with pytest.raises(InputError, match="one: the shear modulus of 5 of 5 particles is inf"):
+        list(Release([injection("one", PatchInjection("inlet", 5.0, 1.0), solid)], flow, AIR).parts(5))
