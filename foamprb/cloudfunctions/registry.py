@@ -99,9 +99,6 @@ class CloudFunctions:
     @property
     def travelling(self) -> list[str]:
         """Names of the functions whose data can go with the particles."""
-        if self.cloud.cloud.models.rebounds:
-            # Records of a particle may be on another process than the particle.
-            return []
         return [name for name, function in self.functions.items() if function.travels]
 
     def watched(self, names: Collection[str]) -> Rows | None:
@@ -155,6 +152,9 @@ class CloudFunctions:
     def write(self, folder: Path) -> None:
         """Let every function write into a folder of its name."""
         for name, function in self.functions.items():
+            if function.events:
+                # Those of rebounds and of samples were recorded one after the other.
+                self._memory[name][function.events] = _in_time(self._memory[name][function.events])
             function.write(self._memory[name], self._seen_by(name), folder / name)
 
     def with_particles(self, names: Iterable[str]) -> Memory:
@@ -201,10 +201,15 @@ class CloudFunctions:
         return own if self.cloud.cloud.homes is None else own | dict(self.cloud.cloud.homes.memory)
 
     def _record_rebounds(self) -> None:
-        if self.cloud.cloud.models.rebounds and len(rows := self.cloud.cloud.take_rebounds()):
-            for name, function in self.functions.items():
-                record = partial(_record, function, rows)
-                self._observe(name, record, np.unique(rows[:, 0]).astype(np.int64))
+        if self.cloud.cloud.models.rebounds:
+            self.record_rebounds(self.cloud.cloud.take_rebounds(), self.functions)
+
+    def record_rebounds(self, rows: NDArray[np.float64], names: Iterable[str]) -> None:
+        """Let some functions record rebounds and passages; for these see :meth:`Cloud.take_rebounds`."""
+        numbers = np.unique(rows[:, 0]).astype(np.int64)
+        for name in names if len(rows) else ():
+            if type(self.functions[name]).record_rebounds is not CloudFunction.record_rebounds:
+                self._observe(name, partial(_record, self.functions[name], rows), numbers)
 
     def restore(self, stored: Collection[str], read: Callable[[str], NDArray[Any]]) -> None:
         """Restore the data that :meth:`state` returned in an earlier run.

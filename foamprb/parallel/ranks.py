@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Stepper, Value
+from foamprb.cloud.contact import in_order
 from foamprb.cloud.measures import largest_slip
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Outcome, never
@@ -204,17 +205,18 @@ class RankStepper(Stepper):
         self.ranks.order("set_out", self._ranks_of)
 
     def gather(self, numbers: NDArray[np.int64] | None = None) -> None:
-        """Collect changed particles at their homes, rebounds and events from all processes."""
+        """Collect changed particles at their homes, and events from all processes."""
         if self._gathered:
             return
+        self._record_rebounds()
         self.ranks.order("gather", numbers, numbers is None and not self._behind)
-        self.cloud.tracker.rebounds += self.ranks.order("take_rebounds")
         if numbers is None:
             self._functions.add_events(self.ranks.order("take_events"))
             self._gathered = True
 
     def sample_away(self, names: Sequence[str]) -> list[str]:
         """Let the cloud functions sample that can do so on all processes; return the others."""
+        self._record_rebounds()
         travelling = self._functions.travelling
         away = [name for name in names if name in travelling]
         if away:
@@ -223,6 +225,19 @@ class RankStepper(Stepper):
             self._gathered = False
             self._behind -= {*away}
         return [name for name in names if name not in travelling]
+
+    def _record_rebounds(self) -> None:
+        """Let the cloud functions record the rebounds of all processes since the last call."""
+        functions = self._functions
+        if not self.cloud.models.rebounds or not functions.functions:
+            return
+        rows = in_order(self.ranks.order("take_rebounds"))
+        if len(rows):
+            self._publish_present()
+            self.ranks.order("record", rows, self.cloud.time)
+            functions.record_rebounds(
+                rows, [name for name in functions.functions if name not in functions.travelling]
+            )
 
     def each(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
         """See :meth:`Stepper.each`."""

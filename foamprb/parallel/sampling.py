@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.block import Medium
+from foamprb.cloud.patches import Interaction
 from foamprb.cloud.state import Particles
 from foamprb.cloud.tracker import Tracker
 from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, memory_of
@@ -18,6 +20,7 @@ from foamprb.cloudfunctions.registry import CloudFunctions
 class _Share(NamedTuple):
     """What functions see of a cloud of which this process has a share."""
 
+    interactions: Sequence[Interaction]
     flow: Any
     medium: Medium
     tracker: Tracker
@@ -33,6 +36,7 @@ class Sampling:
     """Empty tables of events by the names of their functions."""
     carried: tuple[tuple[str, str, tuple[int, ...]], ...]
     """Name, type and shape of what a function remembers of a particle."""
+    interactions: tuple[Interaction, ...]
     medium: Medium
     injectors: tuple[str, ...]
     patches: tuple[str, ...]
@@ -47,12 +51,13 @@ class Sampling:
             {name: functions.functions[name] for name in names},
             functions.new_events(names),
             tuple((name, array.dtype.str, array.shape[1:]) for name, array in arrays.items()),
+            tuple(cloud.cloud.interactions),
             medium,
             cloud.injectors,
             cloud.patches,
         )
 
-    def sample(
+    def observe(
         self,
         names: Iterable[str],
         memory: Mapping[str, NDArray[Any]],
@@ -61,8 +66,9 @@ class Sampling:
         tracker: Tracker,
         time: float,
         events: Memory,
+        rebounds: NDArray[np.float64] | None = None,
     ) -> Memory:
-        """Let some functions sample particles; return the events so far by their names.
+        """Let some functions sample particles, or record rebounds; return the events so far by their names.
 
         Parameters
         ----------
@@ -74,14 +80,19 @@ class Sampling:
             The particles, the flow around them, the tracker of the cloud, and the time, s.
         events
             Events so far.
+        rebounds
+            Rebounds to record instead of a sample, with rows of the particles for their numbers.
         """
-        share: Any = _Share(flow, self.medium, tracker, time)
+        share: Any = _Share(self.interactions, flow, self.medium, tracker, time)
         cloud, found = ObservedCloud(share, self.injectors, self.patches, seen=p), {}
         for name in names:
             function, known = self.functions[name], memory_of(memory, name)
             if function.events:
                 known[function.events] = events.get(name, self.events[name])
-            function.sample(known, cloud)
+            if rebounds is None:
+                function.sample(known, cloud)
+            else:
+                function.record_rebounds(known, cloud, rebounds)
             if function.events:
                 found[name] = known[function.events]
         return found

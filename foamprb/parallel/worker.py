@@ -6,7 +6,7 @@ import gc
 import pickle
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -442,11 +442,25 @@ class Worker:
 
     def sample(self, names: Sequence[str], time: float) -> None:
         """Let some cloud functions sample the particles that this process advances."""
+        self._observe(names, time)
+
+    def record(self, rebounds: NDArray[np.float64], time: float) -> None:
+        """Let the cloud functions record the rebounds of the particles that this process advances."""
+        order = np.argsort(self.own.ids)
+        numbers, ids = rebounds[:, 0].astype(np.int64), self.own.ids[order]
+        at = np.minimum(np.searchsorted(ids, numbers), max(len(ids) - 1, 0))
+        here = ids[at] == numbers if len(ids) else np.zeros(len(numbers), dtype=bool)
+        own = np.column_stack([order[at[here]], rebounds[here, 1:]])
+        self._observe(self._sampling.functions, time, own)
+
+    def _observe(
+        self, names: Iterable[str], time: float, rebounds: NDArray[np.float64] | None = None
+    ) -> None:
+        """See :meth:`Sampling.observe`."""
         own = self.own
-        found = self._sampling.sample(
-            names, own.memory, own.particles, self._seen, self._tracker, time, self._events
+        self._events |= self._sampling.observe(
+            names, own.memory, own.particles, self._seen, self._tracker, time, self._events, rebounds
         )
-        self._events |= found
 
     def take_events(self) -> Memory:
         """Return the events that the functions have recorded since the last call."""

@@ -109,11 +109,11 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
 
 
 def _surveyed(cloud: Cloud) -> Particles:
-    """Return all particles with the arrays that notes and warnings read.
+    """Return all particles with the arrays that notes and warnings of the surroundings read.
 
     Of several processes the first gathers these; the others are zero, and take no memory of the machine.
     """
-    if cloud.homes is None:
+    if cloud.homes is None or not cloud.models.surroundings:
         return cloud.particles
     names = {name for model in cloud.models.surroundings for name in model.surveyed()}
     if model_of(cloud.medium.mu):

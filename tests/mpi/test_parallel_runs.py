@@ -484,17 +484,13 @@ def test_memory_of_the_flow_is_shared(case, tmp_path):
 
 def test_rebounds_are_noted_by_all_processes(tmp_path):
     """Particles change hands, and take what they did with them."""
-    tables = []
-    for name in ("one", "three"):
-        case = case_with_functions(tmp_path / name)
+    one, three = (case_with_functions(tmp_path / name) for name in ("one", "three"))
+    for case in (one, three):
         edit(case, r"type\s+stick;", "type rebound; e 0.5; mu 0.1;")
-        if name == "one":
-            assert main(["run", "-case", str(case)]) == 0
-        else:
-            finish(3, case)
-        tables.append((folder_of(case) / "hits/wall.csv").read_text())
-    assert tables[0] == tables[1]
-    assert tables[0].count("rebound") > 3
+    assert main(["run", "-case", str(one)]) == 0
+    finish(3, three)
+    assert_same(three, one)
+    assert (folder_of(one) / "hits/wall.csv").read_text().count("rebound") > 3
 
 
 def test_eddies_are_the_same_on_several_processes(tmp_path):

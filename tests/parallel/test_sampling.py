@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from observing import observed, pipe_cloud
+from mesh_shapes import cyclic_row
+from observing import WATER, observed, pipe_cloud
 
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Cyclic, Rebound
+from foamprb.cloud.state import spheres
+from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import Memory
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.haemolysis import Haemolysis
@@ -12,8 +17,10 @@ from foamprb.cloudfunctions.particle_collector import ParticleCollector
 from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
 from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.registry import CloudFunctions
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.parallel.exchange import Share
 from foamprb.parallel.sampling import Sampling
+from foamprb.parallel.worker import Worker
 
 PLANE = (0.004, 0.0, 0.0), (1.0, 0.0, 0.0)
 FUNCTIONS = {
@@ -43,7 +50,7 @@ def test_samples_of_shares_are_those_of_the_whole():
             rows = np.flatnonzero(share_of == number)
             own = Share(cloud.particles, np.arange(cloud.particles.size), carried).take(rows)
             p, memory = own.particles, own.memory
-            events[number] = sampling.sample(
+            events[number] = sampling.observe(
                 names, memory, p, cloud.flow, cloud.tracker, cloud.time, events[number]
             )
             for name, array in memory.items():
@@ -55,7 +62,59 @@ def test_samples_of_shares_are_those_of_the_whole():
         assert state[name].tobytes() == array.tobytes(), name
 
 
-def test_rebounds_keep_functions_with_the_whole_cloud():
-    """Their records may lie on another process than the particle."""
-    cloud = pipe_cloud(2, rebounds=True)
-    assert CloudFunctions(FUNCTIONS, observed(cloud)).travelling == []
+def period_cloud(n: int = 30) -> Cloud:
+    """Particles that pass coupled patches at several speeds, and turn in shear."""
+    mesh = cyclic_row(0.0, 1)
+    l = np.zeros((3, 3))
+    l[0, 1] = 3.0
+    u = mesh.nodes @ l.T + [1.0, 0.0, 0.0]
+    flow = MeshFlow(mesh, u, np.broadcast_to(l, (len(u), 3, 3)))
+    random = np.random.default_rng(5)
+    p = spheres(random.uniform(0.2, 0.8, (n, 3)), d=1e-3, rho=1e3, mu=1.0)
+    walls = [Cyclic() if patch.neighbour else Rebound() for patch in flow.patches]
+    return Cloud(p, flow, WATER, walls, 2e-3, Models(integrator="stokes", rebounds=True), threads=1)
+
+
+def test_passages_are_recorded_by_the_process_that_has_the_particle(tmp_path):
+    """Whichever it is when the records come; the functions sample at different times."""
+    plane = (0.9, 0.0, 0.0), (1.0, 0.0, 0.0)
+    functions = {
+        "plane": ParticleCollector("plane", *plane, sampleInterval=1),
+        "camera": DeformabilityCytometry(*plane, view=(0.0, 0.0, 1.0), sampleInterval=1),
+        "blood": Haemolysis("Ding", "morphology", sampleInterval=1),
+    }
+    cloud, random = period_cloud(), np.random.default_rng(3)
+    n = cloud.size
+    whole, apart = (CloudFunctions(functions, observed(cloud)) for _ in range(2))
+    sampling, carried = Sampling.of(apart, cloud.medium), apart.with_particles(functions)
+    workers = []
+    for _ in range(3):
+        worker = Worker.__new__(Worker)
+        worker._sampling, worker._tracker, worker._events = sampling, cloud.tracker, {}
+        worker._flow, worker._sampled = cloud.make_ready(), None
+        workers.append(worker)
+    for k in range(1, 41):
+        cloud.advance(20)
+        rows = cloud.take_rebounds()
+        names = [name for name, every in zip(functions, (1, 2, 5), strict=True) if k % every == 0]
+        whole.record_rebounds(rows, functions)
+        whole.sample(names)
+        share_of = random.integers(0, 3, n)
+        for number, worker in enumerate(workers):
+            mine = random.permutation(np.flatnonzero(share_of == number))
+            worker.own = Share(cloud.particles, np.arange(n), carried).take(mine)
+            if len(rows):
+                worker.record(rows, cloud.time)
+            worker.sample(names, cloud.time)
+            for name, array in worker.own.memory.items():
+                carried[name][mine] = array
+    apart.add_events([worker.take_events() for worker in workers])
+    for name, observing in (("whole", whole), ("apart", apart)):
+        (tmp_path / name).mkdir()
+        observing.write(tmp_path / name)
+    expected, state = whole.state(), apart.state()
+    assert len(expected["plane/crossings"]) > 40
+    for name, array in expected.items():
+        assert state[name].tobytes() == array.tobytes(), name
+    for file in (tmp_path / "whole").rglob("*.csv"):
+        assert (tmp_path / "apart" / file.relative_to(tmp_path / "whole")).read_bytes() == file.read_bytes()
