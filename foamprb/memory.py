@@ -20,6 +20,7 @@ __all__ = [
     "require_start",
     "returned_at_once",
     "size_text",
+    "spread_over",
 ]
 
 START = 1e9
@@ -30,6 +31,8 @@ With much less the libraries cannot be loaded, and may fail in unpredictable way
 
 _announced: dict[str, tuple[int, float]] = {}
 """Announced needs: a number, and bytes of each, by name."""
+_machines = [1]
+"""Number of machines of a run."""
 
 
 class OutOfMemory(MemoryError):  # noqa: N818
@@ -37,10 +40,18 @@ class OutOfMemory(MemoryError):  # noqa: N818
 
 
 def memory() -> float:
-    """Return the memory of this machine, or of this process if it is limited, bytes."""
+    """Return the memory of this machine, or of this process if it is limited, bytes.
+
+    Of a run on several machines it is that of all, see :func:`spread_over`.
+    """
     found = [float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))]
     found += [limit for kind in (resource.RLIMIT_AS, resource.RLIMIT_DATA) if (limit := _limit(kind))]
-    return min(found)
+    return min(found) * _machines[0]
+
+
+def spread_over(machines: int) -> None:
+    """State on how many machines like this one a run holds its particles."""
+    _machines[0] = machines
 
 
 def announce(what: str, number: int, each: float) -> None:

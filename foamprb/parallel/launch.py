@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from types import FrameType
 
 from foamprb.errors import InputError
+from foamprb.memory import spread_over
 from foamprb.parallel.ranks import Ranks
 from foamprb.parallel.worker import Worker
 
@@ -85,6 +86,7 @@ def connect() -> Ranks | Worker | None:
     shared = set().union(*worker.windows.node.allgather(own))
     threads = min(len(own), max(1, len(shared) // worker.windows.node.size))
     threads = worker.comm.allreduce(threads, MPI.MIN)
+    spread_over(worker.windows.nodes)
     return Ranks(worker, threads) if worker.rank == 0 else worker
 
 

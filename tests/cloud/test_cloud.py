@@ -221,7 +221,7 @@ class TestBookkeeping:
         cloud, separate = pipe_cloud(0.5), []
         cloud.make_ready()
         monkeypatch.setattr("foamprb.cloud.tracker.link", lambda *given: separate.extend(given[2]) or print)
-        cloud.contact_normals(np.array([0]))
+        cloud.contact_normals(cloud.particles)
         assert {*LONG} <= {*separate}
 
     def test_failed_walk_is_recovered_by_the_tree_and_counted(self):

@@ -482,6 +482,73 @@ def test_memory_of_the_flow_is_shared(case, tmp_path):
     assert max(grown) < 1 << 14
 
 
+MEMORY = """
+import sys, tracemalloc
+from foamprb import execute, prepare
+from foamprb.cloud import cloud
+from foamprb.parallel.launch import connect
+from foamprb.parallel.worker import Worker
+from foamprb.run import job as runs
+from foamprb.run.log import log_description
+
+found = connect()
+if isinstance(found, Worker):
+    sys.exit(found.serve(()))
+# Parts take little memory beside the particles.
+cloud.PART = runs.PART = 200
+assemble = runs.assemble
+
+def assemble_anew(*given):
+    tracemalloc.reset_peak()
+    return assemble(*given)
+
+def peak_of_run(case):
+    job = prepare(case, threads=1, ranks=found)
+    log_description(job)
+    execute(job, "startTime", ranks=found)
+    return tracemalloc.get_traced_memory()[1]
+
+runs.assemble = assemble_anew
+few, many = sys.argv[1:]
+# The first run also loads and compiles.
+peak_of_run(few)
+tracemalloc.start()
+before = peak_of_run(few)
+print(peak_of_run(many) - before)
+found.dismiss(0)
+"""
+FEW, MANY = 2_000, 10_000
+MOST = 700.0
+"""Bytes of the first of three processes for each particle of the cloud.
+
+A particle has 518 bytes, and 49 of a cloud function, at its home and where it advances, and 410 of a copy
+that is being written. A third of these are 515. The whole cloud would be 518 bytes more.
+"""
+
+
+def test_no_process_holds_the_whole_cloud(tmp_path):
+    """From the start to the end, with a function that remembers data and one that reads moving particles."""
+    cases = []
+    for n in (FEW, MANY):
+        case = short_case(tmp_path / str(n))
+        edit(
+            case,
+            r"cloudFunctions\s*\{\}",
+            "cloudFunctions { a { type particleHistogram; } b { type suspensionStress; } }",
+        )
+        edit(case, r"endTime\s+\S+;", "endTime 1.2e-4;")
+        edit(case, r"writeInterval\s+\S+;", "writeInterval 4e-5;")
+        edit(case, r"duration\s+\S+;", "duration 5e-5;")
+        edit(case, r"parcelsPerSecond\s+\S+;", f"parcelsPerSecond {n / 5e-5:g};")
+        cases.append(str(case))
+    script = tmp_path / "memory.py"
+    script.write_text(MEMORY)
+    words = ["mpirun", "-np", "3", sys.executable, str(script), *cases]
+    done = subprocess.run(words, capture_output=True, text=True, env=ENVIRONMENT, check=False, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert 0.0 < float(done.stdout.splitlines()[-1]) / (MANY - FEW) < MOST
+
+
 def test_rebounds_are_noted_by_all_processes(tmp_path):
     """Particles change hands, and take what they did with them."""
     one, three = (case_with_functions(tmp_path / name) for name in ("one", "three"))

@@ -38,7 +38,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.foamfile import read_cell_zones
 from foamprb.flow.read.openfoam import read_case
 from foamprb.flow.series import SeriesFlow
-from foamprb.memory import memory
+from foamprb.memory import memory, spread_over
 
 CONE = {
     "positionAxis": (((0.1, 0.0, 0.0), (1.0, 1.0, 0.0)), ((0.2, 0.0, 0.0), (0.0, 0.0, -3.0))),
@@ -295,6 +295,12 @@ class TestRoom:
             assert memory() == int(machine) // 2
         finally:
             resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+
+    def test_memory_of_all_machines_of_a_run_counts(self, monkeypatch):
+        monkeypatch.setattr("foamprb.memory._machines", [1])
+        machine = memory()
+        spread_over(3)
+        assert memory() == 3.0 * machine
 
     def test_a_run_needs_what_is_said(self):
         """Less than a kilobyte, which tests/run/test_memory.py measures."""
