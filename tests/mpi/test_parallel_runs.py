@@ -484,8 +484,12 @@ def test_memory_of_the_flow_is_shared(case, tmp_path):
 
 MEMORY = """
 import sys, tracemalloc
-from foamprb import execute, prepare
+from foamprb.cloud import measures
+# Parts of a cloud take little memory beside the whole.
+measures.PER_CONTEXT = 200
 from foamprb.cloud import cloud
+cloud.PART = 200
+from foamprb import execute, prepare
 from foamprb.parallel.launch import connect
 from foamprb.parallel.worker import Worker
 from foamprb.run import job as runs
@@ -494,8 +498,6 @@ from foamprb.run.log import log_description
 found = connect()
 if isinstance(found, Worker):
     sys.exit(found.serve(()))
-# Parts take little memory beside the particles.
-cloud.PART = runs.PART = 200
 assemble = runs.assemble
 
 def assemble_anew(*given):
