@@ -18,7 +18,7 @@ from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.mesh.submesh import layers_over
 from foamprb.flow.meshflow import MeshFlow, MeshSizes
 from foamprb.flow.nodes import Ends, Function, NodeValues, joined, stride_over
-from foamprb.flow.read.case import is_only_decomposed
+from foamprb.flow.read.case import is_only_decomposed, processor_folders
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.parts import ends_of
 from foamprb.flow.read.source import FlowSource
@@ -78,7 +78,8 @@ def why_whole(case: Path, source: FlowSource, nodes: int) -> str | None:
     if source.file is not None:
         return "a mesh file is read"
     if not (source.decomposed or is_only_decomposed(case, source.region)):
-        return "it is not decomposed"
+        found = "the flow is read from the case itself; -decomposed reads its processor folders"
+        return found if processor_folders(case) else "it is not decomposed"
     opened = DecomposedCase(case, source.region)
     if opened.processors.n < nodes:
         return f"the case has {opened.processors.n} processor folders for {nodes} nodes"

@@ -341,13 +341,18 @@ def test_an_error_that_is_caught_holds_no_arrays_of_its_callers():
 @pytest.mark.parametrize(
     ("changes", "nodes", "reason"),
     [
-        ({}, 2, "it is not decomposed"),
+        ({}, 2, "the flow is read from the case itself; -decomposed reads its processor folders"),
         ({"decomposed": True}, 2, None),
         ({"decomposed": True}, 3, "the case has 2 processor folders for 3 nodes"),
     ],
 )
 def test_the_reason_for_a_whole_mesh_is_given(changes, nodes, reason, case):
     assert why_whole(case, FlowSource(**changes), nodes) == reason
+
+
+def test_a_case_without_processor_folders_is_not_decomposed(case, tmp_path):
+    whole = shutil.copytree(case, tmp_path / "case", ignore=shutil.ignore_patterns("processor*"))
+    assert why_whole(whole, FlowSource(), 2) == "it is not decomposed"
 
 
 @given(st.lists(st.tuples(st.integers(1, 1000), st.integers(1, 1000)), min_size=4, max_size=30))
