@@ -60,7 +60,7 @@ def inertialess(t, Ca, gradient, material="neoHooke"):
         l_s = stokes.velocity_gradient(stokes.mobility(axes, g, 0.0), flat(sigma), flat(l_f))
         return (Q.T @ square(l_s) @ Q @ F).ravel()
 
-    found = solve_ivp(rate, (0.0, t), np.eye(3).ravel(), method="LSODA", rtol=1e-10, atol=1e-12)
+    found = solve_ivp(rate, (0.0, t), np.eye(3).ravel(), method="LSODA", rtol=1e-12, atol=1e-14)
     return found.y[:, -1]
 
 

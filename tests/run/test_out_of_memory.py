@@ -96,7 +96,7 @@ def test_the_writers_thread_ends_a_run_with_a_message(tmp_path):
 
     job = prepare(short_case(tmp_path), threads=1)
     with (
-        pytest.raises(RunStopped, match=r"^not enough memory for 9216 cells and 300 "),
+        pytest.raises(RunStopped, match=rf"^not enough memory for 9216 cells and {job.cloud.size} particles"),
         open_results(job) as results,
     ):
         results._writer.begin(fail)

@@ -22,7 +22,13 @@ def sliding(speeds):
     """Stepper of active particles where the fluid of a simple shear is at rest, with these velocities."""
     p = spheres(np.zeros((len(speeds), 3)), d=D, rho=RHO, mu=10.0)
     p.v[:, 0], p.status[:], p.host[:] = speeds, 1, 0
-    cloud: Any = SimpleNamespace(particles=p, medium=WATER, flow=analytic.shear(RATE), time=0.0)
+    cloud: Any = SimpleNamespace(
+        particles=p,
+        medium=WATER,
+        flow=analytic.shear(RATE),
+        time=0.0,
+        at_homes=lambda function, *arguments: [function(p, *arguments)],
+    )
     return Stepper(cloud)
 
 
