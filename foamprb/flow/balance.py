@@ -19,7 +19,7 @@ from scipy.sparse.linalg import splu
 
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, together
+from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, threads
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import Halo, Homes, alone, total_of
 
@@ -225,7 +225,12 @@ class _Equations:
         -------
         The potentials (n_cells,), and the norm.
         """
+        with threads(min(len(self._segments), _PARTS)) as run:
+            return self._solve(run, residual, enough)
+
+    def _solve(self, run: Callable[..., list[Any]], residual: Floats, enough: float) -> tuple[Floats, float]:
         n, diagonal, pair = len(residual), self._rows[3], self._pair
+        each = partial(self._each, run)
         y, image = np.zeros((2, n))
         way = np.zeros(self._n_columns)
         ends = list(pairwise(starts(np.array([len(used) for used in self._blocks], dtype=np.intp)).tolist()))
@@ -234,7 +239,7 @@ class _Equations:
         go, turn, multiply = link(go_down), link(turn_way), link(multiply_rows)
         step = part_of_last = before = 0.0
         for iteration in range(MOST_ITERATIONS + 1):
-            found = self._each(go, diagonal, pair, step, way, image, y, residual, rows=parts)
+            found = each(go, diagonal, pair, step, way, image, y, residual, rows=parts)
             everywhere = self._of_all((found, of_pairs))
             squares, energies = zip(*(pair for listed, _ in everywhere for pair in listed), strict=True)
             left = math.sqrt(math.fsum(squares))
@@ -245,20 +250,25 @@ class _Equations:
             energy = math.fsum([*energies, float(np.einsum("i,i->", sums, of_blocks))])
             part_of_last, before = energy / before if before else 0.0, energy
             solved = [(of_blocks[used],) for used in self._blocks]
-            self._each(turn, diagonal, pair, part_of_last, residual, way, rows=solved)
+            each(turn, diagonal, pair, part_of_last, residual, way, rows=solved)
             if self._others is not None:
                 way[n:] = self._others(way)
-            step = energy / self._summed(self._each(multiply, *self._rows, way, image))
+            step = energy / self._summed(each(multiply, *self._rows, way, image))
         return y, left
 
-    def _each(self, kernel: Callable[..., Any], *arguments: Any, rows: Iterable[Any] = ()) -> list[Any]:
+    def _each(
+        self,
+        run: Callable[..., list[Any]],
+        kernel: Callable[..., Any],
+        *arguments: Any,
+        rows: Iterable[Any] = (),
+    ) -> list[Any]:
         """Return the results of a kernel for the segments; its last argument is a row, if given."""
         parts = zip_longest(self._segments, rows, fillvalue=())
         calls = [partial(kernel, *part, *arguments, *row) for part, row in parts]
         n = min(len(calls), _PARTS)
         groups = [calls[len(calls) * k // n : len(calls) * (k + 1) // n] for k in range(n)]
-        found = together(*(partial(_in_turn, group) for group in groups)) if groups else []
-        return [result for group in found for result in group]
+        return [result for group in run(*(partial(_in_turn, group) for group in groups)) for result in group]
 
 
 def _in_turn(calls: Sequence[Callable[[], Any]]) -> list[Any]:

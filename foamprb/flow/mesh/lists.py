@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from functools import partial
 from itertools import pairwise
 from typing import Any, TypeAlias
@@ -97,10 +98,18 @@ _MOST_THREADS = 8
 
 def together(*calls: Callable[[], Any]) -> list[Any]:
     """Return the results of calls that run at the same time, in threads."""
-    if len(calls) == 1 or len(os.sched_getaffinity(0)) == 1:
-        return [call() for call in calls]
-    with ThreadPoolExecutor(len(calls)) as pool:
-        return list(pool.map(lambda call: call(), calls))
+    with threads(len(calls)) as run:
+        return run(*calls)
+
+
+@contextmanager
+def threads(n: int) -> Iterator[Callable[..., list[Any]]]:
+    """Yield a function that runs calls in n threads, and returns their results; often, without new threads."""
+    if n <= 1 or len(os.sched_getaffinity(0)) == 1:
+        yield lambda *calls: [call() for call in calls]
+        return
+    with ThreadPoolExecutor(n) as pool:
+        yield lambda *calls: list(pool.map(lambda call: call(), calls))
 
 
 def share(n: int, part: Callable[[int, int], Any]) -> list[Any]:
