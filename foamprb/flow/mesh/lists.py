@@ -104,7 +104,7 @@ def together(*calls: Callable[[], Any]) -> list[Any]:
 
 @contextmanager
 def threads(n: int) -> Iterator[Callable[..., list[Any]]]:
-    """Yield a function that runs calls in n threads, and returns their results; often, without new threads."""
+    """Yield a function like :func:`together` that starts its n threads only once."""
     if n <= 1 or len(os.sched_getaffinity(0)) == 1:
         yield lambda *calls: [call() for call in calls]
         return
