@@ -75,7 +75,7 @@ def test_a_spheroid_diffuses_and_turns_as_perrin_says(ratio):
 
 def test_heights_over_a_wall_come_to_boltzmanns():
     """With the hindered mobility, heights come to exp(−W h/kT) in steps √(2 D Δt) of a tenth of kT/W."""
-    n = 2000
+    n = 1000
     p = beads(n, rho=RHO_OF_SCALE_R)
     random = np.random.default_rng(3)
     # At equilibrium, in which it is to stay: gaps over R are exponential.

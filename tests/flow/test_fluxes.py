@@ -288,12 +288,12 @@ def test_between_two_times_the_correction_is_linear(random):
 def test_a_uniform_seed_stays_uniform(corrected):
     """χ² of the counts per cell is about their number, and followers of the fluid come to no wall.
 
-    Of 1500, finite steps may throw a few at one.
+    Of 1000, finite steps may throw a few at one.
     """
     flow = whirling(closed("hexahedra", 5, 0.2))
     if not corrected:
         flow = MeshFlow(flow.mesh, *flow.at_nodes()[1:])
-    x = np.random.default_rng(7).uniform(0.0, 1.0, (1500, 3))
+    x = np.random.default_rng(7).uniform(0.0, 1.0, (1000, 3))
     bodies = spheres(x[flow.locate(x) >= 0], d=1e-9, rho=1.0, mu=1e3)
     cloud = Cloud(bodies, flow, Medium(1e-3, 1.0, (0.0, 0.0, 0.0)), [Stick()], 0.05, Models("roscoe"))
     cloud.advance(800)
@@ -307,4 +307,4 @@ def test_a_uniform_seed_stays_uniform(corrected):
         assert chi < 1.0 + 4.0 * np.sqrt(2.0 / len(count))
     else:
         assert np.count_nonzero(~active) > 100
-        assert chi > 5.0
+        assert chi > 3.0

@@ -9,7 +9,7 @@ import sys
 from paths import ROOT
 from pipe_case import copy_of_pipe, edit
 
-FEW, MANY = 50_000, 250_000
+FEW, MANY = 20_000, 80_000
 MOST = 950.0
 """Bytes per particle, of which the state is 518 and the copy that is being written 410."""
 

@@ -115,9 +115,14 @@ def track(table: Axis, integrator: str) -> Track:
     return Track(np.array(t), np.array(x), np.array(D))
 
 
-def _at(x: Floats, table: Axis) -> tuple[float, float]:
-    nodes = table.start + table.spacing * np.arange(len(table.u))
-    return float(np.interp(x, nodes, table.u)), float(np.interp(x, nodes, table.rate))
+def _at(x: float, table: Axis) -> tuple[float, float]:
+    """Return u and ∂u₁/∂x₁ at x, m: linear between points, constant beyond the ends."""
+    last = len(table.u) - 1
+    place = min(max((x - table.start) / table.spacing, 0.0), float(last))
+    i = min(int(place), last - 1)
+    f = place - i
+    u, rate = ((1.0 - f) * values[i] + f * values[i + 1] for values in (table.u, table.rate))
+    return float(u), float(rate)
 
 
 def nonlinear(table: Axis, mu: float, times: Floats) -> Floats:
