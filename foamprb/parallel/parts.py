@@ -37,10 +37,7 @@ class MpiTeam(Team):
     """
 
     def __init__(self, comm: Any) -> None:
-        from mpi4py.util.pkl5 import Intracomm
-
-        # Arrays travel beside the pickle, and are not copied into it.
-        self._comm = Intracomm(comm)
+        self._comm = comm
         self.rank = comm.rank
         self.size = comm.size
 
