@@ -32,8 +32,8 @@ RADIUS, LENGTH, WALL_RATE, GRAVITY = 2.1e-3, 0.75, 923.8, 9.81
 D, RHO_S, MU_F, RHO_F = 5e-6, 2560.0, 1.208 * 1.491e-5, 1.208
 MEAN = WALL_RATE * RADIUS / 4
 CELLS = 200_000_000
-PREPARED = 1800.0
-"""Bytes for each cell that a node holds while it prepares the flow, measured with 4e5 cells on four nodes."""
+PREPARED = 1700.0
+"""Bytes for each cell that a node holds while it prepares the flow, measured with 1e6 cells on four nodes."""
 PLACE = 100.0
 """Bytes for each particle on the first process while places of release are drawn, measured with 1e6."""
 PASSES = 5
