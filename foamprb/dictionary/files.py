@@ -18,6 +18,8 @@ __all__ = ["existing", "has_both_forms", "opened", "read_bytes"]
 
 MOST_UNPACKED, MOST_RATIO = 256 << 20, 200
 """Size up to which every compressed file is read, bytes, and the largest ratio of larger ones."""
+_PIECE = 1 << 20
+"""Bytes that are decompressed at a time."""
 
 
 def existing(path: Path) -> Path | None:
@@ -53,9 +55,14 @@ def read_bytes(path: Path, limit: int = -1) -> bytes:
                 return stream.read(limit)
         most = max(MOST_UNPACKED, MOST_RATIO * path.stat().st_size)
         with gzip.open(path) as stream:
-            data = stream.read(most + 1 if limit < 0 else limit)
-        if len(data) <= most:
-            return data
+            if limit >= 0:
+                return stream.read(limit)
+            # In pieces, as a call takes memory for all bytes that it is asked for.
+            data = BytesIO()
+            while data.tell() <= most and (piece := stream.read(_PIECE)):
+                data.write(piece)
+        if data.tell() <= most:
+            return data.getvalue()
         raise InputError(
             f"{path}: holds more than {MOST_RATIO} times its size, {most >> 20} MiB; is it damaged? Allowed "
             f"after gunzip {path.name}."

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import gzip
 import logging
+import tracemalloc
 
+import numpy as np
 import pytest
 
 from foamprb.dictionary import files
@@ -69,6 +71,17 @@ def test_a_file_that_unpacks_to_many_times_its_size_is_refused(tmp_path, monkeyp
     with pytest.raises(InputError, match=r"U.gz: holds more than 200 times its size, .* after gunzip U.gz"):
         read_bytes(path)
     assert len(read_bytes(path, 500)) == 500
+
+
+def test_a_compressed_file_takes_memory_for_what_it_holds(tmp_path):
+    text = np.random.default_rng(1).bytes(3_000_000)
+    (tmp_path / "U.gz").write_bytes(gzip.compress(text, 1))
+    tracemalloc.start()
+    try:
+        assert read_bytes(tmp_path / "U.gz") == text
+        assert tracemalloc.get_traced_memory()[1] < 3 * len(text)
+    finally:
+        tracemalloc.stop()
 
 
 @pytest.mark.parametrize(
