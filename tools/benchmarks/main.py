@@ -37,6 +37,7 @@ PARTS = (
     "surroundings",
     "peers",
     "processes",
+    "scaling",
     "profile",
     "roofline",
 )

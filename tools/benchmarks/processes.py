@@ -14,6 +14,7 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from functools import partial
+from math import prod
 from pathlib import Path
 from statistics import median
 from typing import NamedTuple
@@ -122,19 +123,25 @@ def _sizes(process: int) -> _Sizes | None:
         return None
 
 
-def decomposed(case: Path, ranks: int) -> Path:
-    """Return the case in processor folders alone, cut across the pipe; the case itself for one."""
-    if ranks == 1:
+def decomposed_folder(case: Path, cuts: tuple[int, int, int]) -> Path:
+    """Return the folder of :func:`decomposed`."""
+    return case.with_name(f"{case.name}_{'x'.join(map(str, cuts))}")
+
+
+def decomposed(case: Path, cuts: tuple[int, int, int]) -> Path:
+    """Return the case in processor folders alone, so many along each axis; the case itself for one."""
+    parts = prod(cuts)
+    if parts == 1:
         return case
-    folder = case.with_name(f"{case.name}_{ranks}")
-    if (folder / f"processor{ranks - 1}").is_dir():
+    folder = decomposed_folder(case, cuts)
+    if (folder / f"processor{parts - 1}").is_dir():
         return folder
     shutil.copytree(case / "system", folder / "system")
     (folder / "constant").mkdir()
     (folder / "system" / "decomposeParDict").write_text(
         "FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }\n"
-        f"numberOfSubdomains {ranks}; method hierarchical; "
-        f"hierarchicalCoeffs {{ n ({ranks} 1 1); delta 0.001; order xyz; }}\n"
+        f"numberOfSubdomains {parts}; method hierarchical; "
+        f"hierarchicalCoeffs {{ n ({' '.join(map(str, cuts))}); delta 0.001; order xyz; }}\n"
     )
     for path in (*(case / "constant").iterdir(), case / "0"):
         (folder / path.relative_to(case)).symlink_to(path)
@@ -146,33 +153,34 @@ def decomposed(case: Path, ranks: int) -> Path:
     return folder
 
 
-def _together(ranks: int) -> list[str]:
+def together(ranks: int) -> list[str]:
+    """Return the words before a program that start so many processes of it."""
     # Waiting processes yield: their user CPU is that of the work.
     return [] if ranks == 1 else ["mpirun", "-np", str(ranks), "--oversubscribe", *_YIELD]
 
 
 def ours(case: Path, ranks: int, steps: int, nodes: bool) -> Use:
     """Measure foamprb's default run; ``nodes`` takes each process for a computer of its own."""
-    folder = decomposed(case, ranks)
+    folder = decomposed(case, (ranks, 1, 1))
     # A file of the case itself, to which the folder has a link.
     file = pipe.write_default_cloud(case, "softCloud", 0.5, OPENFOAM_STEP, steps)
     words = [sys.executable, "-m", "foamprb", "run", "-threads", "1", "-overwrite", "-dict", str(file)]
     environment = openfoam_environment() | ({NODE_RANKS: "1"} if nodes else {})
-    return measured([*_together(ranks), *words, *(["-parallel"] if ranks > 1 else [])], folder, environment)
+    return measured([*together(ranks), *words, *(["-parallel"] if ranks > 1 else [])], folder, environment)
 
 
 def openfoam(case: Path, ranks: int, steps: int) -> Use:
     """Measure OpenFOAM's solver, which writes its parcels at the end."""
-    folder = decomposed(case, ranks)
+    folder = decomposed(case, (ranks, 1, 1))
     pipe.write_control(folder, OPENFOAM_STEP, steps * OPENFOAM_STEP, steps)
-    words = [*_together(ranks), SOLVER, *(["-parallel"] if ranks > 1 else [])]
+    words = [*together(ranks), SOLVER, *(["-parallel"] if ranks > 1 else [])]
     return measured(words, folder, openfoam_environment())
 
 
 def parcels(case: Path, n: int, cells: int, ranks: int, steps: int) -> Use:
     """Measure Parcels."""
     program = str(TOOLS / "benchmarks" / "parcels_run.py")
-    words = [*_together(ranks), os.environ[PARCELS], program, str(cells), str(n), str(steps)]
+    words = [*together(ranks), os.environ[PARCELS], program, str(cells), str(n), str(steps)]
     return measured(words, case, {k: v for k, v in os.environ.items() if k != "PYTHONPATH"})
 
 

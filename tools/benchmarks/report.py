@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from benchmarks import pipe
 from benchmarks.records import KILO, Results
+from benchmarks.scaling import MEMORY, SPEED_UP, WALL
 
 TEMPLATE = Path(__file__).with_name("performance.md.in")
 _BUSY = 0.5
@@ -223,6 +224,17 @@ def _processes(results: Results) -> str:
     return table(head, lines) if lines else "Not measured."
 
 
+def _scaling(results: Results) -> str:
+    """Return a line for each number of cores."""
+    ways = results.subjects(WALL)
+    lines = []
+    for cores in sorted({row.size for row in results.part("scaling") if row.quantity == WALL}):
+        values = [results.get(quantity, way, cores) for way in ways for quantity in (WALL, SPEED_UP, MEMORY)]
+        lines.append((f"{cores:g}", *("" if v is None else number(v) for v in values)))
+    head = ("cores", *(text for way in ways for text in (f"{way}, ns", "speed-up", "MB")))
+    return table(head, lines) if lines else "Not measured."
+
+
 def _by_processor(results: Results) -> str:
     """Return the cost of a step over OpenFOAM's, on every processor measured."""
     ratios = ("cost over OpenFOAM's", "default run over OpenFOAM's")
@@ -253,6 +265,7 @@ def write_report(results: Results, folder: Path) -> None:
         profile=_profile(results),
         processors=processors,
         processes=_processes(results),
+        scaling=_scaling(results),
         **parts,
     )
     (folder / "performance.md").write_text(text, encoding="utf-8")

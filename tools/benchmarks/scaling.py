@@ -1,0 +1,96 @@
+"""Wall time and memory of a default run by cores: as threads, processes that share a flow, and nodes."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+from benchmarks import pipe
+from benchmarks.processes import decomposed, decomposed_folder, together
+from benchmarks.records import KILO, MEGA, Options, Row
+from benchmarks.tracker import OPENFOAM_STEP, openfoam_environment
+from foamprb.parallel.shared_memory import NODE_RANKS
+
+WALL, SPEED_UP, MEMORY = "wall time by cores", "speed-up by cores", "memory of the largest process by cores"
+CUTS = (4, 4, 4)
+"""Parts of the decomposed pipe along its axis and across: more than nodes, so that these can choose."""
+_REACH = 2.0
+"""Particles are spread over so many thirds of the pipe; none leaves it."""
+
+
+class Use(NamedTuple):
+    """What a run used."""
+
+    wall: float
+    """Time from its first write time to the second, s."""
+    memory: float
+    """Peak of the resident size of the process with the highest one, shared memory included, bytes."""
+
+
+def _run(case: Path, settings: Path, cores: int, way: str) -> Use:
+    """Run foamprb.
+
+    Raises
+    ------
+    RuntimeError
+        It failed.
+    """
+    words = [sys.executable, "-m", "foamprb", "run", "-overwrite", "-dict", str(settings), "-threads"]
+    environment, folder = openfoam_environment(), case
+    if way == "threads":
+        words += [str(cores)]
+    else:
+        words, folder = [*together(cores), *words, "1", "-parallel"], decomposed(case, CUTS)
+    if way == "nodes":
+        environment[NODE_RANKS] = "1"
+    log = folder / "log"
+    with log.open("w") as file:
+        program = subprocess.Popen(words, cwd=folder, env=environment, stdout=file, stderr=file)
+        _, status, used = os.wait4(program.pid, 0)
+        program.returncode = os.waitstatus_to_exitcode(status)
+    text = log.read_text()
+    clocks = [float(t) for t in re.findall(r"ClockTime = (\S+) s", text)]
+    if program.returncode or len(clocks) < 2:
+        raise RuntimeError(f"{' '.join(words)}: {text[-2000:]}")
+    return Use(clocks[1] - clocks[0], 1024.0 * used.ru_maxrss)
+
+
+def _write_cloud(case: Path, n: int, steps: int) -> Path:
+    """Write n particles, and settings with two write times so many steps apart."""
+    x = pipe.positions(n)
+    x[:, 0] *= _REACH
+    pipe.write_positions(case / "constant" / "softCloudPositions", x)
+    interval = f"writeInterval {steps * OPENFOAM_STEP:.9g};"
+    return pipe.write_default_cloud(case, "softCloud", 0.5, OPENFOAM_STEP, 2 * steps, more=interval)
+
+
+def measure(options: Options) -> list[Row]:
+    """Measure with 1, 2, 4, … cores: medians of alternate runs, and the largest memory."""
+    grid, n, steps, repeats = ("40k", 20_000, 10, 1) if options.quick else ("300k", 500_000, 100, 2)
+    case = pipe.case(grid)
+    settings = _write_cloud(case, n, steps)
+    ways = ["threads"]
+    if shutil.which("mpirun") and (shutil.which("decomposePar") or decomposed_folder(case, CUTS).is_dir()):
+        ways += ["processes", "nodes"]
+    runs: dict[tuple[str, int], list[Use]] = {("threads", 1): []}
+    cores = 2
+    while cores <= len(os.sched_getaffinity(0)):
+        runs |= {(way, cores): [] for way in ways}
+        cores *= 2
+    for _ in range(repeats):
+        for (way, cores), uses in runs.items():
+            uses.append(_run(case, settings, cores, way))
+    found, one = [], statistics.median(use.wall for use in runs["threads", 1])
+    for (way, cores), uses in runs.items():
+        wall = statistics.median(use.wall for use in uses)
+        memory = max(use.memory for use in uses)
+        found.append(Row("scaling", WALL, way, cores, KILO * MEGA * wall / (n * steps), "ns/particle-step"))
+        found.append(Row("scaling", SPEED_UP, way, cores, one / wall, ""))
+        found.append(Row("scaling", MEMORY, way, cores, memory / MEGA, "MB"))
+    return found
