@@ -51,6 +51,12 @@ def stage(values, numbers):
         values[3 * LANES + i] += select(x > numbers.scale, np.sqrt(abs(y)), x) / np.maximum(y, 0.5)
 
 
+@traced
+def another_stage(values, numbers):
+    for i in range(LANES):
+        values[3 * LANES + i] -= 2.0 * values[i] + numbers.scale
+
+
 def outer(numbers):
     """Entry."""
     total = 0.0

@@ -1,9 +1,11 @@
 """Compilation of linked functions with numba internals.
 
-numba makes machine code of each function. Here only entries become machine code. Inlined functions stay LLVM
-IR, which is linked into their callers before these are optimised. Separate functions are optimised alone and
-linked with their callers afterwards. Traced stages (:mod:`foamprb.compile.trace`) skip the passes of numba.
-Compiled code is kept on disk (:mod:`foamprb.compile.cache`).
+numba makes machine code of each function. Here only entries and stages become machine code. Inlined functions
+stay LLVM IR, which is linked into their callers before these are optimised. Separate functions are optimised
+alone and linked with their callers afterwards. Stages are called by name: the machine code of a caller serves
+for any stage of a name, with the key of this one in place of another. Stages that can be traced
+(:mod:`foamprb.compile.trace`) skip the passes of numba. Compiled code is kept on disk
+(:mod:`foamprb.compile.cache`).
 
 Nothing of this is documented by numba: :mod:`foamprb.compile.link` imports the module only for a tested
 version. Plain numba compiles more slowly, and its code is slower; results differ by round-off at most.
@@ -13,9 +15,11 @@ from __future__ import annotations
 
 import copy
 import gc
+import hashlib
 import inspect
 import logging
-from collections.abc import Callable, Iterator
+import pickle
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, Literal, TypeAlias
 
@@ -32,14 +36,16 @@ from numba.core.typed_passes import NativeLowering
 from numba.core.typing import signature
 
 from foamprb.compile.cache import Store
-from foamprb.compile.trace import TRACED, Code, UntraceableError, trace
+from foamprb.compile.part import Keys, Part
+from foamprb.compile.trace import Code, UntraceableError, trace
 
-__all__ = ["Role", "pipeline", "use_cache"]
+__all__ = ["Role", "pipeline", "use_cache", "use_cache_of_entry"]
 
 log = logging.getLogger("foamprb")
 
-Role: TypeAlias = Literal["entry", "separate", "inlined"]
-"""Python calls an entry; compiled code calls a separate function; an inlined one is a part of its callers."""
+Role: TypeAlias = Literal["entry", "stage", "separate", "inlined"]
+"""Python calls an entry; compiled code calls a stage or a separate function; an inlined one is a part of its
+callers."""
 
 _WIDE = '"prefer-vector-width"="512"'
 """LLVM attribute: use registers of 512 bits where the processor has them."""
@@ -98,10 +104,8 @@ class _Entry(_Inlined):
         return self.name, "object", (self._get_compiled_object(), binding.parse_assembly(text).as_bitcode())
 
 
-class _Separate(_Entry):
-    """LLVM IR that is optimised with all that it calls, and linked with its callers after that."""
-
-    _finish = _Inlined._finish
+class _Wide(_Entry):
+    """Code that uses wide registers."""
 
     def add_ir_module(self, ir_module: Any) -> None:
         for function in ir_module.functions:
@@ -110,13 +114,23 @@ class _Separate(_Entry):
             set.add(function.attributes, _ALIGNED)
         super().add_ir_module(ir_module)
 
+
+class _Separate(_Wide):
+    """LLVM IR that is optimised with all that it calls, and linked with its callers after that."""
+
+    _finish = _Inlined._finish
+
     def serialize_using_object_code(self) -> Any:
         """Return the IR: there is no machine code."""
         return self.serialize_using_bitcode()
 
 
-class _Traced(_Separate):
-    """LLVM IR of a traced stage, which needs few passes."""
+class _Stage(_Wide):
+    """Machine code that others find by its name."""
+
+
+class _Traced(_Stage):
+    """Machine code of a traced stage, which needs few passes."""
 
     def finalize(self) -> None:
         passes = binding.create_new_module_pass_manager()
@@ -134,16 +148,36 @@ def _collect(library: Any, inlined: dict[Any, None], called: dict[Any, None]) ->
     for other in library._linking_libraries:
         if isinstance(other, _Separate):
             called[other] = None
-        elif other not in inlined:
+        elif other not in inlined and not isinstance(other, _Stage):
             inlined[other] = None
             if isinstance(other, _Inlined):
                 _collect(other, inlined, called)
 
 
-def _context(own: Any) -> Any:
-    """Return a copy of numba's context of a target for functions that Python does not call."""
+def _name_of_stage(qualified: str, kinds: Sequence[Any]) -> str:
+    """Return the name of a stage for arguments of some types in machine code.
+
+    Of ``qualified`` only the key at the end counts, in whose place a caller's code may have another.
+    """
+    return (
+        f"stage_{qualified.rpartition('_')[2]}_{hashlib.sha256(repr(tuple(kinds)).encode()).hexdigest()[:16]}"
+    )
+
+
+def _context(own: Any, stage: str = "") -> Any:
+    """Return a copy of numba's context of a target for functions that Python does not call.
+
+    ``stage`` is the qualified name of a stage, with its key.
+    """
     context = copy.copy(own)
     context.get_executable = _without_executable
+    if stage:
+
+        def mangler(name: str, kinds: Sequence[Any], **more: Any) -> Any:
+            is_stage = name.endswith(stage) and not name.startswith(".NumbaEnv")
+            return _name_of_stage(stage, kinds) if is_stage else own.mangler(name, kinds, **more)
+
+        context.mangler = mangler
     return context
 
 
@@ -154,7 +188,12 @@ def _without_executable(library: Any, fndesc: Any, env: Any) -> Any:
     return _dynfunc.make_function(fndesc.lookup_module(), name, "", 0, env, (library,))
 
 
-_LIBRARIES: dict[Role, type[_Inlined]] = {"entry": _Entry, "separate": _Separate, "inlined": _Inlined}
+_LIBRARIES: dict[Role, type[_Inlined]] = {
+    "entry": _Entry,
+    "stage": _Stage,
+    "separate": _Separate,
+    "inlined": _Inlined,
+}
 
 
 def _lowering(role: Role) -> type:
@@ -166,11 +205,12 @@ def _lowering(role: Role) -> type:
 
         def run_pass(self, state: Any) -> bool:
             own = state.targetctx
-            state.library = _LIBRARIES[role](own.codegen(), state.func_id.func_qualname)
-            if role == "entry":
+            name = state.func_id.func_qualname
+            state.library = _LIBRARIES[role](own.codegen(), name)
+            if role in ("entry", "stage"):
                 state.library.enable_object_caching()
-            else:
-                state.targetctx = _context(own)
+            if role != "entry":
+                state.targetctx = _context(own, name if role == "stage" else "")
             try:
                 return bool(super().run_pass(state))
             finally:
@@ -190,7 +230,7 @@ def _compiler(role: Role) -> type:
     class Compiler(CompilerBase):  # type: ignore[misc]
         def compile_extra(self, function: Any) -> Any:
             with _rare_collection():
-                if role == "separate" and hasattr(function, TRACED):
+                if role == "stage":
                     try:
                         return _traced(self.state, function)
                     except UntraceableError as reason:
@@ -232,7 +272,8 @@ def _traced(state: Any, function: Callable[..., Any]) -> Any:
     UntraceableError
         If it cannot be traced.
     """
-    context, identity = _context(state.targetctx), FunctionIdentity.from_function(function)
+    identity = FunctionIdentity.from_function(function)
+    context = _context(state.targetctx, identity.func_qualname)
     flags = " ".join(sorted(state.flags.fastmath.flags))
 
     def arguments(code: Code) -> list[Any]:
@@ -256,6 +297,7 @@ def _traced(state: Any, function: Callable[..., Any]) -> Any:
         uid=identity.unique_id,
     )
     library = _Traced(context.codegen(), identity.func_qualname)
+    library.enable_object_caching()
     library.add_ir_module(_caller(context, library, descriptor, code))
     library.add_llvm_module(binding.parse_assembly(code.function(f"{identity.func_qualname}_lanes")))
     library.finalize()
@@ -318,13 +360,19 @@ def _caller(context: Any, library: Any, descriptor: Any, code: Code) -> Any:
 
 
 class _Reader:
-    """Code generator that reads the saved IR of a separate function."""
+    """Code generator that reads the saved code of a function that Python does not call."""
 
     def __init__(self, codegen: Any) -> None:
         self._codegen = codegen
 
+    def create_library(self, name: str) -> Any:
+        """Return an empty library for machine code."""
+        return _Stage(self._codegen, name)
+
     def unserialize_library(self, state: Any) -> Any:
-        name, _, code = state
+        name, kind, code = state
+        if kind == "object":
+            return _Stage._unserialize(self, state)
         library = _Separate(self._codegen, name)
         library._final_module = binding.parse_bitcode(code)
         library._finish()
@@ -337,8 +385,8 @@ class _Cache:
     The cache that numba has goes by a function's file, not by the code that it calls, and has no checksum.
     """
 
-    def __init__(self, store: Store, role: Role) -> None:
-        self._store, self._role = store, role
+    def __init__(self, store: Store) -> None:
+        self._store = store
         self.cache_path = str(store.folder)
 
     def load_overload(self, signature: Any, context: Any) -> Any:
@@ -348,26 +396,67 @@ class _Cache:
             return None
         # It may name a module that is gone.
         with suppress(Exception):
-            if self._role == "entry":
-                return CompileResult._rebuild(context, *saved)
-            own, codegen = _context(context), context.codegen()
-            own.codegen = lambda: _Reader(codegen)
-            # Without the environments of interpreted code, which belong to machine code.
-            return CompileResult._rebuild(own, *saved[:-1], ())
+            return self._rebuilt(context, saved)
         return None
 
     def save_overload(self, signature: Any, result: Any) -> None:
         # Machine code that holds addresses serves one process only.
         if not result.library.has_dynamic_globals:
             codegen = result.target_context.codegen()
-            self._store.save((signature, codegen.magic_tuple()), result._reduce())
+            self._store.save((signature, codegen.magic_tuple()), self._reduced(result))
 
     def flush(self) -> None:
         self._store.flush()
 
+    def _rebuilt(self, context: Any, saved: Any) -> Any:
+        own, codegen = _context(context), context.codegen()
+        own.codegen = lambda: _Reader(codegen)
+        # Without the environments of interpreted code, which belong to entries.
+        return CompileResult._rebuild(own, *saved[:-1], ())
 
-def use_cache(dispatcher: Any, name: str, role: Role) -> Store:
-    """Give a dispatcher a place in the cache under a name."""
-    store = Store(name, dumps)
-    dispatcher._cache = _Cache(store, role)
+    def _reduced(self, result: Any) -> Any:
+        return result._reduce()
+
+
+class _CacheOfEntry(_Cache):
+    """Cache of an entry: without the keys of the stages, and its own, that belong to the models of a run."""
+
+    def __init__(self, store: Store, keys: Keys, stages: Mapping[str, Part]) -> None:
+        super().__init__(store)
+        self._stages = dict(stages)
+        self._keys = [keys, *(part.keys for part in stages.values())]
+
+    def _rebuilt(self, context: Any, saved: Any) -> Any:
+        called, state = saved
+        for outside, kinds in called:
+            self._stages[outside].dispatcher.compile(kinds)
+        for keys in self._keys:
+            state = state.replace(keys.outside.encode(), keys.own.encode())
+        return CompileResult._rebuild(context, *pickle.loads(state))
+
+    def _reduced(self, result: Any) -> Any:
+        declared = {f.name for f in result.library._final_module.functions if f.is_declaration}
+        called = [
+            (outside, kinds)
+            for outside, part in self._stages.items()
+            for kinds, compiled in part.dispatcher.overloads.items()
+            if compiled.fndesc.mangled_name in declared
+        ]
+        state = dumps(result._reduce())
+        for keys in self._keys:
+            state = state.replace(keys.own.encode(), keys.outside.encode())
+        return called, state
+
+
+def use_cache(dispatcher: Any, key: str) -> Store:
+    """Give the dispatcher of a stage or a separate function a place in the cache."""
+    store = Store(key, dumps)
+    dispatcher._cache = _Cache(store)
+    return store
+
+
+def use_cache_of_entry(dispatcher: Any, keys: Keys, stages: Mapping[str, Part]) -> Store:
+    """Give the dispatcher of an entry a place in the cache; the stages have theirs."""
+    store = Store(keys.outside, dumps)
+    dispatcher._cache = _CacheOfEntry(store, keys, stages)
     return store

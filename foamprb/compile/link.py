@@ -16,14 +16,14 @@ import logging
 import os
 import platform
 import sys
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from types import CellType, CodeType, FunctionType, ModuleType
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numba
 import numpy as np
@@ -31,6 +31,7 @@ from llvmlite import binding  # type: ignore[import-untyped]
 
 from foamprb.body.tensor import select
 from foamprb.compile.cache import Store
+from foamprb.compile.part import Keys, Part
 from foamprb.compile.trace import TRACED, branch
 
 if TYPE_CHECKING:
@@ -58,6 +59,7 @@ _OPTIONS: dict[str, Any] = {
 }
 _OPTIONS_OF: dict[Role, dict[str, Any]] = {
     "entry": {"forceinline": False},
+    "stage": {"forceinline": False, "no_cpython_wrapper": True},
     "separate": {"forceinline": False, "no_cpython_wrapper": True},
     "inlined": {"forceinline": True, "no_cpython_wrapper": True},
 }
@@ -80,13 +82,14 @@ def link(
         ``{"traction": roscoe}``.
     separate
         Callees that are compiled on their own, and called, so that several entries of a process share them;
-        every other callee is inlined.
+        every other callee is inlined. Those that are :func:`traced` are stages.
 
     Returns
     -------
     A numba dispatcher. Equal code with equal bindings is compiled once per process; the entry and its
     separate callees are saved in :mod:`foamprb.compile.cache`, under keys made of the code of every function
-    that was linked.
+    that was linked. Of stages the key of the entry contains the names only: an entry that differs in its
+    stages is not compiled again.
 
     Raises
     ------
@@ -135,9 +138,10 @@ def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
 
 def is_compiled(dispatcher: Any) -> bool:
     """Return True if a function that :func:`link` returned is compiled, here or in the cache."""
-    if numba.config.DISABLE_JIT:
+    if numba.config.DISABLE_JIT or dispatcher.signatures:
         return True
-    return bool(dispatcher.signatures) or bool(_stores.get(id(dispatcher)))
+    stores = _stores.get(id(dispatcher), ())
+    return bool(stores) and all(stores)
 
 
 @dataclass(frozen=True)
@@ -146,14 +150,9 @@ class _Linkage:
 
     bindings: dict[str, Any]
     separate: frozenset[Callable[..., Any]]
-    done: dict[tuple[Callable[..., Any], Role], _Part] = field(default_factory=dict)
-
-
-class _Part(NamedTuple):
-    """A compiled function, and a key that changes with its code and that of its callees."""
-
-    dispatcher: Any
-    key: str
+    done: dict[tuple[Callable[..., Any], str], Part] = field(default_factory=dict)
+    stages: dict[str, Part] = field(default_factory=dict)
+    """By their keys outside."""
 
 
 # The code of this package is a part of every key.
@@ -161,52 +160,77 @@ _FILES = sorted(Path(__file__).parent.glob("*.py"))
 _OWN_CODE = hashlib.sha256(b"".join(file.read_bytes() for file in _FILES)).hexdigest()[:8]
 
 
-_parts: dict[str, _Part] = {}
-_stores: dict[int, Store | None] = {}
+_parts: dict[str, Part] = {}
+_stores: dict[int, tuple[Store, ...]] = {}
+"""Where a function and its stages are saved, by the ``id`` of its dispatcher."""
 
 
-def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
-    """Return a function linked after its callees, once however many callers it has."""
-    if (function, role) not in linkage.done:
-        linkage.done[function, role] = _link_once(function, linkage, role)
-    return linkage.done[function, role]
+def _link(function: Callable[..., Any], linkage: _Linkage, role: Role, called: str = "") -> Part:
+    """Return a function linked after its callees, once however many callers it has.
+
+    ``called`` is the name by which a stage is called.
+    """
+    task = function, f"{role} {called}"
+    if task not in linkage.done:
+        part = linkage.done[task] = _link_once(function, linkage, role, called)
+        if role == "stage":
+            linkage.stages[part.keys.outside] = part
+    return linkage.done[task]
 
 
-def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
+def _link_callee(name: str, function: Callable[..., Any], linkage: _Linkage) -> Part:
+    """Return a function that others call by a name."""
+    if function not in linkage.separate:
+        return _link(function, linkage, "inlined")
+    if not hasattr(function, TRACED) or _internals() is None:
+        return _link(function, linkage, "separate")
+    # The name of a function of their own module may be that of another one elsewhere.
+    where = "" if name in linkage.bindings else f"{function.__module__}."
+    return _link(function, linkage, "stage", where + name)
+
+
+def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, called: str) -> Part:
     """Return a function compiled after its callees; each is compiled once per process."""
     if function is select:
         return _link_select()
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     names: dict[str, Any] = {}
-    own = f"{_compiler()} {role} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
-    digest = hashlib.sha256(own.encode())
-    digest.update(_fingerprint(function.__code__))
     captured = [cell.cell_contents for cell in function.__closure__ or ()]
     is_traced = hasattr(function, TRACED)
-    digest.update(f"{captured!r} {is_traced}".encode())
+    own = f"{role} {called} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
+    code = f"{_fingerprint(function.__code__).hex()} {captured!r} {is_traced}"
+    described = [Keys(own, own), Keys(code, code)]
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, function.__globals__.get(name))
+        text = ""
         if _is_linked(value):
-            part = _link(value, linkage, "separate" if value in linkage.separate else "inlined")
+            part = _link_callee(name, value, linkage)
             names[name] = part.dispatcher
-            digest.update(f"{name}={part.key};".encode())
+            described.append(Keys(*(f"{name}={key}" for key in part.keys)))
         elif isinstance(value, int | float | tuple):
             names[name] = _offsets(value) if _are_offsets(value) else _constant(value)
-            digest.update(f"{name}={value!r};".encode())
+            text = f"{name}={value!r}"
         elif isinstance(value, type) and issubclass(value, tuple):
-            digest.update(f"{name}={getattr(value, '_fields', '')};".encode())
-    key = digest.hexdigest()[:24]
-    if key not in _parts:
+            text = f"{name}={getattr(value, '_fields', '')}"
+        described.append(Keys(text, text))
+    keys = Keys(*map(_key_of, zip(*described, strict=True)))
+    if role == "stage":
+        keys = keys._replace(outside=_key_of([called]))
+    if keys.own not in _parts:
         cells = tuple(CellType(_constant(value)) for value in captured)
         scope = {**function.__globals__, **names}
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, cells)
         # Code is linked by name, and another process may have bound another model to the same name.
-        clone.__qualname__ = f"{function.__qualname__}_{key}"
+        clone.__qualname__ = f"{function.__qualname__}_{keys.own}"
         clone.__module__ = function.__module__
         if is_traced:
             traced(clone)
-        _parts[key] = _Part(_compile(clone, role, key), key)
-    return _parts[key]
+        _parts[keys.own] = Part(_compile(clone, role, keys, linkage.stages), keys)
+    return _parts[keys.own]
+
+
+def _key_of(texts: Iterable[str]) -> str:
+    return hashlib.sha256(";".join((_compiler(), *texts)).encode()).hexdigest()[:24]
 
 
 def _is_linked(value: Any) -> TypeGuard[FunctionType]:
@@ -231,11 +255,11 @@ def _offsets(value: Any) -> ModuleType:
     return module
 
 
-def _link_select() -> _Part:
+def _link_select() -> Part:
     """Return the branch that ``select`` is on scalars."""
     key = "select"
     if key not in _parts:
-        _parts[key] = _Part(numba.njit(inline="always")(branch), key)
+        _parts[key] = Part(numba.njit(inline="always")(branch), Keys(key, key))
     return _parts[key]
 
 
@@ -283,13 +307,17 @@ def _internals_by(switch: str) -> ModuleType | None:
     return internals
 
 
-def _compile(function: Callable[..., Any], role: Role, key: str) -> Any:
+def _compile(function: Callable[..., Any], role: Role, keys: Keys, stages: Mapping[str, Part]) -> Any:
     internals = _internals()
     if internals is None:
         return numba.njit(**_OPTIONS, **_OPTIONS_OF[role])(function)
     dispatcher = numba.njit(**_OPTIONS, **_OPTIONS_OF[role], **internals.pipeline(role))(function)
-    if role != "inlined":
-        _stores[id(dispatcher)] = internals.use_cache(dispatcher, key, role)
+    if role == "entry":
+        of_stages = [_stores[id(part.dispatcher)] for part in stages.values()]
+        own = internals.use_cache_of_entry(dispatcher, keys, stages)
+        _stores[id(dispatcher)] = (own, *(store for stores in of_stages for store in stores))
+    elif role != "inlined":
+        _stores[id(dispatcher)] = (internals.use_cache(dispatcher, keys.own),)
     return dispatcher
 
 

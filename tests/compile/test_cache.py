@@ -13,6 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 import small_program
 from paths import ROOT
@@ -20,7 +21,7 @@ from paths import ROOT
 from foamprb.compile import cache as caching
 from foamprb.compile import link as linking
 from foamprb.compile.cache import Store
-from foamprb.compile.link import is_compiled, link
+from foamprb.compile.link import bound, is_compiled, link
 
 IS_ROOT = os.geteuid() == 0
 SOMEBODY = 54321
@@ -156,8 +157,8 @@ class TestDamage:
 
 def files_of(function, files):
     """Name of the folder of a function that was compiled in this process."""
-    (part,) = {p.key for p in linking._parts.values() if p.dispatcher.py_func.__name__ == function}
-    return part
+    (key,) = {p.keys.outside for p in linking._parts.values() if p.dispatcher.py_func.__name__ == function}
+    return key
 
 
 class Intruder:
@@ -189,7 +190,7 @@ class TestOwners:
         # A file of their own, sound in itself.
         wrong = folder.parent / "run by an intruder"
         f = link(swapped_by_hand)
-        store = linking._stores[id(f)]
+        (store,) = linking._stores[id(f)]
         signature = f.signatures[0]
         key = signature, f.targetctx.codegen().magic_tuple()
         caching._write(file, pickle.dumps(((file.parent.name, key), Intruder(wrong))))
@@ -299,6 +300,54 @@ class TestOwners:
 def re_path(record):
     """The path that a warning names."""
     return record.getMessage().partition(": ")[2].partition(" belongs")[0]
+
+
+class TestStages:
+    """An entry serves for all stages of a name."""
+
+    @staticmethod
+    def linked(stage):
+        """The small program with one of its stages."""
+        return link(small_program.outer, {"stage": stage}, (small_program.middle, stage))
+
+    def found(self, stage):
+        """How often the program was found in the cache, after it has given what it gives with its stage."""
+        f = self.linked(stage)
+        compiled, plain = small_program.example(), small_program.example()
+        result = f(compiled)
+        program = bound(small_program.outer, stage=stage)
+        assert result == pytest.approx(program(plain), rel=1e-13)
+        np.testing.assert_allclose(compiled.values, plain.values, rtol=1e-13)
+        return sum(f.stats.cache_hits.values())
+
+    @pytest.mark.usefixtures("folder")
+    def test_an_entry_with_another_stage_is_not_compiled_again(self, forget):
+        assert self.found(small_program.stage) == 0
+        for _ in range(2):
+            assert self.found(small_program.another_stage) == 1
+            forget()
+            assert self.found(small_program.stage) == 1
+
+    def test_it_is_compiled_when_its_stage_is(self, folder, forget):
+        assert self.found(small_program.stage) == 0
+        f = self.linked(small_program.another_stage)
+        assert not is_compiled(f)
+        f(small_program.example())
+        forget()
+        assert is_compiled(self.linked(small_program.another_stage))
+        for file in folder.rglob("*.code"):
+            if b"another_stage" in file.read_bytes():
+                file.unlink()
+        assert not is_compiled(self.linked(small_program.another_stage))
+        forget()
+        assert self.found(small_program.another_stage) == 1
+
+    def test_what_is_kept_of_an_entry_names_no_stage(self, folder):
+        self.found(small_program.stage)
+        stage, entry = (p.keys for p in linking._parts.values() if p.keys.own != p.keys.outside)
+        (file,) = (folder / entry.outside).glob("*.code")
+        kept = file.read_bytes()
+        assert [key.encode() in kept for key in (*entry, *stage)] == [False, True, False, True]
 
 
 class TestProcessors:

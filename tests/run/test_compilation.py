@@ -106,13 +106,14 @@ def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
         return Tracker(models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
 
     # A cache that lacks only the loop and the measures.
-    key, measures = (code.py_func.__qualname__.rpartition("_")[2] for code in (loop()._track, _finder()))
-    cache = tmp_path / "cache"
+    names = (code.py_func.__qualname__.rpartition("_")[2] for code in (loop()._track, _finder()))
+    keys, of_measures = (compiling._parts[name].keys for name in names)
+    cache, lacks = tmp_path / "cache", (keys.outside, of_measures.outside)
     cache.mkdir()
-    for folder in {*cache_directory().glob("*")} - {cache_directory() / own for own in (key, measures)}:
+    for folder in {*cache_directory().glob("*")} - {cache_directory() / name for name in lacks}:
         (cache / folder.name).symlink_to(folder)
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(cache))
-    monkeypatch.delitem(compiling._parts, key)
+    monkeypatch.delitem(compiling._parts, keys.own)
 
     p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
     cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, models)
@@ -121,7 +122,7 @@ def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
     # It runs no code of the current folder.
     assert not (tmp_path / "executed").exists()
     assert cloud.tracker.compiled
-    assert (cache / measures).is_dir()
+    assert (cache / of_measures.outside).is_dir()
     cloud.advance(1)
     stats = cloud.tracker._track.stats
     assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)

@@ -1,0 +1,23 @@
+"""A function that is compiled, and the keys by which its code is found."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+__all__ = ["Keys", "Part"]
+
+
+class Keys(NamedTuple):
+    """Keys of a function, of equal length."""
+
+    own: str
+    """It changes with the code of the function and of its callees."""
+    outside: str
+    """The same, but stages count by the names by which they are called, and not by their code."""
+
+
+class Part(NamedTuple):
+    """A compiled function."""
+
+    dispatcher: Any
+    keys: Keys
