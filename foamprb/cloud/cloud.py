@@ -28,6 +28,7 @@ from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
 from foamprb.flow.base import Flow
+from foamprb.flow.loaded import LoadedFlow, loaded_fields
 
 __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 
@@ -86,6 +87,16 @@ class Homes(Protocol):
 
     def restore(self, file: PathLike[str]) -> None:
         """Read the particles, and what is remembered of them, from a checkpoint."""
+
+
+class Observer(Protocol):
+    """Observer of the particles before and after the steps of each call of the loop."""
+
+    def before_steps(self, flow: LoadedFlow, start: float, until: float) -> None:
+        """Observe particles before the steps from time ``start`` to ``until``, s."""
+
+    def after_steps(self, flow: LoadedFlow, until: float) -> None:
+        """Observe particles after these steps."""
 
 
 class Snapshot(NamedTuple):
@@ -481,10 +492,12 @@ class Stepper:
     ----------
     cloud
         The cloud; its arrays change in place.
+    observer
+        Observer of the particles; by default none.
     """
 
-    def __init__(self, cloud: Cloud) -> None:
-        self.cloud = cloud
+    def __init__(self, cloud: Cloud, observer: Observer | None = None) -> None:
+        self.cloud, self._observer = cloud, observer
 
     def advance(self, steps: int, stop: Callable[[], bool] = never) -> None:
         """Advance by ``steps`` time steps, without warnings about failed particles.
@@ -540,9 +553,15 @@ class Stepper:
     def _carry(self, flow: Any, steps: int, stop: Callable[[], bool]) -> Outcome:
         """Advance with the arguments of the flow's kernels, once."""
         cloud = self.cloud
-        return cloud.tracker.advance(
-            flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop
-        )
+        given = flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop
+        if self._observer is None:
+            return cloud.tracker.advance(*given)
+        seen = LoadedFlow(cloud.tracker.kernels, flow, loaded_fields(cloud.flow))
+        until = cloud.start + (cloud.step + steps) * cloud.dt
+        self._observer.before_steps(seen, cloud.time, until)
+        outcome = cloud.tracker.advance(*given)
+        self._observer.after_steps(seen, until)
+        return outcome
 
 
 def parts_of(n: int) -> Iterator[slice]:

@@ -11,23 +11,27 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, TypeAlias
+from typing import Annotated, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Value, parts_of
 from foamprb.cloud.contact import Rebounds, passages
 from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts, fields_at
 from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.tracker import Tracker
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
-from foamprb.flow.fields import FieldValues
+from foamprb.flow.fields import FieldColumns, FieldValues
+from foamprb.flow.loaded import LoadedFlow
 from foamprb.results.tables import Column
 
 __all__ = [
     "STATUS_NAMES",
     "CloudFunction",
+    "CloudShare",
     "Memory",
     "ObservedCloud",
     "Rows",
@@ -47,6 +51,16 @@ Rows: TypeAlias = NDArray[np.int64]
 Memory: TypeAlias = dict[str, NDArray[Any]]
 SampleInterval = Annotated[int, AtLeastOne, Meaning("steps between two samples")]
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
+
+
+class CloudShare(NamedTuple):
+    """Properties of a cloud that functions use where some of its particles are, in place of the cloud."""
+
+    interactions: Sequence[Interaction]
+    flow: LoadedFlow
+    medium: Medium
+    tracker: Tracker
+    time: float
 
 
 @dataclass(frozen=True)
@@ -143,6 +157,12 @@ class ObservedCloud:
         hosts = np.where(p.status == Status.PENDING, np.int32(-1), p.host)
         return fields_at(self.cloud.flow, p.x, hosts, np.minimum(p.t, self.time))
 
+    def at(self, flow: LoadedFlow, time: float) -> ObservedCloud:
+        """Return the same particles in a flow that is loaded, at a time, s."""
+        cloud = self.cloud
+        share: Any = CloudShare(cloud.interactions, flow, cloud.medium, cloud.tracker, time)
+        return replace(self, cloud=share, seen=self.particles)
+
     def fields_at_release(self, rows: Rows, hosts: NDArray[np.int32]) -> Mapping[str, FieldValues]:
         """Return the sampled fields where and when particles were released in their hosts."""
         p = self.particles
@@ -204,6 +224,15 @@ class CloudFunction:
     def end_sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Complete a sample after all particles have been sampled, some at a time or all together."""
 
+    def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
+        """Observe particles before the steps of a call of the loop, from the time of the cloud ``until``, s.
+
+        The flow of these steps is loaded. By default no-op.
+        """
+
+    def after_steps(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Observe particles after the steps of a call; see :meth:`before_steps`."""
+
     def watched(self, memory: Memory) -> Rows | None:  # noqa: ARG002
         """Return the numbers of the particles that it samples next; by default None, for all."""
         return None
@@ -212,8 +241,11 @@ class CloudFunction:
         """Write the data into the function's own folder, at each write time."""
         raise NotImplementedError
 
-    def fates(self, memory: Memory, cloud: ObservedCloud) -> Mapping[str, Column]:  # noqa: ARG002
-        """Return columns of ``fates``, with a row for each observed particle; by default none."""
+    def fates(self, memory: Memory, fields: Sequence[FieldColumns]) -> Mapping[str, Column]:  # noqa: ARG002
+        """Return columns of ``fates``, with a row for each row of the data; by default none.
+
+        ``fields`` are those of the flow that are sampled.
+        """
         return {}
 
     def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:  # noqa: ARG002
@@ -261,8 +293,14 @@ class SampledFunction(CloudFunction):
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add a sample of the particles that move, or that have ended since the last one."""
-        p = cloud.particles
-        rows = np.flatnonzero(~memory["closed"] & (p.status != Status.PENDING))
+        self._add(memory, cloud, ~memory["closed"] & (cloud.particles.status != Status.PENDING))
+
+    def close(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Add the last sample of the particles that have ended since the one before."""
+        self._add(memory, cloud, ~memory["closed"] & cloud.has_ended(slice(None)))
+
+    def _add(self, memory: Memory, cloud: ObservedCloud, chosen: NDArray[np.bool_]) -> None:
+        p, rows = cloud.particles, np.flatnonzero(chosen)
         now = {**self.observe(cloud, rows), "t": p.t[rows]}
         self.add(memory, cloud, rows, now)
         store(memory, rows, {**now, "closed": cloud.has_ended(rows)})

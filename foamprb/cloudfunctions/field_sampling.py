@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from foamprb.cloudfunctions.base import (
 from foamprb.dictionary.constraints import Meaning, Words
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
-from foamprb.flow.fields import FieldValues, columns_of
+from foamprb.flow.fields import FieldColumns, FieldValues, columns_of
 from foamprb.results.tables import Column, rows_of, write_rows
 from foamprb.results.tables import Rows as TableRows
 
@@ -42,6 +42,8 @@ class FieldSampling(SampledFunction):
         Words, Meaning("`(name name)`: scalars, vectors or tensors at all cells, at each time of the flow")
     ]
     sampleInterval: SampleInterval = 1
+
+    travels: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         if not self.fields:
@@ -63,50 +65,54 @@ class FieldSampling(SampledFunction):
         """Return the values of the fields, (n, columns), NaN where the flow is unknown."""
         return {"value": self._table(cloud.fields(rows))}
 
+    def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
+        """Store the values at the release of the particles that appear, while the flow there is loaded."""
+        p = cloud.particles
+        rows = np.flatnonzero((p.status == Status.PENDING) & (p.t0 >= cloud.time) & (p.t0 <= until))
+        memory["value"][rows] = self._table(cloud.fields_at_release(rows, p.host[rows]))
+
+    def after_steps(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Add the values at the end of the particles that have ended, while the flow there is loaded."""
+        self.close(memory, cloud)
+
     def initial(self, cloud: ObservedCloud) -> Memory:
-        """Return the tetrahedra of release, integrals of zero, and no largest values."""
-        n, columns = cloud.particles.size, self._table(cloud.fields(np.empty(0, dtype=np.int64))).shape[1]
-        largest = np.full((n, len(self.fields)), np.nan)
-        return {"host": cloud.particles.host.copy(), "integral": np.zeros((n, columns)), "largest": largest}
+        """Return integrals of zero, and no largest values."""
+        n, end = cloud.particles.size, self._columns(columns_of(cloud.cloud.flow))[-1][1].stop
+        return {"integral": np.zeros((n, end)), "largest": np.full((n, len(self.fields)), np.nan)}
 
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add to the integrals, by the trapezoidal rule, and to the largest values."""
-        new = rows[memory["t"][rows] == cloud.particles.t0[rows]]
-        memory["value"][new] = self._table(cloud.fields_at_release(new, memory["host"][new]))
         before = memory["value"][rows]
         # The flow is unknown at a particle that the mesh has lost.
         now["value"] = np.where(np.isfinite(now["value"]), now["value"], before)
         h = now["t"] - memory["t"][rows]
         memory["integral"][rows] += 0.5 * h[:, None] * (before + now["value"])
-        for k, (_, own) in enumerate(self._columns(cloud)):
+        for k, (_, own) in enumerate(self._columns(columns_of(cloud.cloud.flow))):
             both = [v[:, own][:, 0] if own.stop - own.start == 1 else np.linalg.norm(v[:, own], axis=1)
                     for v in (before, now["value"])]  # fmt: skip
             memory["largest"][rows, k] = np.fmax(memory["largest"][rows, k], np.fmax(*both))
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the values of all particles that were released."""
-        columns = self._columns(cloud)
+        columns = self._columns(columns_of(cloud.cloud.flow))
         rows = cloud.in_order(self.of_particles(memory), _values_of, columns, cloud.injectors, cloud.tables)
         write_rows(folder / f"fields.{cloud.tables}", rows)
 
-    def fates(self, memory: Memory, cloud: ObservedCloud) -> Mapping[str, Column]:
+    def fates(self, memory: Memory, fields: Sequence[FieldColumns]) -> Mapping[str, Column]:
         """Return the last values."""
-        columns = [_named(name, "", memory["value"][:, own]) for name, own in self._columns(cloud)]
+        columns = [_named(name, "", memory["value"][:, own]) for name, own in self._columns(fields)]
         return {name: column for named in columns for name, column in named.items()}
 
-    def _columns(self, cloud: ObservedCloud) -> list[tuple[str, slice]]:
-        """Return the name of each field and its columns."""
-        found, end = [], 0
-        for name, values in self._own(cloud.fields(np.empty(0, dtype=np.int64))):
-            start, end = end, end + values.values.shape[1]
-            found.append((name, slice(start, end)))
+    def _columns(self, fields: Sequence[FieldColumns]) -> list[tuple[str, slice]]:
+        """Return the name of each of its fields and its columns in the data, by the fields of the flow."""
+        components, found, end = {field.name: field.components for field in fields}, [], 0
+        for name in self.fields:
+            start, end = end, end + components[name]
+            found.append((name_of_field(name), slice(start, end)))
         return found
 
-    def _own(self, fields: Mapping[str, FieldValues]) -> list[tuple[str, FieldValues]]:
-        return [(name, fields[name]) for name in map(name_of_field, self.fields)]
-
     def _table(self, fields: Mapping[str, FieldValues]) -> Floats:
-        return np.concatenate([f.values for _, f in self._own(fields)], axis=1)
+        return np.concatenate([fields[name_of_field(name)].values for name in self.fields], axis=1)
 
 
 def _values_of(

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import same
+from foamprb.cloud.cloud import Value
 from foamprb.cloud.state import Particles, empty
-from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, Rows, append
+from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, Rows, append, memory_of
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.field_sampling import FieldSampling
 from foamprb.cloudfunctions.haemolysis import Haemolysis
@@ -24,6 +24,8 @@ from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 from foamprb.cloudfunctions.suspension_stress import SuspensionStress
 from foamprb.errors import InputError
+from foamprb.flow.fields import FieldColumns, columns_of
+from foamprb.flow.loaded import LoadedFlow
 from foamprb.results.tables import Column
 
 __all__ = ["FUNCTIONS", "CloudFunctions"]
@@ -101,6 +103,18 @@ class CloudFunctions:
         """Names of the functions whose data can go with the particles."""
         return [name for name, function in self.functions.items() if function.travels]
 
+    def before_steps(self, flow: LoadedFlow, start: float, until: float) -> None:
+        """Let the functions observe the particles before a call of the loop, while its flow is loaded."""
+        cloud = self.cloud.at(flow, start)
+        for name, function in self.functions.items():
+            function.before_steps(self._memory[name], cloud, until)
+
+    def after_steps(self, flow: LoadedFlow, until: float) -> None:
+        """Let the functions observe the particles after a call of the loop."""
+        cloud = self.cloud.at(flow, until)
+        for name, function in self.functions.items():
+            function.after_steps(self._memory[name], cloud)
+
     def watched(self, names: Collection[str]) -> Rows | None:
         """Return the numbers of the particles that some functions sample next; None for all."""
         found = [self.functions[name].watched(self._memory[name]) for name in names]
@@ -176,23 +190,14 @@ class CloudFunctions:
             new = np.concatenate([tables[name] for tables in found])
             append(self._memory[name], self.functions[name].events, _in_time(new))
 
-    @property
-    def has_fates(self) -> bool:
-        """Whether a function adds columns to ``fates``."""
-        return any(type(function).fates is not CloudFunction.fates for function in self.functions.values())
+    def with_fates(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+        """Yield what a function finds of all particles and of the columns that are added to ``fates``.
 
-    def fates(self) -> Iterator[tuple[Particles, dict[str, Column]]]:
-        """Yield parts of the particles in order, and the columns that the functions add to ``fates``."""
-        clouds = {name: self._seen_by(name) for name in self.functions}
-        parts = [
-            clouds[name].in_order(function.of_particles(self._memory[name]), _remembered)
-            for name, function in self.functions.items()
-        ]
-        for p, *own in zip(self.cloud.cloud.in_order(same), *parts, strict=True):
-            found: dict[str, Column] = {}
-            for (name, function), memory in zip(self.functions.items(), own, strict=True):
-                found |= function.fates({**self._memory[name], **memory}, clouds[name].seeing(p))
-            yield p, found
+        See :meth:`ObservedCloud.in_order`. The columns are those of the same particles, by name.
+        """
+        fields = tuple(columns_of(self.cloud.cloud.flow))
+        given = function, self.functions, fields, *arguments
+        return self.cloud.in_order(self.with_particles(self.functions), _with_fates, *given)
 
     def state(self) -> Memory:
         """Return the data of all functions, by ``function/array``; of particles elsewhere, no rows."""
@@ -241,8 +246,19 @@ def _in_time(events: NDArray[np.float64]) -> NDArray[np.float64]:
     return events[np.lexsort((events[:, 0], events[:, 1]))]
 
 
-def _remembered(_: Particles, memory: Memory) -> Memory:
-    return memory
+def _with_fates(
+    p: Particles,
+    memory: Memory,
+    function: Callable[..., Value],
+    functions: Mapping[str, CloudFunction],
+    fields: Sequence[FieldColumns],
+    *arguments: Any,
+) -> Value:
+    """Return what a function finds of particles, and of the columns of cloud functions for them."""
+    found: dict[str, Column] = {}
+    for name, own in functions.items():
+        found |= own.fates(memory_of(memory, name), fields)
+    return function(p, found, *arguments)
 
 
 def _record(function: CloudFunction, rows: NDArray[np.float64], memory: Memory, cloud: ObservedCloud) -> None:

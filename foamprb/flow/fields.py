@@ -50,6 +50,8 @@ class Fields(NamedTuple):
     times: Floats
     """(n,) rising, s."""
     columns: tuple[FieldColumns, ...]
+    slack: float
+    """Times closer than this are the same, s."""
 
     def at(self, points: Floats, hosts: Ints, t: ArrayLike) -> dict[str, FieldValues]:
         """Return the fields at points (n, 3) in hosts (n,), −1 for none, at times t, by name; linear in t."""
@@ -63,12 +65,18 @@ class Fields(NamedTuple):
     def _linear(self, x: Floats, hosts: Ints, t: Floats) -> Floats:
         if len(self.times) == 1:
             return self._level(0, x, hosts)
-        k = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, len(self.times) - 2)
         found = np.empty((len(x), self.table.shape[1]))
-        for level in np.unique(k):
-            own = np.flatnonzero(k == level)
-            a, b = (self._level(n, x[own], hosts[own]) for n in (level, level + 1))
-            start, end = self.times[level], self.times[level + 1]
+        # Values at a given time do not depend on the others that are loaded.
+        same = np.abs(t[:, None] - self.times) <= self.slack
+        given, level = same.any(axis=1), same.argmax(axis=1)
+        for k in np.unique(level[given]):
+            own = np.flatnonzero(given & (level == k))
+            found[own] = self._level(k, x[own], hosts[own])
+        before = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, len(self.times) - 2)
+        for k in np.unique(before[~given]):
+            own = np.flatnonzero(~given & (before == k))
+            a, b = (self._level(n, x[own], hosts[own]) for n in (k, k + 1))
+            start, end = self.times[k], self.times[k + 1]
             found[own] = a + ((t[own] - start) / (end - start))[:, None] * (b - a)
         return found
 
@@ -98,10 +106,11 @@ def fields_on(
     columns: Sequence[FieldColumns],
     first: Sequence[int] = (0,),
     times: Sequence[float] = (0.0,),
+    slack: float = 0.0,
 ) -> Fields:
     """Return fields on a mesh, of whose arrays only those are kept that interpolation reads."""
     own = no_mesh()._replace(nodes=mesh.nodes, tets=mesh.tets, n_points=mesh.n_points)
-    return Fields(own, table, np.array(first, dtype=np.int64), np.array(times), tuple(columns))
+    return Fields(own, table, np.array(first, dtype=np.int64), np.array(times), tuple(columns), slack)
 
 
 def width(columns: Sequence[FieldColumns]) -> int:

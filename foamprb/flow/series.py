@@ -385,6 +385,7 @@ class SeriesFlow(Timeline, MeshFlow):
             self.field_columns,
             first,
             times,
+            self._slack(max(times, default=self.times[0])),
         )
 
     def traits(self) -> Mapping[str, ArrayLike]:

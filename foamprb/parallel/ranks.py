@@ -29,7 +29,8 @@ from foamprb.cloud.measures import largest_slip
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.cloudfunctions.registry import CloudFunctions
-from foamprb.flow.fields import Fields, columns_of
+from foamprb.flow.fields import Fields
+from foamprb.flow.loaded import loaded_fields
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.parallel.distributed import DistributedFlow, distributed_flow, why_whole
 from foamprb.parallel.exchange import idle_share, plan_exchange
@@ -151,7 +152,7 @@ class Published(NamedTuple):
     flow: Any
     """Arguments of its kernels."""
     fields: Fields | None
-    """Fields that are sampled, for writing."""
+    """Fields that are sampled."""
 
 
 class RankStepper(Stepper):
@@ -287,10 +288,8 @@ class RankStepper(Stepper):
 
     def _publish_present(self) -> None:
         """Make the flow and the sampled fields at the present time known to all processes."""
-        flow, time = self.cloud.flow, self.cloud.time
-        flow.load(time, time)
-        given: Any = flow
-        self._publish(self.cloud.flow_arrays(), given.fields(time, time) if columns_of(flow) else None)
+        self.cloud.flow.load(self.cloud.time, self.cloud.time)
+        self._publish(self.cloud.flow_arrays())
 
     def piece_files(self, stem: Path) -> tuple[Path, ...]:
         """Return the files that :meth:`begin_pieces` may write."""
@@ -312,9 +311,9 @@ class RankStepper(Stepper):
         self._behind = {*self._functions.travelling}
         return sum((share.outcome for share in shares), Outcome())
 
-    def _publish(self, flow: Any, fields: Fields | None = None) -> None:
-        """Place the arguments of the flow's kernels and the fields in shared memory, where they changed."""
-        placed = pickle.dumps(self.published.publish(Published(flow, fields)))
+    def _publish(self, flow: Any) -> None:
+        """Place the arguments of the flow's kernels and the loaded fields in shared memory, if changed."""
+        placed = pickle.dumps(self.published.publish(Published(flow, loaded_fields(self.cloud.flow))))
         if placed != self._placed:
             self.ranks.order("use_flow", placed)
             self._placed = placed
@@ -380,7 +379,7 @@ class PartStepper(RankStepper):
     def _shared_bytes(self) -> int:
         return self._flow.shared_bytes
 
-    def _publish(self, flow: Any, fields: Fields | None = None) -> None:
+    def _publish(self, flow: Any) -> None:
         """No-op: the flow has let the nodes share their arrays."""
 
     def _carry(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:  # noqa: ARG002

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, TypeAlias
 
-import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.patches import Interaction
 from foamprb.cloud.state import Particles
 from foamprb.cloud.tracker import Tracker
-from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, memory_of
+from foamprb.cloudfunctions.base import CloudFunction, CloudShare, Memory, ObservedCloud, memory_of
 from foamprb.cloudfunctions.registry import CloudFunctions
+from foamprb.flow.loaded import LoadedFlow
 
-
-class _Share(NamedTuple):
-    """What functions see of a cloud of which this process has a share."""
-
-    interactions: Sequence[Interaction]
-    flow: Any
-    medium: Medium
-    tracker: Tracker
-    time: float
+Observe: TypeAlias = Callable[[CloudFunction, Memory, ObservedCloud], None]
+"""Lets a function observe particles: its data of them changes."""
 
 
 @dataclass(frozen=True)
@@ -62,13 +55,13 @@ class Sampling:
         names: Iterable[str],
         memory: Mapping[str, NDArray[Any]],
         p: Particles,
-        flow: Any,
+        flow: LoadedFlow,
         tracker: Tracker,
         time: float,
         events: Memory,
-        rebounds: NDArray[np.float64] | None = None,
+        observe: Observe,
     ) -> Memory:
-        """Let some functions sample particles, or record rebounds; return the events so far by their names.
+        """Let some functions observe particles; return the events so far by their names.
 
         Parameters
         ----------
@@ -80,19 +73,16 @@ class Sampling:
             The particles, the flow around them, the tracker of the cloud, and the time, s.
         events
             Events so far.
-        rebounds
-            Rebounds to record instead of a sample, with rows of the particles for their numbers.
+        observe
+            Lets a function observe the particles.
         """
-        share: Any = _Share(self.interactions, flow, self.medium, tracker, time)
+        share: Any = CloudShare(self.interactions, flow, self.medium, tracker, time)
         cloud, found = ObservedCloud(share, self.injectors, self.patches, seen=p), {}
         for name in names:
             function, known = self.functions[name], memory_of(memory, name)
             if function.events:
                 known[function.events] = events.get(name, self.events[name])
-            if rebounds is None:
-                function.sample(known, cloud)
-            else:
-                function.record_rebounds(known, cloud, rebounds)
+            observe(function, known, cloud)
             if function.events:
                 found[name] = known[function.events]
         return found

@@ -22,14 +22,14 @@ from foamprb.cloud.surroundings.wall_lift import wall_distances
 from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.cloudfunctions.base import Memory, memory_of
 from foamprb.errors import InputError, RankError, RunStopped
-from foamprb.flow.base import Floats, Ints
-from foamprb.flow.fields import FieldColumns, Fields
+from foamprb.flow.base import Floats
+from foamprb.flow.fields import Fields
+from foamprb.flow.loaded import LoadedFlow
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.parallel.exchange import Share, join, pack, record, unpack
 from foamprb.parallel.parts import Part, Summary
-from foamprb.parallel.sampling import Sampling
+from foamprb.parallel.sampling import Observe, Sampling
 from foamprb.parallel.shared_memory import Windows, wait_for_all
 from foamprb.results.checkpoint import FUNCTIONS, PARTICLES, StoredCheckpoint
 from foamprb.results.vtk import PieceArray, write_snapshot
@@ -60,28 +60,6 @@ class Answer(NamedTuple):
     value: Any
     error: Exception | None
     signals: list[int]
-
-
-class _SharedFlow(NamedTuple):
-    """Flow of a process that did not read it: its kernels, and arrays in shared memory."""
-
-    kernels: Mapping[str, Callable[..., Any]]
-    arrays: Any
-    sampled: Fields | None
-
-    @property
-    def field_columns(self) -> tuple[FieldColumns, ...]:
-        return () if self.sampled is None else self.sampled.columns
-
-    def fields(self, start: float, end: float) -> Fields:  # noqa: ARG002
-        assert self.sampled is not None
-        return self.sampled
-
-    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        return sample_with(self.kernels["sample"], self.arrays, points, hosts, t)
-
-    def viscosity(self, points: Floats, hosts: Ints, t: float) -> Floats:
-        return viscosity_with(self.kernels["viscosity"], self.arrays, points, hosts, t)
 
 
 class Worker:
@@ -369,8 +347,12 @@ class Worker:
         self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
     ) -> ShareState:
         """Advance the particles by some steps; ``stop`` or a signal ends them early."""
-        stop = stop or (lambda: bool(self.signals))
-        outcome = self._tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
+        stop, tracker = stop or (lambda: bool(self.signals)), self._tracker
+        functions = self._sampling.functions
+        start, until = (tracker.start + n * tracker.dt for n in (step, step + steps))
+        self._observe(functions, start, lambda f, memory, cloud: f.before_steps(memory, cloud, until))
+        outcome = tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
+        self._observe(functions, until, lambda f, memory, cloud: f.after_steps(memory, cloud))
         return self.share()._replace(outcome=outcome)
 
     def advance_part(
@@ -442,7 +424,7 @@ class Worker:
 
     def sample(self, names: Sequence[str], time: float) -> None:
         """Let some cloud functions sample the particles that this process advances."""
-        self._observe(names, time)
+        self._observe(names, time, lambda f, memory, cloud: f.sample(memory, cloud))
 
     def record(self, rebounds: NDArray[np.float64], time: float) -> None:
         """Let the cloud functions record the rebounds of the particles that this process advances."""
@@ -451,15 +433,14 @@ class Worker:
         at = np.minimum(np.searchsorted(ids, numbers), max(len(ids) - 1, 0))
         here = ids[at] == numbers if len(ids) else np.zeros(len(numbers), dtype=bool)
         own = np.column_stack([order[at[here]], rebounds[here, 1:]])
-        self._observe(self._sampling.functions, time, own)
+        functions = self._sampling.functions
+        self._observe(functions, time, lambda f, memory, cloud: f.record_rebounds(memory, cloud, own))
 
-    def _observe(
-        self, names: Iterable[str], time: float, rebounds: NDArray[np.float64] | None = None
-    ) -> None:
+    def _observe(self, names: Iterable[str], time: float, observe: Observe) -> None:
         """See :meth:`Sampling.observe`."""
         own = self.own
         self._events |= self._sampling.observe(
-            names, own.memory, own.particles, self._seen, self._tracker, time, self._events, rebounds
+            names, own.memory, own.particles, self._seen, self._tracker, time, self._events, observe
         )
 
     def take_events(self) -> Memory:
@@ -493,9 +474,9 @@ class Worker:
         return function(share.particles, *memory, *arguments)
 
     @property
-    def _seen(self) -> _SharedFlow:
+    def _seen(self) -> LoadedFlow:
         """The flow around the particles."""
-        return _SharedFlow(self._tracker.kernels, self._flow, self._sampled)
+        return LoadedFlow(self._tracker.kernels, self._flow, self._sampled)
 
     def write(
         self, folder: Path, time: float, names: Mapping[str, Sequence[str]], further: Sequence[str] = ()

@@ -76,7 +76,7 @@ def execute(
         if following is not None and not following.wait(cloud, stop):
             raise RunStopped(f"stopped before the first step{following.reason}.")
         results.write_start()
-        stepper = Stepper(cloud) if ranks is None else stepper_of(cloud, ranks, job.functions)
+        stepper = Stepper(cloud, job.functions) if ranks is None else stepper_of(cloud, ranks, job.functions)
         schedule = _Schedule(stepper)
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:

@@ -264,10 +264,7 @@ class Results:
             self._manifest.seal({file: file for file in others if file.is_file()} | {self._fates: fates})
 
         names, kind, functions = self._job.patch_names, self._job.tables, self._job.functions
-        rows = cloud.in_order(_fates_of, names, kind)
-        if functions.has_fates:
-            rows = (_fates_of(p, names, kind, further) for p, further in functions.fates())
-        write_rows(self._fates, rows, finish)
+        write_rows(self._fates, functions.with_fates(_fates_of, names, kind), finish)
 
     def _sample(self, stepper: Stepper, names: list[str]) -> None:
         """Let some cloud functions record a sample."""
@@ -476,9 +473,7 @@ def _due_at(p: Particles, time: float) -> Particles:
     return p.take(np.flatnonzero((p.status != Status.PENDING) | (p.t0 <= time)))
 
 
-def _fates_of(
-    p: Particles, patch_names: Sequence[str], kind: str, further: Mapping[str, Column] | None = None
-) -> Rows:
+def _fates_of(p: Particles, further: Mapping[str, Column], patch_names: Sequence[str], kind: str) -> Rows:
     """Return rows of ``fates``; ``further`` are columns of cloud functions."""
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last name belongs to the code −1.
@@ -490,7 +485,7 @@ def _fates_of(
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
             "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
             "fate": fates[p.status], "patch": patches[p.patch],
-            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **(further or {}),
+            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **further,
         },
         kind,
     )  # fmt: skip

@@ -99,6 +99,22 @@ def test_a_field_that_a_time_lacks_is_reported_at_the_start(tmp_path):
         read_transient_flow(case, None, None, FlowSource(sampled=("T",)))
 
 
+def test_values_at_a_given_time_do_not_depend_on_the_loaded_times(tmp_path):
+    """Nor do those beside it by round-off."""
+    case = write_transient_case(tmp_path)
+    mesh = Case(case).mesh("0").mesh
+    for time in ("0", "0.5", "1.5"):
+        put_linear(case / time, mesh, begin=np.sqrt(2.0 + float(time)))
+    flow = read_transient_flow(case, None, None, FlowSource(sampled=("T",)))
+    x = np.random.default_rng(1).uniform(0.1, 0.9, (50, 3))
+    hosts = flow.locate(x)
+    for t in (0.5, 0.5 * (1.0 - 1e-15), 0.5 * (1.0 + 1e-15)):
+        before, after, both = (
+            flow.fields(*ends).at(x, hosts, t)["T"] for ends in ((0.1, 0.4), (0.6, 1.0), (0.1, 1.0))
+        )
+        assert before.values.tobytes() == after.values.tobytes() == both.values.tobytes()
+
+
 def run_steady(case, *options):
     assert main(["run", "-case", str(case), *options]) == 0
     return case / "postProcessing/softCloud"

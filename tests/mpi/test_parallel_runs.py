@@ -365,12 +365,16 @@ def halves(tmp_path, monkeypatch):
 @pytest.mark.parametrize("following", [False, True])
 def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves, tmp_path, capsys):
     case = halves
-    functions = (
-        "fields { type fieldSampling; fields (U); } sums { type particleStatistics; sigmaParticles yes; }"
-    )
+    functions = """
+    fields { type fieldSampling; fields (U); sampleInterval 100; }
+    sums { type particleStatistics; sigmaParticles yes; }
+    paths { type particleTracks; trackInterval 100; maxSamples 10; }
+    """
     edit(case, "^solution", f"cloudFunctions {{ {functions} }} solution")
     edit(case, "gravity;", "gravity; wallLift { cutOff 1000; }")
     edit(case, r'"\.\*" \{ type escape; \}', 'lid { type escape; } "floor|sides" { type stick; }')
+    # The second goes to the other node. The third ends before a time of the flow, and is sampled after it.
+    (case / "constant/positions").write_text("((0.5 0.5 0.5) (0.499 0.5 0.55) (0.7 0.7 0.99))")
     alone = Path(shutil.copytree(case, tmp_path / "alone"))
     assert main(["run", "-case", str(alone)]) == 0
     (distances,) = re.findall(r"distance to walls/radius.*", capsys.readouterr().out)
@@ -385,7 +389,7 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves
     assert "Nodes take processor folders again" in done.stdout
     assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
     assert distances in done.stdout
-    assert_same(case, alone, functions=False)
+    assert_same(case, alone)
 
 
 LANDING = """
@@ -602,8 +606,9 @@ def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_pa
     monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
     for name, value in (("endTime", 0.015), ("writeInterval", 0.005)):
         edit(case, rf"{name}\s+\S+;", f"{name} {value};")
-    edit(case, r".*fieldSampling.*", "")
     edit(case, r"sampleInterval 7;", "sampleInterval 70;")
+    # decomposePar computes the pressure at the inlet anew, with other round-off.
+    edit(case, r"\(p\); sampleInterval 20;", "(U); sampleInterval 500;")
     edit(case, r"trackInterval 10;", "trackInterval 100;")
     alone = tmp_path / "alone"
     shutil.copytree(case, alone)

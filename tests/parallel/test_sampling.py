@@ -17,6 +17,7 @@ from foamprb.cloudfunctions.particle_collector import ParticleCollector
 from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
 from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.registry import CloudFunctions
+from foamprb.flow.loaded import LoadedFlow
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.parallel.exchange import Share
 from foamprb.parallel.sampling import Sampling
@@ -32,6 +33,10 @@ FUNCTIONS = {
 }
 
 
+def _sample(function, memory, cloud):
+    function.sample(memory, cloud)
+
+
 def test_samples_of_shares_are_those_of_the_whole():
     """The shares change between the samples, as particles change processes."""
     cloud, random = pipe_cloud(), np.random.default_rng(3)
@@ -42,6 +47,7 @@ def test_samples_of_shares_are_those_of_the_whole():
     sampling = Sampling.of(functions, cloud.medium)
     carried: Memory = functions.with_particles(names)
     events: list[Memory] = [{}, {}, {}]
+    flow = LoadedFlow(cloud.tracker.kernels, cloud.flow_arrays(), None)
     for _ in range(40):
         cloud.advance(5)
         whole.sample(names)
@@ -51,7 +57,7 @@ def test_samples_of_shares_are_those_of_the_whole():
             own = Share(cloud.particles, np.arange(cloud.particles.size), carried).take(rows)
             p, memory = own.particles, own.memory
             events[number] = sampling.observe(
-                names, memory, p, cloud.flow, cloud.tracker, cloud.time, events[number]
+                names, memory, p, flow, cloud.tracker, cloud.time, events[number], _sample
             )
             for name, array in memory.items():
                 carried[name][rows] = array
