@@ -67,22 +67,15 @@ class Homes(Protocol):
     def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
         """Make room for arrays of cloud functions, given without rows by ``function/array``."""
 
-    def update(
-        self,
-        name: str,
-        change: Callable[[Particles, dict[str, NDArray[Any]]], Mapping[str, NDArray[Any]]],
-        numbers: NDArray[np.int64] | None = None,
-    ) -> None:
-        """Change what a cloud function remembers of the particles, part by part on this process.
+    def begin(self, name: str, first: Callable[[Particles], Mapping[str, NDArray[Any]]]) -> None:
+        """Set what a cloud function remembers of the particles, part by part on this process.
 
         Parameters
         ----------
         name
             The function.
-        change
-            Returns what is remembered afterwards, for particles and what is remembered of them.
-        numbers
-            Particles, in ascending order, without which a part is left out; None for all.
+        first
+            Returns what is remembered of some particles.
         """
 
     def restore(self, file: PathLike[str]) -> None:

@@ -29,6 +29,7 @@ from foamprb.flow.loaded import LoadedFlow
 from foamprb.results.tables import Column
 
 __all__ = [
+    "AT_ONCE",
     "STATUS_NAMES",
     "CloudFunction",
     "CloudShare",
@@ -49,6 +50,8 @@ __all__ = [
 Rows: TypeAlias = NDArray[np.int64]
 """Row numbers of particles in their cloud."""
 Memory: TypeAlias = dict[str, NDArray[Any]]
+AT_ONCE = 1 << 20
+"""Particle numbers whose events complete a sample together; sums depend on it in their round-off."""
 SampleInterval = Annotated[int, AtLeastOne, Meaning("steps between two samples")]
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
 
@@ -163,6 +166,11 @@ class ObservedCloud:
         share: Any = CloudShare(cloud.interactions, flow, cloud.medium, cloud.tracker, time)
         return replace(self, cloud=share, seen=self.particles)
 
+    def appearing(self, until: float) -> Rows:
+        """Return the pending particles that appear between the time of the cloud and ``until``, s."""
+        p = self.particles
+        return np.flatnonzero((p.status == Status.PENDING) & (p.t0 >= self.time) & (p.t0 <= until))
+
     def fields_at_release(self, rows: Rows, hosts: NDArray[np.int32]) -> Mapping[str, FieldValues]:
         """Return the sampled fields where and when particles were released in their hosts."""
         p = self.particles
@@ -195,9 +203,7 @@ class CloudFunction:
     :attr:`rows`."""
     rows: ClassVar[bool] = False
     """Whether all its arrays have a row for each particle, but :attr:`events` and :attr:`common`. It can then
-    begin and sample with some particles and their rows at a time."""
-    travels: ClassVar[bool] = False
-    """Whether it can sample particles wherever they are, as its :attr:`rows` can go with them."""
+    begin and sample with some particles and their rows, which go with the particles."""
     events: ClassVar[str] = ""
     """Name of the array with a row for each event: number of the particle, time, and others."""
     common: ClassVar[frozenset[str]] = frozenset({"history", "written", "warned"})
@@ -222,7 +228,11 @@ class CloudFunction:
         """Record a sample of the cloud, every ``interval`` steps and before each writing."""
 
     def end_sample(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Complete a sample after all particles have been sampled, some at a time or all together."""
+        """Complete a sample after all particles have been sampled.
+
+        The events are those of the sample, in the order of the particles. If the particles are elsewhere, it
+        is called for every :data:`AT_ONCE` of their numbers in turn, with their events.
+        """
 
     def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
         """Observe particles before the steps of a call of the loop, from the time of the cloud ``until``, s.

@@ -83,7 +83,6 @@ class DeformabilityCytometry(PlaneFunction):
     view: Annotated[Vector3, Meaning("viewing direction of the camera, of any length", "1")]
     sampleInterval: SampleInterval = 1
 
-    travels: ClassVar[bool] = True
     events: ClassVar[str] = "seen"
 
     def __post_init__(self) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import numpy as np
 
@@ -43,8 +43,6 @@ class FieldSampling(SampledFunction):
     ]
     sampleInterval: SampleInterval = 1
 
-    travels: ClassVar[bool] = True
-
     def __post_init__(self) -> None:
         if not self.fields:
             raise InputError("has an empty list fields")
@@ -67,9 +65,8 @@ class FieldSampling(SampledFunction):
 
     def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
         """Store the values at the release of the particles that appear, while the flow there is loaded."""
-        p = cloud.particles
-        rows = np.flatnonzero((p.status == Status.PENDING) & (p.t0 >= cloud.time) & (p.t0 <= until))
-        memory["value"][rows] = self._table(cloud.fields_at_release(rows, p.host[rows]))
+        rows = cloud.appearing(until)
+        memory["value"][rows] = self._table(cloud.fields_at_release(rows, cloud.particles.host[rows]))
 
     def after_steps(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add the values at the end of the particles that have ended, while the flow there is loaded."""

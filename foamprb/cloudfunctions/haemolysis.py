@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -159,8 +159,6 @@ class Haemolysis(SampledFunction):
         float | None, Positive, Meaning("viscosity of whole blood, for τ", "Pa s", "that of the fluid")
     ] = None
     sampleInterval: SampleInterval = 1
-
-    travels: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         given = [name for name in ("A", "alpha", "beta") if getattr(self, name) is not None]

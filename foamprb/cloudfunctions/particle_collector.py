@@ -49,7 +49,6 @@ class ParticleCollector(PlaneFunction):
     resetOnWrite: Annotated[bool, Meaning("reset the counts at each write time")] = False
     sampleInterval: SampleInterval = 10
 
-    travels: ClassVar[bool] = True
     events: ClassVar[str] = "crossings"
 
     def __post_init__(self) -> None:

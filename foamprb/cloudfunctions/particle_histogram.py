@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,8 +48,6 @@ class ParticleHistogram(SampledFunction):
     ] = ("residenceTime", "maxDeformation", "meanDeformation", "shearExposure")
     nBins: Annotated[int, AtLeastOne, Meaning("bins between the smallest and the largest value")] = 50
     sampleInterval: SampleInterval = 10
-
-    travels: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         for name in self.fields:

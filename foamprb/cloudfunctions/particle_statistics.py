@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import (
+    AT_ONCE,
     Memory,
     ObservedCloud,
     Rows,
@@ -58,10 +59,12 @@ class ParticleStatistics(SampledFunction):
     common: ClassVar[frozenset[str]] = SampledFunction.common | {"time", "timeD", "timeS"}
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return cells, −1 outside, and Taylor's D."""
-        hosts = cloud.particles.host[rows]
-        cell = np.where(hosts >= 0, _flow(cloud).cell_of(hosts), -1)
-        own = {"cell": cell.astype(np.int64), "D": cloud.measure(rows, "taylorDeformation")[0]}
+        """Return cells, −1 outside and before the release, and Taylor's D."""
+        p, cell = cloud.particles, np.full(len(rows), -1, dtype=np.int64)
+        inside = np.flatnonzero((p.host[rows] >= 0) & (p.status[rows] != Status.PENDING))
+        if len(inside):
+            cell[inside] = _cell_of(cloud, p.host[rows[inside]])
+        own = {"cell": cell, "D": cloud.measure(rows, "taylorDeformation")[0]}
         if self.sigmaParticles:
             # The volume comes first among the seven.
             J, S = cloud.measure(rows, "J", "stresslet")
@@ -75,6 +78,11 @@ class ParticleStatistics(SampledFunction):
         passed = np.empty((0, 3 + 2 * columns))
         return {"time": np.zeros(n), "timeD": np.zeros(n), **stress, "passed": passed}
 
+    def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
+        """Store the cells of the particles that appear, where their tetrahedra are known."""
+        rows = cloud.appearing(until)
+        memory["cell"][rows] = _cell_of(cloud, cloud.particles.host[rows])
+
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Store half the time since the last sample, and cells and values at both its ends.
 
@@ -87,9 +95,16 @@ class ParticleStatistics(SampledFunction):
         ends = [values[name] for values in ({k: memory[k][rows] for k in names}, now) for name in names]
         append(memory, "passed", np.column_stack([cloud.particles.number[rows], 0.0 * half, half, *ends]))
 
-    def end_sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+    def end_sample(self, memory: Memory, cloud: ObservedCloud) -> None:  # noqa: ARG002
         """Add the sample to the sums of the cells."""
-        passed, n = memory["passed"], _flow(cloud).mesh.n_cells
+        passed = memory["passed"]
+        parts = (passed[:, 0] // AT_ONCE).astype(np.int64)
+        for part in np.unique(parts):
+            self._add_up(memory, passed[parts == part])
+        memory["passed"] = passed[:0]
+
+    def _add_up(self, memory: Memory, passed: Floats) -> None:
+        n = len(memory["time"])
         for end in np.split(passed[:, 3:], 2, axis=1):
             known = end[:, 0] >= 0
             cell, weight = end[known, 0].astype(np.int64), passed[known, 2]
@@ -98,7 +113,6 @@ class ParticleStatistics(SampledFunction):
             if self.sigmaParticles:
                 for total, values in zip(memory["timeS"], end[known, 2:].T, strict=True):
                     total += np.bincount(cell, weight * values, n)
-        memory["passed"] = passed[:0]
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
@@ -128,9 +142,15 @@ class ParticleStatistics(SampledFunction):
 
 def _flow(cloud: ObservedCloud) -> Any:
     """Return the flow, which has cells."""
-    if not hasattr(cloud.cloud.flow, "cell_of"):
+    if not hasattr(cloud.cloud.flow, "mesh_sizes"):
         raise InputError("the flow has no mesh for the fields.")
     return cloud.cloud.flow
+
+
+def _cell_of(cloud: ObservedCloud, hosts: NDArray[np.int32]) -> NDArray[np.int64]:
+    flow: Any = cloud.cloud.flow
+    cells: NDArray[np.int64] = flow.cell_of(hosts)
+    return cells
 
 
 def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:

@@ -13,7 +13,15 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Value
 from foamprb.cloud.state import Particles, empty
-from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, Rows, append, memory_of
+from foamprb.cloudfunctions.base import (
+    AT_ONCE,
+    CloudFunction,
+    Memory,
+    ObservedCloud,
+    Rows,
+    append,
+    memory_of,
+)
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.field_sampling import FieldSampling
 from foamprb.cloudfunctions.haemolysis import Haemolysis
@@ -79,7 +87,7 @@ class CloudFunctions:
             return
         self._memory[name] = memory = function.begin(cloud.seeing(empty(0)))
         homes.remember({f"{name}/{key}": array for key, array in function.of_particles(memory).items()})
-        homes.update(name, lambda p, _: function.of_particles(function.begin(cloud.seeing(p))))
+        homes.begin(name, lambda p: function.of_particles(function.begin(cloud.seeing(p))))
 
     def _seen_by(self, name: str) -> ObservedCloud:
         """Return the cloud as a function observes it."""
@@ -100,8 +108,8 @@ class CloudFunctions:
 
     @property
     def travelling(self) -> list[str]:
-        """Names of the functions whose data can go with the particles."""
-        return [name for name, function in self.functions.items() if function.travels]
+        """Names of the functions whose data go with the particles."""
+        return [name for name, function in self.functions.items() if function.rows]
 
     def before_steps(self, flow: LoadedFlow, start: float, until: float) -> None:
         """Let the functions observe the particles before a call of the loop, while its flow is loaded."""
@@ -129,39 +137,36 @@ class CloudFunctions:
             self._observe(name, function.sample)
             function.end_sample(self._memory[name], self.cloud)
 
-    def _observe(
-        self, name: str, observe: Callable[[Memory, ObservedCloud], None], numbers: Rows | None = None
+    def end_samples(
+        self, names: Iterable[str], take: Callable[[str, int], Sequence[NDArray[np.float64]]]
     ) -> None:
-        """Let a function observe all particles, some at a time if other processes hold them.
+        """Complete samples of particles that are elsewhere, see :meth:`CloudFunction.end_sample`.
 
         Parameters
         ----------
-        name
-            The function.
-        observe
-            Changes its data by the observed particles.
-        numbers
-            Particles that alone are of interest, None for all.
+        names
+            The functions.
+        take
+            Returns the events of a function from all processes, of the particles below a number, and removes
+            them there.
         """
-        function, memory, cloud = self.functions[name], self._memory[name], self._seen_by(name)
-        homes, events = cloud.cloud.homes, function.events
+        for name in names:
+            function, memory, size = self.functions[name], self._memory[name], self.cloud.cloud.size
+            if type(function).end_sample is CloudFunction.end_sample:
+                continue
+            for until in range(AT_ONCE, size + AT_ONCE, AT_ONCE):
+                append(memory, function.events, _in_time(np.concatenate(take(name, until))))
+                function.end_sample(memory, self.cloud)
+
+    def _observe(self, name: str, observe: Callable[[Memory, ObservedCloud], None]) -> None:
+        """Let a function observe particles, and add its events in their order."""
+        memory, events = self._memory[name], self.functions[name].events
         before = memory.get(events)
-        found = [] if before is None else [before[:0]]
-
-        def observe_some(own: Memory, some: ObservedCloud) -> Memory:
-            part = {**memory, **own} | ({events: found[0]} if events else {})
-            observe(part, some)
-            if events:
-                found.append(part[events])
-            memory.update({key: array for key, array in part.items() if key not in own})
-            return function.of_particles(part)
-
-        if homes is None or not function.rows:
-            observe_some({}, cloud)
-        else:
-            homes.update(name, lambda p, own: observe_some(own, cloud.seeing(p)), numbers)
         if before is not None:
-            memory[events] = np.concatenate([before, _in_time(np.concatenate(found))])
+            memory[events] = before[:0]
+        observe(memory, self._seen_by(name))
+        if before is not None:
+            memory[events] = np.concatenate([before, _in_time(memory[events])])
 
     def write(self, folder: Path) -> None:
         """Let every function write into a folder of its name."""
@@ -211,10 +216,10 @@ class CloudFunctions:
 
     def record_rebounds(self, rows: NDArray[np.float64], names: Iterable[str]) -> None:
         """Let some functions record rebounds and passages; for these see :meth:`Cloud.take_rebounds`."""
-        numbers = np.unique(rows[:, 0]).astype(np.int64)
         for name in names if len(rows) else ():
-            if type(self.functions[name]).record_rebounds is not CloudFunction.record_rebounds:
-                self._observe(name, partial(_record, self.functions[name], rows), numbers)
+            function = self.functions[name]
+            if type(function).record_rebounds is not CloudFunction.record_rebounds:
+                self._observe(name, partial(function.record_rebounds, rows=rows))
 
     def restore(self, stored: Collection[str], read: Callable[[str], NDArray[Any]]) -> None:
         """Restore the data that :meth:`state` returned in an earlier run.
@@ -259,12 +264,3 @@ def _with_fates(
     for name, own in functions.items():
         found |= own.fates(memory_of(memory, name), fields)
     return function(p, found, *arguments)
-
-
-def _record(function: CloudFunction, rows: NDArray[np.float64], memory: Memory, cloud: ObservedCloud) -> None:
-    """Let a function record the rebounds of the observed particles, by their rows if it has rows of them."""
-    if function.rows and cloud.seen is not None:
-        first = int(cloud.seen.number[0]) if cloud.seen.size else 0
-        rows = rows[(rows[:, 0] >= first) & (rows[:, 0] < first + cloud.seen.size)]
-        rows = np.column_stack([rows[:, 0] - first, rows[:, 1:]])
-    function.record_rebounds(memory, cloud, rows)

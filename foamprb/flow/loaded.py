@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields, columns_of
 from foamprb.flow.sampling import sample_with, viscosity_with
@@ -18,6 +21,8 @@ class LoadedFlow(NamedTuple):
     kernels: Mapping[str, Callable[..., Any]]
     arrays: Any
     sampled: Fields | None
+    cells: NDArray[np.int64] | None = None
+    """Numbers of the cells in the whole mesh; None for their indices here."""
 
     @property
     def field_columns(self) -> tuple[FieldColumns, ...]:
@@ -28,6 +33,12 @@ class LoadedFlow(NamedTuple):
         """Return the fields that are sampled; the loaded times must include ``start`` to ``end``."""
         assert self.sampled is not None
         return self.sampled
+
+    def cell_of(self, hosts: Ints) -> NDArray[np.int64]:
+        """Return the numbers of the cells (n,) of tetrahedra; any cell for −1."""
+        mesh = getattr(self.arrays, "mesh", self.arrays)
+        cells: NDArray[np.int64] = mesh.tets[hosts, 0].astype(np.int64) - mesh.n_points
+        return cells if self.cells is None else self.cells[cells]
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """See :meth:`foamprb.flow.base.Flow.sample`."""

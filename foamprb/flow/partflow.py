@@ -273,11 +273,11 @@ class PartFlow(MeshFlow):
         rows, hosts = self.own_hosts(numbers)
         return rows, self.cell_size(hosts)
 
-    def own_cells(self, low: int, high: int) -> tuple[Labels, Labels, Floats]:
-        """Return numbers of own cells from ``low`` to before ``high``, first tetrahedra and volumes, m³."""
+    def own_cells(self, low: int, high: int) -> tuple[Labels, Floats]:
+        """Return numbers of own cells from ``low`` to before ``high``, and their volumes, m³."""
         cells = self.halo.part.cells
         rows = np.flatnonzero(self.halo.part.own & (cells >= low) & (cells < high))
-        return cells[rows], self._first_tet[rows], self.mesh.volumes[rows]
+        return cells[rows], self.mesh.volumes[rows]
 
     def own_faces(self) -> tuple[Labels, Ints, Labels, Floats, Floats]:
         """Return the boundary faces of own cells: numbers, patches, cells, areas, m², and centres, m."""
@@ -335,10 +335,10 @@ class PartFlow(MeshFlow):
         most = largest_fluxes(mesh.points, faces, u, further)
         return float((most / mesh.volumes)[self.halo.part.own].max(initial=0.0))
 
-    def places_in_whole(self) -> tuple[Ints, Labels, Ints, Ints]:
-        """Return nodes and first tetrahedra of cells in the whole mesh, the first ones here, and folders."""
+    def places_in_whole(self) -> tuple[Labels, Ints, Labels, Ints, Ints]:
+        """Return numbers, nodes and first tetrahedra of cells in the whole mesh, those here, and folders."""
         halo = self.halo
-        return halo.part.node, self._first_tet, self.mesh.cell_start, halo.folders.of_cells
+        return halo.part.cells, halo.part.node, self._first_tet, self.mesh.cell_start, halo.folders.of_cells
 
     def own_patch_faces(self, name: str, t: float) -> tuple[Labels, PatchFaces]:
         """Return the triangles of a patch at own cells with the numbers of their faces and of their hosts."""

@@ -119,7 +119,7 @@ class DistributedFlow:
         self._load: NDArray[np.int64] | None = None
         self._shared: tuple[Any, ...] | None = None
         self.shared_bytes = 0
-        self._slip, self._first_tet = 0.0, np.empty(0, dtype=np.int64)
+        self._slip = 0.0
         self._summarise(summaries)
         self._deepen(self._layers)
         first = self.summaries[0]
@@ -229,30 +229,21 @@ class DistributedFlow:
         """Return the cube root of the volume of the hosts' cells, (n,), m."""
         return self._ask_own("cell_sizes_of_own", [np.full(len(hosts), np.nan)], hosts)[0]
 
-    def cell_of(self, hosts: NDArray[Any]) -> NDArray[np.intp]:
-        """Return the cells (n,) of tetrahedra; −1 for −1.
-
-        The first call gathers the first tetrahedra of all cells, 8 bytes each.
-        """
-        if not len(self._first_tet):
-            self._first_tet = self._of_cells(1)
-        return np.searchsorted(self._first_tet, hosts, side="right") - 1
-
     def mesh_sizes(self) -> MeshSizes:
         """Return the sizes of all cells and boundary faces; see :meth:`MeshFlow.mesh_sizes`."""
         faces, *values = map(np.concatenate, zip(*self._ask("own_faces"), strict=True))
         order = np.argsort(faces)
         patches, owner, areas, centres = (array[order] for array in values)
         start = np.searchsorted(patches, np.arange(len(self.patches) + 1))
-        return MeshSizes(self._of_cells(2), owner, areas, centres, start)
+        return MeshSizes(self._volumes(), owner, areas, centres, start)
 
-    def _of_cells(self, column: int) -> NDArray[Any]:
-        """Return a result of :meth:`PartFlow.own_cells` for all cells, (n_cells,)."""
+    def _volumes(self) -> Floats:
+        """Return the volumes of all cells, (n_cells,), m³."""
         whole = []
         for low in range(0, self.mesh.n_cells, _CELLS_AT_ONCE):
             found = self._ask("own_cells", low, low + _CELLS_AT_ONCE)
             order = np.argsort(np.concatenate([own[0] for own in found]))
-            whole.append(np.concatenate([own[column] for own in found])[order])
+            whole.append(np.concatenate([own[1] for own in found])[order])
         return np.concatenate(whole)
 
     def times_within(self, start: float, end: float) -> Sequence[float]:  # noqa: ARG002

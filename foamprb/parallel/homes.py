@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Value, parts_of
+from foamprb.cloud.cloud import Value, parts_of, same
 from foamprb.cloud.state import VARIABLES, Particles
-from foamprb.cloudfunctions.base import Memory
 from foamprb.parallel.exchange import Share, homes_of
 from foamprb.parallel.worker import Worker
 from foamprb.settings.libs import loaded_libs
@@ -82,18 +81,10 @@ class RankHomes:
         """See :class:`foamprb.cloud.cloud.Homes`."""
         self._order("remember", layout)
 
-    def update(
-        self,
-        name: str,
-        change: Callable[[Particles, Memory], Mapping[str, NDArray[Any]]],
-        numbers: NDArray[np.int64] | None = None,
-    ) -> None:
+    def begin(self, name: str, first: Callable[[Particles], Mapping[str, NDArray[Any]]]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
         for rank, part in self._parts():
-            ends = self._bounds[rank] + np.array([part.start, part.stop])
-            if numbers is not None and np.diff(np.searchsorted(numbers, ends))[0] == 0:
-                continue
-            found = change(*self._at_home(rank, part, name, _both))
+            found = first(self._at_home(rank, part, None, same))
             self._put(rank, part.start, {f"{name}/{key}": array for key, array in found.items()})
 
     def restore(self, file: PathLike[str]) -> None:
@@ -121,7 +112,3 @@ class RankHomes:
             self._worker.put(0, first, arrays)
         else:
             self._order("put", rank, first, own=(arrays,))
-
-
-def _both(p: Particles, memory: Memory) -> tuple[Particles, Memory]:
-    return p, memory

@@ -54,6 +54,8 @@ class MpiTeam(Team):
 class PlacesInWhole(NamedTuple):
     """Where the cells of a node lie in the whole mesh."""
 
+    number: Labels
+    """(n_cells,) the number of each cell in the whole mesh."""
     node: Ints
     """(n_cells,) the node that owns each cell."""
     first: Labels

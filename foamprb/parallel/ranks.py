@@ -17,6 +17,7 @@ import logging
 import pickle
 import time as clock
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -223,6 +224,7 @@ class RankStepper(Stepper):
         if away:
             self._publish_present()
             self.ranks.order("sample", away, self.cloud.time)
+            self._functions.end_samples(away, partial(self.ranks.order, "take_events_below"))
             self._gathered = False
             self._behind -= {*away}
         return [name for name in names if name not in travelling]

@@ -448,6 +448,14 @@ class Worker:
         found, self._events = {**self._sampling.events, **self._events}, {}
         return found
 
+    def take_events_below(self, name: str, number: int) -> NDArray[np.float64]:
+        """Return and remove the events of a function, of the particles below a number."""
+        events = self._events[name]
+        events = events[np.argsort(events[:, 0], kind="stable")]
+        n = int(np.searchsorted(events[:, 0], number))
+        self._events[name] = events[n:]
+        return np.asarray(events[:n])
+
     def each(self, function: Callable[..., Any], time: float, *arguments: Any) -> Any:
         """Return what a function finds of the particles that this process advances."""
         return function(self.particles, self._seen, time, *arguments)
@@ -476,7 +484,8 @@ class Worker:
     @property
     def _seen(self) -> LoadedFlow:
         """The flow around the particles."""
-        return LoadedFlow(self._tracker.kernels, self._flow, self._sampled)
+        cells = None if self._part is None else self._part.places.number
+        return LoadedFlow(self._tracker.kernels, self._flow, self._sampled, cells)
 
     def write(
         self, folder: Path, time: float, names: Mapping[str, Sequence[str]], further: Sequence[str] = ()

@@ -44,6 +44,7 @@ FUNCTIONS = """cloudFunctions
     blood   { type haemolysis; constants Ding; stress KelvinVoigt; sampleInterval 20; }
     stress  { type suspensionStress; }
     fields  { type fieldSampling; fields (p); sampleInterval 20; }
+    cells   { type particleStatistics; sampleInterval 50; }
 }"""
 ENVIRONMENT = {
     **os.environ,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import pytest
 import small_clouds
 from observing import observed, pipe_cloud
 
-from foamprb.cloud.cloud import Cloud, regrouped, same
+from foamprb.cloud.cloud import Cloud, Stepper, regrouped, same
 from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import Particles, concatenate, empty, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
@@ -27,6 +28,7 @@ from foamprb.cloudfunctions.suspension_stress import SuspensionStress
 from foamprb.errors import InputError
 from foamprb.parallel.exchange import Share
 from foamprb.parallel.homes import RankHomes
+from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.worker import Worker
 from foamprb.results.checkpoint import Checkpoint, part_file, write_checkpoint
 from foamprb.run.description import _surveyed
@@ -75,6 +77,17 @@ class Processes:
         parts = [p.take(slice(k, k + 11)) for k in range(0, p.size, 11)]
         return RankHomes(self.workers[0], self.order, p.size, parts)
 
+    def prepare(self, sampling: Sampling, cloud: Cloud) -> None:
+        """Let the workers sample the particles at their homes."""
+        for worker in self.workers:
+            worker.own, worker._sampling, worker._tracker = worker.home, sampling, cloud.tracker
+            worker._flow, worker._sampled, worker._part, worker._events = cloud.make_ready(), None, None, {}
+
+    def before_steps(self, start: float, until: float) -> None:
+        for worker in self.workers:
+            functions = worker._sampling.functions
+            worker._observe(functions, start, lambda f, memory, cloud: f.before_steps(memory, cloud, until))
+
     def gather(self, p: Particles) -> None:
         """Send the state of all particles home."""
         for worker in self.workers:
@@ -90,6 +103,8 @@ class Processes:
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
     monkeypatch.setattr("foamprb.cloud.cloud.PART", 7)
+    for user in ("registry", "particle_statistics"):
+        monkeypatch.setattr(f"foamprb.cloudfunctions.{user}.AT_ONCE", 2)
 
 
 def at_homes(cloud: Cloud, n: int, **changes: Any) -> tuple[Cloud, Processes]:
@@ -112,13 +127,24 @@ def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, 
     afar, processes = at_homes(cloud, n)
     ends = [dataclasses.replace(observed(c), tables=tables) for c in (cloud, afar)]
     here, there = (CloudFunctions(functions, end) for end in ends)
+    travelling = there.travelling
+    rest = [name for name in functions if name not in travelling]
+    processes.prepare(Sampling.of(there, cloud.medium), cloud)
     for k in range(30):
-        cloud.advance(10)
+        start, until = (cloud.start + (cloud.step + steps) * cloud.dt for steps in (0, 10))
+        processes.before_steps(start, until)
+        Stepper(cloud, here).advance(10)
         processes.gather(cloud.particles)
         afar.step = cloud.step
-        afar.tracker.rebounds = [rows.copy() for rows in cloud.tracker.rebounds]
+        rows = cloud.take_rebounds()
+        for functions_of, names in ((here, functions), (there, rest)):
+            functions_of.record_rebounds(rows, names)
+        processes.order("record", rows, cloud.time)
         here.sample(list(functions))
-        there.sample(list(functions))
+        processes.order("sample", travelling, cloud.time)
+        there.end_samples(travelling, partial(processes.order, "take_events_below"))
+        there.sample(rest)
+        there.add_events(processes.order("take_events"))
         if k % 10 == 9:
             here.write(folder / "here")
             there.write(folder / "there")

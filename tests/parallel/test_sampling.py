@@ -97,7 +97,7 @@ def test_passages_are_recorded_by_the_process_that_has_the_particle(tmp_path):
     for _ in range(3):
         worker = Worker.__new__(Worker)
         worker._sampling, worker._tracker, worker._events = sampling, cloud.tracker, {}
-        worker._flow, worker._sampled = cloud.make_ready(), None
+        worker._flow, worker._sampled, worker._part = cloud.make_ready(), None, None
         workers.append(worker)
     for k in range(1, 41):
         cloud.advance(20)
