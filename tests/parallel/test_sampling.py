@@ -124,3 +124,12 @@ def test_passages_are_recorded_by_the_process_that_has_the_particle(tmp_path):
         assert state[name].tobytes() == array.tobytes(), name
     for file in (tmp_path / "whole").rglob("*.csv"):
         assert (tmp_path / "apart" / file.relative_to(tmp_path / "whole")).read_bytes() == file.read_bytes()
+
+
+def test_cells_of_a_part_have_their_numbers_in_the_whole_mesh():
+    cloud = period_cloud()
+    flow, hosts = cloud.flow, cloud.particles.host
+    numbers = np.random.default_rng(1).permutation(flow.mesh.n_cells) + 100
+    loaded = LoadedFlow(flow.kernels, cloud.make_ready(), None)
+    np.testing.assert_array_equal(loaded.cell_of(hosts), flow.cell_of(hosts))
+    np.testing.assert_array_equal(loaded._replace(cells=numbers).cell_of(hosts), numbers[flow.cell_of(hosts)])
