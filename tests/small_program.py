@@ -66,5 +66,29 @@ def outer(numbers):
     return total
 
 
+def formula(x):
+    """Stands for one of a test."""
+
+
+@traced
+def formed(values):
+    for i in range(LANES):
+        values[i] = formula(values[i]) + 1.0
+
+
+def calling(values):
+    """Inlined caller of a stage."""
+    formed(values)
+
+
+one = other = calling
+
+
+def twice(values):
+    """Entry that calls two stages."""
+    one(values)
+    other(values)
+
+
 def linked():
     return link(outer, separate=(middle, stage))

@@ -172,9 +172,12 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role, called: s
     """
     task = function, f"{role} {called}"
     if task not in linkage.done:
-        part = linkage.done[task] = _link_once(function, linkage, role, called)
-        if role == "stage":
+        part = _link_once(function, linkage, role, called)
+        if role == "stage" and linkage.stages.setdefault(part.keys.outside, part) is not part:
+            # Another one has its name: callers tell them apart by their code.
+            part = part._replace(keys=Keys(part.keys.own, part.keys.own))
             linkage.stages[part.keys.outside] = part
+        linkage.done[task] = part
     return linkage.done[task]
 
 
@@ -184,9 +187,9 @@ def _link_callee(name: str, function: Callable[..., Any], linkage: _Linkage) -> 
         return _link(function, linkage, "inlined")
     if not hasattr(function, TRACED) or _internals() is None:
         return _link(function, linkage, "separate")
-    # The name of a function of their own module may be that of another one elsewhere.
-    where = "" if name in linkage.bindings else f"{function.__module__}."
-    return _link(function, linkage, "stage", where + name)
+    # A name that is not bound may mean other functions elsewhere.
+    own = f"{function.__module__}.{function.__qualname__}"
+    return _link(function, linkage, "stage", name if name in linkage.bindings else own)
 
 
 def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, called: str) -> Part:

@@ -21,7 +21,7 @@ from paths import ROOT
 from foamprb.compile import cache as caching
 from foamprb.compile import link as linking
 from foamprb.compile.cache import Store
-from foamprb.compile.link import bound, is_compiled, link
+from foamprb.compile.link import bound, is_compiled, link, traced
 
 IS_ROOT = os.geteuid() == 0
 SOMEBODY = 54321
@@ -159,6 +159,14 @@ def files_of(function, files):
     """Name of the folder of a function that was compiled in this process."""
     (key,) = {p.keys.outside for p in linking._parts.values() if p.dispatcher.py_func.__name__ == function}
     return key
+
+
+def doubled(x):
+    return 2.0 * x
+
+
+def tripled(x):
+    return 3.0 * x
 
 
 class Intruder:
@@ -341,6 +349,24 @@ class TestStages:
         assert not is_compiled(self.linked(small_program.another_stage))
         forget()
         assert self.found(small_program.another_stage) == 1
+
+    @pytest.mark.usefixtures("folder")
+    def test_stages_of_the_same_name_are_told_apart(self, forget):
+        """Two copies of a function with other formulas in them, in both orders."""
+        by_two, by_three = (traced(bound(small_program.formed, formula=f)) for f in (doubled, tripled))
+        for one, other in ((by_two, by_three), (by_three, by_two)):
+            hits = []
+            for _ in range(2):
+                f = link(small_program.twice, {"one": bound(small_program.calling, formed=one),
+                                               "other": bound(small_program.calling, formed=other)},
+                         (one, other))  # fmt: skip
+                values = np.ones(small_program.LANES)
+                f(values)
+                # x -> 2x + 1 and x -> 3x + 1 in their order.
+                np.testing.assert_array_equal(values, 10.0 if one is by_two else 9.0)
+                hits.append(sum(f.stats.cache_hits.values()))
+                forget()
+            assert hits == [0, 1]
 
     def test_what_is_kept_of_an_entry_names_no_stage(self, folder):
         self.found(small_program.stage)
