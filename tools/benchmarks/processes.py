@@ -135,6 +135,11 @@ def decomposed(case: Path, cuts: tuple[int, int, int]) -> Path:
         return case
     folder = decomposed_folder(case, cuts)
     if (folder / f"processor{parts - 1}").is_dir():
+        # Particles may have come since.
+        for path in (case / "constant").iterdir():
+            link = folder / "constant" / path.name
+            if path.name != "polyMesh" and not link.is_symlink():
+                link.symlink_to(path)
         return folder
     shutil.copytree(case / "system", folder / "system")
     (folder / "constant").mkdir()
