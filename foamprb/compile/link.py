@@ -152,7 +152,7 @@ class _Linkage:
     separate: frozenset[Callable[..., Any]]
     done: dict[tuple[Callable[..., Any], str], Part] = field(default_factory=dict)
     stages: dict[str, Part] = field(default_factory=dict)
-    """By their keys outside."""
+    """By :attr:`Keys.outside`."""
 
 
 # The code of this package is a part of every key.
@@ -174,7 +174,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role, called: s
     if task not in linkage.done:
         part = _link_once(function, linkage, role, called)
         if role == "stage" and linkage.stages.setdefault(part.keys.outside, part) is not part:
-            # Another one has its name: callers tell them apart by their code.
+            # Another stage of this loop has the name, so the code must distinguish them.
             part = part._replace(keys=Keys(part.keys.own, part.keys.own))
             linkage.stages[part.keys.outside] = part
         linkage.done[task] = part
