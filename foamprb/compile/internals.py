@@ -419,7 +419,7 @@ class _Cache:
 
 
 class _CacheOfEntry(_Cache):
-    """Cache of an entry. Saved code has keys that do not depend on the stages; each run puts its own there."""
+    """Cache of an entry. Keys in saved code do not depend on the stages; each run puts its own there."""
 
     def __init__(self, store: Store, keys: Keys, stages: Mapping[str, Part]) -> None:
         super().__init__(store)
