@@ -77,8 +77,19 @@ def formed(values):
 
 
 def calling(values):
-    """Inlined caller of a stage."""
+    """Caller of a stage."""
     formed(values)
+
+
+def calls_once(values):
+    """Entry that calls a stage through another function."""
+    calling(values)
+
+
+def calls_again(values):
+    """Another one."""
+    calling(values)
+    calling(values)
 
 
 one = other = calling

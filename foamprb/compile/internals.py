@@ -383,10 +383,18 @@ class _Cache:
     """Cache of a dispatcher, as numba calls it before and after each compilation.
 
     The cache that numba has goes by a function's file, not by the code that it calls, and has no checksum.
+    Code that is found calls stages, which are then compiled or found as well.
+
+    Parameters
+    ----------
+    store
+        The function's files.
+    stages
+        Stages that its code may call, by the keys that they have in saved code.
     """
 
-    def __init__(self, store: Store) -> None:
-        self._store = store
+    def __init__(self, store: Store, stages: Mapping[str, Part]) -> None:
+        self._store, self._stages = store, dict(stages)
         self.cache_path = str(store.folder)
 
     def load_overload(self, signature: Any, context: Any) -> Any:
@@ -409,54 +417,64 @@ class _Cache:
         self._store.flush()
 
     def _rebuilt(self, context: Any, saved: Any) -> Any:
+        called, state = saved
+        self._compile(called)
         own, codegen = _context(context), context.codegen()
         own.codegen = lambda: _Reader(codegen)
         # Without the environments of interpreted code, which belong to entries.
-        return CompileResult._rebuild(own, *saved[:-1], ())
+        return CompileResult._rebuild(own, *state[:-1], ())
 
     def _reduced(self, result: Any) -> Any:
-        return result._reduce()
+        return self._called(result), result._reduce()
+
+    def _called(self, result: Any) -> list[tuple[str, Any]]:
+        """Return the keys of the stages that compiled code calls, and the types of their arguments."""
+        declared = {f.name for f in result.library._final_module.functions if f.is_declaration}
+        return [
+            (key, kinds)
+            for key, part in self._stages.items()
+            for kinds, compiled in part.dispatcher.overloads.items()
+            if compiled.fndesc.mangled_name in declared
+        ]
+
+    def _compile(self, called: list[tuple[str, Any]]) -> None:
+        for key, kinds in called:
+            self._stages[key].dispatcher.compile(kinds)
 
 
 class _CacheOfEntry(_Cache):
     """Cache of an entry. Keys in saved code do not depend on the stages; each run puts its own there."""
 
     def __init__(self, store: Store, keys: Keys, stages: Mapping[str, Part]) -> None:
-        super().__init__(store)
-        self._stages = dict(stages)
+        super().__init__(store, stages)
         self._keys = [keys, *(part.keys for part in stages.values())]
 
     def _rebuilt(self, context: Any, saved: Any) -> Any:
         called, state = saved
-        for outside, kinds in called:
-            self._stages[outside].dispatcher.compile(kinds)
+        self._compile(called)
         for keys in self._keys:
             state = state.replace(keys.outside.encode(), keys.own.encode())
         return CompileResult._rebuild(context, *pickle.loads(state))
 
     def _reduced(self, result: Any) -> Any:
-        declared = {f.name for f in result.library._final_module.functions if f.is_declaration}
-        called = [
-            (outside, kinds)
-            for outside, part in self._stages.items()
-            for kinds, compiled in part.dispatcher.overloads.items()
-            if compiled.fndesc.mangled_name in declared
-        ]
         state = dumps(result._reduce())
         for keys in self._keys:
             state = state.replace(keys.own.encode(), keys.outside.encode())
-        return called, state
+        return self._called(result), state
 
 
-def use_cache(dispatcher: Any, key: str) -> Store:
-    """Give the dispatcher of a stage or a separate function a place in the cache."""
+def use_cache(dispatcher: Any, key: str, stages: Mapping[str, Part]) -> Store:
+    """Give the dispatcher of a stage or a separate function a place in the cache.
+
+    Its code changes with those of the ``stages`` that it calls: they go by their own keys.
+    """
     store = Store(key, dumps)
-    dispatcher._cache = _Cache(store)
+    dispatcher._cache = _Cache(store, {part.keys.own: part for part in stages.values()})
     return store
 
 
 def use_cache_of_entry(dispatcher: Any, keys: Keys, stages: Mapping[str, Part]) -> Store:
-    """Give the dispatcher of an entry a place in the cache; the stages have theirs."""
+    """Give the dispatcher of an entry a place in the cache; the ``stages`` go by their keys outside."""
     store = Store(keys.outside, dumps)
     dispatcher._cache = _CacheOfEntry(store, keys, stages)
     return store

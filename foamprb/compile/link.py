@@ -320,7 +320,7 @@ def _compile(function: Callable[..., Any], role: Role, keys: Keys, stages: Mappi
         own = internals.use_cache_of_entry(dispatcher, keys, stages)
         _stores[id(dispatcher)] = (own, *(store for stores in of_stages for store in stores))
     elif role != "inlined":
-        _stores[id(dispatcher)] = (internals.use_cache(dispatcher, keys.own),)
+        _stores[id(dispatcher)] = (internals.use_cache(dispatcher, keys.own, stages),)
     return dispatcher
 
 

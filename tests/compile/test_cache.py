@@ -368,6 +368,22 @@ class TestStages:
                 forget()
             assert hits == [0, 1]
 
+    @pytest.mark.usefixtures("folder")
+    def test_a_stage_that_a_known_function_calls_is_there_for_another_entry(self, forget):
+        """The function is found in the cache; its stage is called by nothing else."""
+        hits, outside = [], linking._key_of([f"{small_program.formed.__module__}.formed"])
+        for entry, result in ((small_program.calls_once, 3.0), (small_program.calls_again, 7.0)) * 2:
+            f = link(entry, {"formula": doubled}, (small_program.calling, small_program.formed))
+            values = np.ones(small_program.LANES)
+            f(values)
+            np.testing.assert_array_equal(values, result)
+            hits.append(sum(f.stats.cache_hits.values()))
+            # In another process nothing else has made its machine code.
+            (stage,) = (p.dispatcher for p in linking._parts.values() if p.keys.outside == outside)
+            assert stage.signatures
+            forget()
+        assert hits == [0, 0, 1, 1]
+
     def test_what_is_kept_of_an_entry_names_no_stage(self, folder):
         self.found(small_program.stage)
         stage, entry = (p.keys for p in linking._parts.values() if p.keys.own != p.keys.outside)
