@@ -43,18 +43,17 @@ _ROUND_OFF = 1e-6
 
 
 class Homes(Protocol):
-    """Particles that several processes hold, each of them particles of consecutive numbers."""
+    """Particles that several processes hold."""
 
     size: int
     """Number of all particles."""
 
     @property
-    def memory(self) -> Mapping[str, NDArray[Any]]:
-        """What cloud functions remember of the particles of this process, by ``function/array``."""
-
-    @property
     def firsts(self) -> tuple[int, ...]:
-        """Number of the first particle of each process that has some; (0,) without particles."""
+        """Number of the first particle of each part of a checkpoint."""
+
+    def of(self, numbers: NDArray[np.int64]) -> Particles:
+        """Return particles by their numbers, which rise."""
 
     def at_homes(self, function: Callable[..., Value], *arguments: Any, of: str | None = None) -> list[Value]:
         """See :meth:`Cloud.at_homes`; ``of`` adds what a cloud function remembers to the arguments."""
@@ -80,6 +79,19 @@ class Homes(Protocol):
 
     def restore(self, file: PathLike[str]) -> None:
         """Read the particles, and what is remembered of them, from a checkpoint."""
+
+    def write_parts(self, file: PathLike[str], time: float) -> list[tuple[int, str]]:
+        """Write the same as parts of a checkpoint at a time, s.
+
+        Returns
+        -------
+        The number of the first particle of each part, and its checksum.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written.
+        """
 
 
 class Observer(Protocol):
@@ -110,7 +122,8 @@ class Cloud:
     Parameters
     ----------
     particles
-        The state; :meth:`advance` changes it in place. With ``homes``, that of the first process.
+        The state; :meth:`advance` changes it in place. With ``homes``, that of the first process, until the
+        first step.
     flow
         Any :class:`~foamprb.flow.base.Flow`.
     medium
@@ -224,7 +237,7 @@ class Cloud:
         Parameters
         ----------
         function
-            Called with particles of consecutive numbers, and the ``arguments``.
+            Called with particles in any order, and the ``arguments``.
         """
         if self.homes is None:
             return [function(self.particles, *arguments)]
@@ -244,16 +257,20 @@ class Cloud:
         if self.homes is None:
             return self.particles.take(numbers)
         sought, order = np.unique(numbers, return_inverse=True)
-        return concatenate(self.homes.at_homes(_chosen, sought)).take(order)
+        return self.homes.of(sought).take(order)
 
     def values_of(self, numbers: NDArray[np.int64], name: str) -> NDArray[Any]:
         """Return one array of particles by their numbers, in this order."""
+        if self.homes is None:
+            values: NDArray[Any] = getattr(self.particles, name)
+            return values[numbers]
         sought, order = np.unique(numbers, return_inverse=True)
-        return np.asarray(np.concatenate(self.at_homes(_values_of, sought, name))[order])
+        found = [np.concatenate(part) for part in zip(*self.at_homes(_values_of, sought, name), strict=True)]
+        return np.asarray(found[1][np.argsort(found[0])][order])
 
     def whole(self) -> Particles:
         """Return all particles, which takes the memory of the whole cloud if there are ``homes``."""
-        return self.particles if self.homes is None else concatenate(self.homes.at_homes(same))
+        return self.particles if self.homes is None else concatenate(self.in_order(same))
 
     def counts(self) -> dict[Status, int]:
         """Return the number of particles of each status."""
@@ -479,7 +496,7 @@ def _refuse_extreme(p: Particles, medium: Medium) -> None:
 class Stepper:
     """Stepper that advances a cloud with the threads of this process.
 
-    A subclass may keep the particles elsewhere; :meth:`gather` then updates the arrays of the cloud.
+    A subclass may keep the particles elsewhere.
 
     Parameters
     ----------
@@ -522,8 +539,8 @@ class Stepper:
             elif not outcome.crowded or stop():
                 return
 
-    def gather(self, numbers: NDArray[np.int64] | None = None) -> None:
-        """Bring the arrays of the cloud, or the particles of some numbers, and the rebounds up to date."""
+    def gather(self) -> None:
+        """Bring what cloud functions have recorded up to date."""
 
     def each(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
         """Return what a function finds of the particles where they are, of each process.
@@ -537,10 +554,10 @@ class Stepper:
         return [function(cloud.particles, cloud.flow, cloud.time, *arguments)]
 
     def regroup(self) -> None:
-        """Distribute the gathered particles again if that pays; no-op on one process."""
+        """Distribute the particles again if that pays; no-op on one process."""
 
     def counts(self) -> dict[Status, int]:
-        """Return the number of particles of each status, gathered or not."""
+        """Return the number of particles of each status."""
         return self.cloud.particles.counts()
 
     def _carry(self, flow: Any, steps: int, stop: Callable[[], bool]) -> Outcome:
@@ -662,19 +679,10 @@ def _longer_than(p: Particles, most: float) -> tuple[NDArray[np.int64], NDArray[
     return p.number[wrong], longest[wrong]
 
 
-def _rows_of(p: Particles, numbers: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the rows of the particles that have some of the numbers, in ascending order."""
-    first = int(p.number[0]) if p.size else 0
-    return numbers[(numbers >= first) & (numbers < first + p.size)] - first
-
-
-def _chosen(p: Particles, numbers: NDArray[np.int64]) -> Particles:
-    return p.take(_rows_of(p, numbers))
-
-
-def _values_of(p: Particles, numbers: NDArray[np.int64], name: str) -> NDArray[Any]:
-    values: NDArray[Any] = getattr(p, name)
-    return values[_rows_of(p, numbers)]
+def _values_of(p: Particles, numbers: NDArray[np.int64], name: str) -> tuple[NDArray[np.int64], NDArray[Any]]:
+    """Return which of some particles these have, and their values of an array."""
+    rows = np.flatnonzero(np.isin(p.number, numbers))
+    return p.number[rows], getattr(p, name)[rows]
 
 
 def find_hosts(p: Particles, flow: Flow) -> None:

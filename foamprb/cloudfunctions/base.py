@@ -102,8 +102,8 @@ class ObservedCloud:
             Arrays of the function that observes with a row for each particle, see
             :meth:`CloudFunction.of_particles`.
         function
-            Called with particles of consecutive numbers, the arrays of these particles, and the
-            ``arguments``; other processes import it.
+            Called with particles in any order, the arrays of these particles, and the ``arguments``; other
+            processes import it.
         """
         if self.cloud.homes is None:
             return [function(self.cloud.particles, remembered, *arguments)]
@@ -242,10 +242,6 @@ class CloudFunction:
 
     def after_steps(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Observe particles after the steps of a call; see :meth:`before_steps`."""
-
-    def watched(self, memory: Memory) -> Rows | None:  # noqa: ARG002
-        """Return the numbers of the particles that it samples next; by default None, for all."""
-        return None
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the data into the function's own folder, at each write time."""

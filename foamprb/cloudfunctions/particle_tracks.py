@@ -71,10 +71,6 @@ class ParticleTracks(CloudFunction):
         """Return whether there are coupled patches."""
         return any(interaction.code == CYCLIC for interaction in interactions.values())
 
-    def watched(self, memory: Memory) -> Rows:
-        """Return the particles whose paths go on."""
-        return np.asarray(memory["row"][~memory["closed"]])
-
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
         """Add the points before and after each passage of a coupled patch."""
         tracked = rows[np.isin(rows[:, 0], memory["row"])]

@@ -18,7 +18,6 @@ from foamprb.cloudfunctions.base import (
     CloudFunction,
     Memory,
     ObservedCloud,
-    Rows,
     append,
     memory_of,
 )
@@ -123,12 +122,6 @@ class CloudFunctions:
         for name, function in self.functions.items():
             function.after_steps(self._memory[name], cloud)
 
-    def watched(self, names: Collection[str]) -> Rows | None:
-        """Return the numbers of the particles that some functions sample next; None for all."""
-        found = [self.functions[name].watched(self._memory[name]) for name in names]
-        some = [rows for rows in found if rows is not None]
-        return np.unique(np.concatenate(some)) if len(some) == len(found) else None
-
     def sample(self, names: Collection[str]) -> None:
         """Let some functions record a sample."""
         self._record_rebounds()
@@ -207,8 +200,7 @@ class CloudFunctions:
     def state(self) -> Memory:
         """Return the data of all functions, by ``function/array``; of particles elsewhere, no rows."""
         self._record_rebounds()
-        own = {f"{name}/{key}": array for name, m in self._memory.items() for key, array in m.items()}
-        return own if self.cloud.cloud.homes is None else own | dict(self.cloud.cloud.homes.memory)
+        return {f"{name}/{key}": array for name, m in self._memory.items() for key, array in m.items()}
 
     def _record_rebounds(self) -> None:
         if self.cloud.cloud.models.rebounds:
@@ -236,14 +228,14 @@ class CloudFunctions:
         InputError
             If it belongs to other functions.
         """
-        homes = self.cloud.cloud.homes
+        elsewhere = () if self.cloud.cloud.homes is None else self.with_particles(self.travelling)
         expected, found = {*self.state()}, {*stored}
         if expected != found:
             changed = ", ".join(sorted({key.split("/")[0] for key in expected ^ found}))
             raise InputError(f"cloudFunctions: {changed} was not observed from the start, or no longer is.")
         for name, memory in self._memory.items():
             own = {key: f"{name}/{key}" for key in memory}
-            memory.update({k: read(path) for k, path in own.items() if not homes or path not in homes.memory})
+            memory.update({key: read(path) for key, path in own.items() if path not in elsewhere})
 
 
 def _in_time(events: NDArray[np.float64]) -> NDArray[np.float64]:

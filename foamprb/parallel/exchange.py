@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.state import VARIABLES, Particles, concatenate
+from foamprb.cloud.state import VARIABLES, Particles
+from foamprb.parallel.route import has_bits
 
 Rows = NDArray[np.int64]
 
@@ -19,29 +20,81 @@ UNEVEN = 1.1
 
 
 class Share(NamedTuple):
-    """Particles with their numbers in the whole cloud, and what cloud functions remember of them."""
+    """Particles, and what cloud functions remember of them."""
 
     particles: Particles
-    ids: Rows
     memory: Mapping[str, NDArray[Any]] = MappingProxyType({})
+
+    @classmethod
+    def of(cls, arrays: Mapping[str, NDArray[Any]]) -> Share:
+        """Return the particles of some arrays by their names in a record."""
+        memory = dict(arrays)
+        return cls(Particles(*(memory.pop(name) for name in Particles._fields)), memory)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """Return all arrays by their names in a record."""
-        return {"id": self.ids, **self.particles._asdict(), **self.memory}
+        return {**self.particles._asdict(), **self.memory}
 
     def take(self, rows: Any) -> Share:
         """Return the particles of some rows."""
-        memory = {name: array[rows] for name, array in self.memory.items()}
-        return Share(self.particles.take(rows), self.ids[rows], memory)
+        return Share.of({name: array[rows] for name, array in self.arrays().items()})
+
+    def with_others(self, rows: Rows, others: Share) -> Share:
+        """Return these particles with others in place of those of some rising rows, perhaps in other rows.
+
+        They are in the memory of these as far as it suffices.
+        """
+        n = len(self.particles.number) - len(rows) + len(others.particles.number)
+        found, new = self.arrays(), others.arrays()
+        return Share.of({name: _replaced(array, rows, new[name], n) for name, array in found.items()})
+
+
+def _replaced(array: NDArray[Any], rows: Rows, others: NDArray[Any], n: int) -> NDArray[Any]:
+    """Return an array with n rows, others in place of some of them; the last rows fill what remains free."""
+    # An array of zeros takes no memory of the machine until its rows are written.
+    written, both = has_bits(others), min(len(rows), len(others))
+    if written or has_bits(array[rows[:both]]):
+        array[rows[:both]] = others[:both]
+    if n < len(array):
+        free = rows[both:]
+        last = np.setdiff1d(np.arange(n, len(array)), free, assume_unique=True)
+        kept = array[last]
+        if has_bits(kept) or has_bits(array[free]):
+            array[free[: len(last)]] = kept
+        return array[:n]
+    if n > len(array):
+        before, array = len(array), _with_room(array, n)
+        if written or has_bits(array[before:]):
+            array[before:] = others[both:]
+    return array
+
+
+def _with_room(array: NDArray[Any], n: int) -> NDArray[Any]:
+    """Return n rows that begin with those of an array, in its memory if that suffices."""
+    whole = array if array.base is None else array.base
+    if (
+        isinstance(whole, np.ndarray)
+        and (whole.dtype, whole.shape[1:]) == (array.dtype, array.shape[1:])
+        and whole.ctypes.data == array.ctypes.data
+        and len(whole) >= n
+    ):
+        return whole[:n]
+    larger = np.zeros((n + n // _ROOM, *array.shape[1:]), array.dtype)
+    if has_bits(array):
+        larger[: len(array)] = array
+    return larger[:n]
+
+
+_ROOM = 8
+"""A share that grows has room for a part of its particles more: pages that are not written take no memory."""
 
 
 def record(carried: Iterable[tuple[str, str, tuple[int, ...]]] = ()) -> np.dtype[Any]:
-    """Return the type of a particle as it travels: number, state, and what is carried with it.
+    """Return the type of a particle as it travels: its state, and what is carried with it.
 
     ``carried`` are names, types and shapes.
     """
-    own = ((name, v.dtype, v.shape) for name, v in VARIABLES.items())
-    return np.dtype([("id", "i8"), *own, *carried])
+    return np.dtype([*((name, v.dtype, v.shape) for name, v in VARIABLES.items()), *carried])
 
 
 def pack(share: Share, rows: Rows, dtype: np.dtype[Any]) -> NDArray[Any]:
@@ -54,23 +107,13 @@ def pack(share: Share, rows: Rows, dtype: np.dtype[Any]) -> NDArray[Any]:
 
 def unpack(records: NDArray[Any]) -> Share:
     """Return the particles of records."""
-    arrays = {name: records[name].copy() for name in records.dtype.names or ()}
-    ids = arrays.pop("id")
-    particles = Particles(*(arrays.pop(name) for name in Particles._fields))
-    return Share(particles, ids, arrays)
-
-
-def join(shares: Sequence[Share]) -> Share:
-    """Return the particles of several shares, at least one, in order."""
-    memory = {name: np.concatenate([s.memory[name] for s in shares]) for name in shares[0].memory}
-    ids = np.concatenate([share.ids for share in shares])
-    return Share(concatenate(share.particles for share in shares), ids, memory)
+    return Share.of({name: records[name].copy() for name in records.dtype.names or ()})
 
 
 def homes_of(n: int, size: int) -> NDArray[np.int64]:
     """Return the number of the first particle whose home is each of several processes, and n, (size + 1,).
 
-    A process is the home of particles of consecutive numbers: it gathers their states, wherever they are.
+    A process is the home of particles of consecutive numbers: it writes their rows of checkpoints and tables.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Homes of particles: processes that hold the gathered states of particles of consecutive numbers."""
+"""Homes of particles: processes that write the rows of particles of consecutive numbers."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Value, parts_of, same
-from foamprb.cloud.state import VARIABLES, Particles
-from foamprb.parallel.exchange import Share, homes_of
+from foamprb.cloud.state import VARIABLES, Particles, concatenate
+from foamprb.parallel.exchange import homes_of
 from foamprb.parallel.worker import Worker
 from foamprb.settings.libs import loaded_libs
 
@@ -49,33 +49,29 @@ class RankHomes:
 
     @property
     def firsts(self) -> tuple[int, ...]:
-        """Number of the first particle of each process that has some; (0,) without particles."""
+        """See :class:`foamprb.cloud.cloud.Homes`."""
         return tuple(np.unique(self._bounds[:-1][np.diff(self._bounds) > 0]).tolist()) or (0,)
 
     @property
-    def _own(self) -> Share:
-        return self._worker.home
-
-    @property
     def particles(self) -> Particles:
-        """Particles whose home the first process is."""
-        return self._own.particles
-
-    @property
-    def memory(self) -> Mapping[str, NDArray[Any]]:
-        """What cloud functions remember of these particles, by ``function/array``."""
-        return self._own.memory
+        """Particles that the first process holds."""
+        return self._worker.particles
 
     def at_homes(self, function: Callable[..., Value], *arguments: Any, of: str | None = None) -> list[Value]:
         """See :class:`foamprb.cloud.cloud.Homes`."""
-        return self._order("at_home", function, None, slice(None), of, *arguments)
+        return self._order("of_own", function, of, *arguments)
+
+    def of(self, numbers: NDArray[np.int64]) -> Particles:
+        """See :class:`foamprb.cloud.cloud.Homes`."""
+        found = concatenate(self._order("chosen", numbers))
+        return found.take(np.argsort(found.number))
 
     def in_order(
         self, function: Callable[..., Value], *arguments: Any, of: str | None = None
     ) -> Iterator[Value]:
         """See :class:`foamprb.cloud.cloud.Homes`."""
         for rank, part in self._parts():
-            yield self._at_home(rank, part, of, function, *arguments)
+            yield self._of_part(rank, part, of, function, *arguments)
 
     def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
@@ -84,12 +80,16 @@ class RankHomes:
     def begin(self, name: str, first: Callable[[Particles], Mapping[str, NDArray[Any]]]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
         for rank, part in self._parts():
-            found = first(self._at_home(rank, part, None, same))
+            found = first(self._of_part(rank, part, None, same))
             self._put(rank, part.start, {f"{name}/{key}": array for key, array in found.items()})
 
     def restore(self, file: PathLike[str]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
         self._order("restore", file)
+
+    def write_parts(self, file: PathLike[str], time: float) -> list[tuple[int, str]]:
+        """See :class:`foamprb.cloud.cloud.Homes`."""
+        return [part for part in self._order("write_part", file, time) if part is not None]
 
     def _parts(self) -> Iterator[tuple[int, slice]]:
         """Yield the homes and the rows of their parts, in the order of the particles."""
@@ -97,13 +97,10 @@ class RankHomes:
             if n or rank == 0:
                 yield from ((rank, slice(part.start, min(part.stop, n))) for part in parts_of(n))
 
-    def _at_home(
+    def _of_part(
         self, rank: int, part: slice, of: str | None, function: Callable[..., Value], *arguments: Any
     ) -> Value:
-        if rank == 0:
-            own: Value = self._worker.at_home(function, 0, part, of, *arguments)
-            return own
-        found: list[Value] = self._order("at_home", function, rank, part, of, *arguments)
+        found: list[Value] = self._order("of_part", function, rank, part, of, *arguments)
         return found[rank]
 
     def _put(self, rank: int, first: int, arrays: Mapping[str, NDArray[Any]]) -> None:

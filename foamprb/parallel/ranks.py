@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from foamprb.cloud.cloud import Cloud, Stepper, Value
 from foamprb.cloud.contact import in_order
 from foamprb.cloud.measures import largest_slip
-from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields
@@ -177,14 +177,13 @@ class RankStepper(Stepper):
         self.published = Publisher(ranks.worker.windows, ranks.order)
         self._placed = b""
         self._gathered = True
-        self._behind: set[str] = set()
-        """Cloud functions that go with the particles, and have not sampled them since the last steps."""
         cloud.flow.move(self.published.move)
         models = pickle.dumps((cloud.tracker, Sampling.of(functions, cloud.medium)))
         ranks.order("prepare", models, cloud.threads)
         self._ranks_of = [list(range(ranks.size))]
         """Processes of each node."""
         self._begin()
+        cloud.particles = empty(0)
         self._set_out()
         self._counts = [share.counts for share in ranks.order("share")]
         nodes = ranks.worker.windows.nodes
@@ -206,15 +205,13 @@ class RankStepper(Stepper):
         """Send the particles to the processes."""
         self.ranks.order("set_out", self._ranks_of)
 
-    def gather(self, numbers: NDArray[np.int64] | None = None) -> None:
-        """Collect changed particles at their homes, and events from all processes."""
+    def gather(self) -> None:
+        """Collect rebounds, and events from all processes."""
         if self._gathered:
             return
         self._record_rebounds()
-        self.ranks.order("gather", numbers, numbers is None and not self._behind)
-        if numbers is None:
-            self._functions.add_events(self.ranks.order("take_events"))
-            self._gathered = True
+        self._functions.add_events(self.ranks.order("take_events"))
+        self._gathered = True
 
     def sample_away(self, names: Sequence[str]) -> list[str]:
         """Let the cloud functions sample that can do so on all processes; return the others."""
@@ -226,7 +223,6 @@ class RankStepper(Stepper):
             self.ranks.order("sample", away, self.cloud.time)
             self._functions.end_samples(away, partial(self.ranks.order, "take_events_below"))
             self._gathered = False
-            self._behind -= {*away}
         return [name for name in names if name not in travelling]
 
     def _record_rebounds(self) -> None:
@@ -248,7 +244,7 @@ class RankStepper(Stepper):
         return self.ranks.order("each", function, self.cloud.time, *arguments)
 
     def counts(self) -> dict[Status, int]:
-        """Return the number of particles of each status, gathered or not."""
+        """Return the number of particles of each status."""
         total = np.sum(self._counts, axis=0)
         return {status: int(total[status]) for status in Status}
 
@@ -262,7 +258,7 @@ class RankStepper(Stepper):
         stem
             File of the snapshot without its ending.
         time
-            Time of the gathered state, s.
+            Time of the state, s.
         names
             For each array of codes, the meanings of the codes 0, 1, ….
         further
@@ -310,7 +306,6 @@ class RankStepper(Stepper):
         shares = self.ranks.order(self._order, step, steps, self.cloud.bounds, own=(stop,))
         self._counts = [share.counts for share in shares]
         self._gathered = False
-        self._behind = {*self._functions.travelling}
         return sum((share.outcome for share in shares), Outcome())
 
     def _publish(self, flow: Any) -> None:
@@ -354,7 +349,7 @@ class PartStepper(RankStepper):
         log.info("Nodes take processor folders again: one has at most %d particles, instead of %d",
                  after, before)  # fmt: skip
         started, self._lost = clock.perf_counter(), 0.0
-        self.ranks.order("go_home")
+        self.ranks.order("break_up")
         flow.regroup(load)
         self._set_out()
         self._counts = [share.counts for share in self.ranks.order("share")]

@@ -7,6 +7,7 @@ import pickle
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -27,17 +28,22 @@ from foamprb.flow.fields import Fields
 from foamprb.flow.loaded import LoadedFlow
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.parallel.exchange import Share, join, pack, record, unpack
+from foamprb.parallel.exchange import Share, pack, record, unpack
 from foamprb.parallel.parts import Part, Summary
+from foamprb.parallel.route import Route
 from foamprb.parallel.sampling import Observe, Sampling
 from foamprb.parallel.shared_memory import Windows, wait_for_all
-from foamprb.results.checkpoint import FUNCTIONS, PARTICLES, StoredCheckpoint
+from foamprb.results.checkpoint import (
+    FUNCTIONS,
+    PARTICLES,
+    StoredCheckpoint,
+    part_file,
+    write_arrays,
+)
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
 
-_AT_ONCE = 1 << 22
-"""Most particles that all processes send together; a process packs its part of them."""
-_COLLECTIVE = ("make", "spread", "free", "put", "set_out", "exchange", "gather")
+_COLLECTIVE = ("make", "spread", "free", "put", "set_out", "exchange")
 """Orders during which processes wait for each other; an error in one of them aborts all processes."""
 
 
@@ -77,22 +83,21 @@ class Worker:
         self.rank: int = self.comm.rank
         self.windows = Windows(MPI, self.comm)
         self.make, self.spread, self.free = self.windows.make, self.windows.spread, self.windows.free
-        nothing = Share(empty(0), np.empty(0, dtype=np.int64))
-        self.own = nothing
-        """Particles that this process advances."""
-        self.home = nothing
-        """Gathered states of particles of consecutive numbers."""
-        self._events: Memory = {}
-        # Of a particle as it travels.
-        self._dtype, self._record = record(), MPI.BYTE
+        self.own = Share(empty(0))
+        """Particles that this process holds: those whose home it is, until they set out."""
         self._homes = np.zeros(self.comm.size + 1, dtype=np.int64)
-        # True for particles whose state their homes may not have.
-        self._fresh = np.empty(0, dtype=bool)
+        self._at_home, self._settled = True, False
+        """Whether all particles are at their homes; whether they are where their cells are."""
+        self._sorted: NDArray[np.int64] | None = None
+        """Rows of the particles in the order of their numbers, as long as it is known."""
+        self._local_hosts = False
+        """Whether hosts are numbered as in the part of the node."""
+        self._events: Memory = {}
+        self._dtype = record()
+        """Type of a particle as it travels."""
         self._flow: Any = None
         self._sampled: Fields | None = None
         self._part: Part | None = None
-        self._hosts: NDArray[np.int64] | None = None
-        """Hosts of the particles in the whole mesh, while the node has read its part anew."""
         self._ranks_of: list[list[int]] = []
         self._amid_exchange = False
         self.signals: Sequence[int] = ()
@@ -117,7 +122,7 @@ class Worker:
 
     @property
     def particles(self) -> Particles:
-        """Particles that this process advances."""
+        """Particles that this process holds."""
         return self.own.particles
 
     def settle(self, libs: Sequence[Path], homes: NDArray[np.int64]) -> None:
@@ -132,14 +137,14 @@ class Worker:
         """
         load_libs(libs)
         self._homes = homes
-        first, last = homes[self.rank : self.rank + 2].tolist()
-        self.home = Share(empty(last - first), np.arange(first, last))
+        self._become(Share(empty(int(homes[self.rank + 1] - homes[self.rank]))))
+        self._at_home, self._settled, self._local_hosts = True, False, False
 
     def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
         """Make room for what cloud functions remember of these particles, by arrays without rows."""
-        n = len(self.home.ids)
+        n = self.particles.size
         more = {name: np.zeros((n, *array.shape[1:]), dtype=array.dtype) for name, array in layout.items()}
-        self.home = self.home._replace(memory={**self.home.memory, **more})
+        self.own = self.own._replace(memory={**self.own.memory, **more})
 
     def put(self, rank: int, first: int, arrays: Mapping[str, NDArray[Any]] | None = None) -> None:
         """Store arrays of particles at a home.
@@ -155,7 +160,7 @@ class Worker:
             self.comm.send(arrays, rank)
         elif self.rank == rank:
             given = self.comm.recv(source=0) if arrays is None else arrays
-            own = self.home.arrays()
+            own = self.own.arrays()
             for name, array in given.items():
                 own[name][first : first + len(array)] = array
 
@@ -163,9 +168,9 @@ class Worker:
         """Read the particles whose home this process is, and what is remembered, from a checkpoint."""
         stored = StoredCheckpoint(Path(file))
         rows = slice(*self._homes[self.rank : self.rank + 2].tolist())
-        for name, array in self.home.particles._asdict().items():
+        for name, array in self.particles._asdict().items():
             stored.read_into(array, f"{PARTICLES}{name}", rows.start)
-        for name, array in self.home.memory.items():
+        for name, array in self.own.memory.items():
             stored.read_into(array, f"{FUNCTIONS}{name}", rows.start)
 
     def prepare(self, models: bytes, threads: int) -> None:
@@ -175,10 +180,9 @@ class Worker:
         self._tracker, self._sampling = pickle.loads(models)
         self._threads = threads
         self._dtype = record(self._sampling.carried)
-        self._record = self._MPI.BYTE.Create_contiguous(self._dtype.itemsize).Commit()
 
     def set_out(self, ranks_of: list[list[int]]) -> None:
-        """Send the particles from their homes to the processes that advance them.
+        """Send the particles to the processes that advance them.
 
         Injection models release particles roughly in the order of their numbers. The processes of a node take
         them in turn, and therefore have similar numbers of active particles.
@@ -189,12 +193,45 @@ class Worker:
             Processes of each node.
         """
         self._ranks_of = ranks_of
-        rank_of = self._ranks_in(self._nodes_of(self.home.particles.host), self.home.ids)
-        arrived = self._trade(lambda rows: pack(self.home, rows, self._dtype), rank_of)
-        self.own = join([unpack(records) for records in arrived])
-        if self._part is not None:
-            self.particles.host[:] = self._held.hosts_of(self.particles.host)
-        self._fresh = self._unfinished(self.particles)
+        nodes = self._nodes_of(self.particles.host)
+        route = self._route(self._ranks_in(nodes, self.particles.number))
+        arrays, self.own = self.own.arrays(), Share(empty(0))
+        # One variable after the other: memory holds one of them twice.
+        self._become(Share.of({name: route.send(arrays.pop(name)) for name in [*arrays]}))
+        self._at_home, self._settled = False, True
+        self._use_local_hosts()
+
+    def _become(self, share: Share) -> None:
+        self.own, self._sorted = share, None
+
+    def _route(self, rank_of: NDArray[np.int64]) -> Route:
+        return Route(self._MPI, self.comm, rank_of)
+
+    @contextmanager
+    def _exchanging(self) -> Iterator[None]:
+        """Let an error within abort all processes, which wait for each other."""
+        self._amid_exchange = True
+        yield
+        self._amid_exchange = False
+
+    def _use_local_hosts(self) -> None:
+        """Number the hosts as in the part of the node, if it has one."""
+        if self._part is not None and not self._local_hosts:
+            self.particles.host[:] = self._part.hosts_of(self.particles.host)
+            self._local_hosts = True
+
+    def _use_whole_hosts(self) -> None:
+        """Number the hosts as in the whole mesh."""
+        if self._local_hosts:
+            self.particles.host[:] = self._held.numbers_of(self.particles.host)
+            self._local_hosts = False
+
+    def _abroad(self, share: Share) -> Share:
+        """Return some of the particles with hosts of the whole mesh."""
+        if not self._local_hosts:
+            return share
+        p = share.particles
+        return share._replace(particles=p._replace(host=self._held.numbers_of(p.host)))
 
     def _nodes_of(self, hosts: NDArray[np.int64]) -> NDArray[np.int32]:
         """Return the node of each of the hosts of this process' particles, 0 for hosts without a cell."""
@@ -213,34 +250,6 @@ class Worker:
         sizes = np.array([len(ranks) for ranks in self._ranks_of])
         table = np.array([np.resize(ranks, sizes.max()) for ranks in self._ranks_of])
         return np.asarray(table[node, ids % sizes[node]])
-
-    def _trade(
-        self, packed: Callable[[NDArray[np.int64]], NDArray[Any]], rank_of: NDArray[np.int64]
-    ) -> Iterator[NDArray[Any]]:
-        """Send records to processes, and yield what comes from all, not too many at a time.
-
-        Parameters
-        ----------
-        packed
-            Returns the records of some rows.
-        rank_of
-            Process to which each row goes.
-        """
-        most = max(1, _AT_ONCE // self.comm.size)
-        for k in range(max(1, self.comm.allreduce(-(-len(rank_of) // most), self._MPI.MAX))):
-            some = rank_of[k * most : (k + 1) * most]
-            rows = np.argsort(some, kind="stable")
-            sent = np.bincount(some, minlength=self.comm.size).astype(np.int64)
-            yield self._swap(packed(k * most + rows), sent)
-
-    def _swap(self, outgoing: NDArray[Any], sent: NDArray[np.int64]) -> NDArray[Any]:
-        """Send records, in the order of the processes; return those from all."""
-        received = np.empty_like(sent)
-        self.comm.Alltoall(sent, received)
-        incoming = np.empty(received.sum(), dtype=self._dtype)
-        self.comm.Alltoallv([outgoing, (sent, _starts(sent)), self._record],
-                            [incoming, (received, _starts(received)), self._record])  # fmt: skip
-        return incoming
 
     def _unfinished(self, p: Particles) -> NDArray[np.bool_]:
         return np.isin(p.status, self._tracker.movable)
@@ -262,8 +271,7 @@ class Worker:
     ) -> Summary | None:
         """Read the flow on the cells of this node; return a summary on its first process."""
         if self._part is not None:
-            if self.particles.size:
-                self._hosts = self._part.numbers_of(self.particles.host)
+            self._use_whole_hosts()
             self._part.close()
             self._part = None
             gc.collect()
@@ -276,16 +284,17 @@ class Worker:
         cells = part.cells_of(p.host[p.status == Status.ACTIVE])
         return np.bincount(part.places.folder[cells], minlength=n)
 
-    def go_home(self) -> None:
-        """Leave all particles to their homes, which have gathered them."""
-        self.own = self.own.take(slice(0))
+    def break_up(self) -> None:
+        """Prepare the particles for another part of the mesh, for which they will set out again."""
+        self._use_whole_hosts()
+        self._settled = False
 
     def share_part(self, *walls: Any) -> int:
         """Place the arrays of the node's flow, with some walls, in its memory; return bytes shared once."""
         size = self._held.share(*walls)
         self._flow, self._sampled = self._held.arrays, self._held.sampled
-        if self._hosts is not None:
-            self.particles.host[:], self._hosts = self._held.hosts_of(self._hosts), None
+        if self._settled:
+            self._use_local_hosts()
         return size if self.windows.node.rank == 0 else 0
 
     def load_part(self, start: float, end: float) -> tuple[float, float] | None:
@@ -309,8 +318,9 @@ class Worker:
 
     def normals(self, numbers: NDArray[np.int64]) -> tuple[NDArray[np.int64], Floats]:
         """Return which of some particles this process has, and the normals of the walls where they ended."""
-        rows = np.flatnonzero(np.isin(self.own.ids, numbers))
-        return self.own.ids[rows], self._tracker.contact_normals(self._flow, self.particles, rows)
+        own = self.particles.number
+        rows = np.flatnonzero(np.isin(own, numbers))
+        return own[rows], self._tracker.contact_normals(self._flow, self.particles, rows)
 
     def wall_distances(self, x: Floats, numbers: NDArray[np.int64], *others: Any) -> Any:
         """Return which hosts are in own cells of the node, and the distances from walls there.
@@ -334,14 +344,21 @@ class Worker:
         active = np.flatnonzero(self.particles.status == Status.ACTIVE)
         # Evenly spread over the rows, so that costly particles are spread too.
         rows = active[np.arange(sent.sum()) * len(active) // max(sent.sum(), 1)]
-        self._replace(rows, unpack(self._swap(pack(self.own, rows, self._dtype), sent)))
+        self._send(rows, np.repeat(np.arange(self.comm.size), sent))
 
-    def _replace(self, rows: NDArray[np.int64], others: Share) -> None:
-        """Replace the particles of some rows by others."""
-        stay = np.ones(self.particles.size, dtype=bool)
-        stay[rows] = False
-        self.own = join([self.own.take(stay), others])
-        self._fresh = np.concatenate([self._fresh[stay], np.ones(len(others.ids), dtype=bool)])
+    def _send(self, rows: NDArray[np.int64], rank_of: NDArray[np.int64]) -> None:
+        """Send the particles of some rising rows to processes, and take what others send."""
+        arrived = unpack(self._route(rank_of).send(self._packed(rows)))
+        if self._local_hosts:
+            arrived.particles.host[:] = self._held.hosts_of(arrived.particles.host)
+        self._become(self.own.with_others(rows, arrived))
+
+    def _packed(self, rows: NDArray[np.int64]) -> NDArray[Any]:
+        """Return records of particles with their hosts in the whole mesh."""
+        records = pack(self.own, rows, self._dtype)
+        if self._local_hosts:
+            records["host"] = self._held.numbers_of(records["host"])
+        return records
 
     def advance(
         self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
@@ -371,9 +388,8 @@ class Worker:
             error = raised
         self.wait_for_all()
         if not self.comm.allreduce(error is not None, self._MPI.LOR):
-            self._amid_exchange = True
-            self._hand_over()
-            self._amid_exchange = False
+            with self._exchanging():
+                self._hand_over()
         if error is not None:
             raise error
         return self.share()._replace(outcome=outcome)
@@ -385,42 +401,11 @@ class Worker:
         node = part.places.node[part.cells_of(p.host[rows])]
         away = node != part.number
         rows, node = rows[away], node[away]
-        rank_of = self._ranks_in(node, self.own.ids[rows])
-        arrived = join([unpack(own) for own in self._trade(lambda some: self._packed(rows[some]), rank_of)])
-        arrived.particles.host[:] = part.hosts_of(arrived.particles.host)
-        self._replace(rows, arrived)
-
-    def _packed(self, rows: NDArray[np.int64]) -> NDArray[Any]:
-        """Return records of particles with their hosts in the whole mesh."""
-        records = pack(self.own, rows, self._dtype)
-        if self._part is not None:
-            records["host"] = self._part.numbers_of(records["host"])
-        return records
+        self._send(rows, self._ranks_in(node, p.number[rows]))
 
     def take_rebounds(self) -> NDArray[np.float64]:
         """Return the rebounds that happened in this process."""
         return self._tracker.take_rebounds()
-
-    def gather(self, numbers: NDArray[np.int64] | None, settled: bool) -> None:
-        """Send particles that may have changed to their homes.
-
-        Parameters
-        ----------
-        numbers
-            Those of some numbers; None for all.
-        settled
-            Whether what cloud functions remember of particles that have ended is final.
-        """
-        rows, first = np.flatnonzero(self._fresh), self._homes[self.rank]
-        if numbers is not None:
-            rows = rows[np.isin(self.own.ids[rows], numbers)]
-        homes = np.searchsorted(self._homes[1:], self.own.ids[rows], side="right")
-        for records in self._trade(lambda some: self._packed(rows[some]), homes):
-            arrays = self.home.arrays()
-            for name in self._dtype.names or ():
-                arrays[name][records["id"] - first] = records[name]
-        if settled:
-            self._fresh = self._unfinished(self.particles)
 
     def sample(self, names: Sequence[str], time: float) -> None:
         """Let some cloud functions sample the particles that this process advances."""
@@ -428,8 +413,8 @@ class Worker:
 
     def record(self, rebounds: NDArray[np.float64], time: float) -> None:
         """Let the cloud functions record the rebounds of the particles that this process advances."""
-        order = np.argsort(self.own.ids)
-        numbers, ids = rebounds[:, 0].astype(np.int64), self.own.ids[order]
+        order = self._in_order
+        numbers, ids = rebounds[:, 0].astype(np.int64), self.particles.number[order]
         at = np.minimum(np.searchsorted(ids, numbers), max(len(ids) - 1, 0))
         here = ids[at] == numbers if len(ids) else np.zeros(len(numbers), dtype=bool)
         own = np.column_stack([order[at[here]], rebounds[here, 1:]])
@@ -460,26 +445,96 @@ class Worker:
         """Return what a function finds of the particles that this process advances."""
         return function(self.particles, self._seen, time, *arguments)
 
-    def at_home(
-        self, function: Callable[..., Any], rank: int | None, part: slice, of: str | None, *arguments: Any
-    ) -> Any:
-        """Return what a function finds of gathered particles, on one process or on all.
+    @property
+    def _in_order(self) -> NDArray[np.int64]:
+        """Rows of the particles in the order of their numbers."""
+        if self._sorted is None:
+            self._sorted = np.argsort(self.particles.number)
+        return self._sorted
+
+    def of_own(self, function: Callable[..., Any], of: str | None, *arguments: Any) -> Any:
+        """Return what a function finds of the particles that this process holds.
 
         Parameters
         ----------
         function
-            Called with particles of consecutive numbers, what a cloud function remembers of them if there is
-            one, and the arguments.
-        rank, part
-            The process, None for all; and the rows of its particles.
+            Called with the particles, what a cloud function remembers of them if there is one, and the
+            arguments.
         of
             Name of the cloud function.
         """
-        if rank not in (self.rank, None):
-            return None
-        share = self.home.take(part)
-        memory = () if of is None else (memory_of(share.memory, of),)
-        return function(share.particles, *memory, *arguments)
+        return _found(self._abroad(self.own), function, of, arguments)
+
+    def chosen(self, numbers: NDArray[np.int64]) -> Particles:
+        """Return those of some particles that this process holds."""
+        rows = np.flatnonzero(np.isin(self.particles.number, numbers))
+        return self._abroad(Share(self.particles.take(rows))).particles
+
+    def of_part(
+        self, function: Callable[..., Any], rank: int, part: slice, of: str | None, *arguments: Any
+    ) -> Any:
+        """Return what a function finds of particles of consecutive numbers, on their home.
+
+        Parameters
+        ----------
+        function, of
+            See :meth:`of_own`.
+        rank, part
+            The home, and its particles.
+        """
+        share = self._collect(rank, part)
+        return _found(share, function, of, arguments) if rank == self.rank else None
+
+    def _collect(self, rank: int, part: slice) -> Share:
+        """Return particles of consecutive numbers on their home; none on the others."""
+        if self._at_home:
+            return self.own.take(part if rank == self.rank else slice(0))
+        first, number = int(self._homes[rank]), self.particles.number
+        ends = np.searchsorted(number, (first + part.start, first + part.stop), sorter=self._in_order)
+        rows = self._in_order[slice(*ends)]
+        with self._exchanging():
+            arrived = self._route(np.full(len(rows), rank)).send(self._packed(rows))
+        return unpack(arrived[np.argsort(arrived["number"])])
+
+    def write_part(self, file: PathLike[str], time: float) -> tuple[int, str] | None:
+        """Write the particles whose home this process is as a part of a checkpoint at a time, s.
+
+        Returns
+        -------
+        The number of the first of them, and a checksum; None if nothing was written: without particles only
+        the first process writes a part.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
+        """
+        first, last = self._homes[self.rank : self.rank + 2].tolist()
+        arrays = self._sent_home()
+        try:
+            if first == last and self.rank:
+                return None
+            return first, write_arrays(part_file(Path(file), first), time, {}, arrays)
+        finally:
+            # The others need what this process has not sent yet.
+            for _ in arrays:
+                pass
+
+    def _sent_home(self) -> Iterator[tuple[str, NDArray[Any]]]:
+        """Yield the arrays of the particles whose home this process is, by their names in a checkpoint.
+
+        One variable after the other, so that memory holds one of them twice.
+        """
+        share = self._abroad(self.own)
+        numbers = share.particles.number
+        with self._exchanging():
+            route = self._route(np.searchsorted(self._homes[1:], numbers, side="right"))
+            order = np.argsort(route.send(numbers))
+        for kind, arrays in ((PARTICLES, share.particles._asdict()), (FUNCTIONS, share.memory)):
+            for name, array in arrays.items():
+                with self._exchanging():
+                    found = route.send(array)
+                yield f"{kind}{name}", found[order]
 
     @property
     def _seen(self) -> LoadedFlow:
@@ -509,7 +564,7 @@ class Worker:
             return None
         file, mu = piece_file(folder, self.rank), self._tracker.mu
         return file, write_snapshot(
-            file, report(self.particles, self._seen, mu, time, names, further, self.own.ids)
+            file, report(self.particles, self._seen, mu, time, names, further, self.particles.number)
         )
 
     def serve(self, signals: Sequence[int]) -> int:
@@ -540,8 +595,6 @@ class Worker:
             self._part.close()
         for key in sorted(self.windows.arrays):
             self.windows.free(key)
-        if self._record != self._MPI.BYTE:
-            self._record.Free()
         sys.stdout.flush()
         sys.stderr.flush()
         self._MPI.Finalize()
@@ -552,5 +605,7 @@ def piece_file(folder: Path, rank: int) -> Path:
     return folder / f"{rank}.vtp"
 
 
-def _starts(counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    return np.cumsum(counts) - counts
+def _found(share: Share, function: Callable[..., Any], of: str | None, arguments: tuple[Any, ...]) -> Any:
+    """Return what a function finds of particles, and of what a cloud function remembers of them."""
+    memory = () if of is None else (memory_of(share.memory, of),)
+    return function(share.particles, *memory, *arguments)

@@ -1,14 +1,14 @@
 """Checkpoints: files of a header and arrays, with a checksum.
 
-A file consists of a line with format and version, a checksum, the header as one line of JSON, and the arrays
-in numpy's ``.npy`` format, in the order of the header's ``arrays``. The checksum is the 64-bit XXH3 of
-everything else. If all rows of an array are equal, as in many arrays of a cloud, the file contains one of
-them; the header's ``rows`` gives their number. The last two files stay on disk, so that a run can resume when
-one of them is damaged.
+A file consists of a line with format and version, a checksum, the place of the header, the arrays in numpy's
+``.npy`` format, in the order of the header's ``arrays``, and the header in JSON. The checksum is the 64-bit
+XXH3 of everything else. If all rows of an array are equal, as in many arrays of a cloud, the file contains
+one of them; the header's ``rows`` gives their number. The last two files stay on disk, so that a run can
+resume when one of them is damaged.
 
-Several processes write a checkpoint together: the first its file, and each other one further rows of some
-arrays, as a file ``<time>.checkpoint.<first row>`` of the same format. The header's ``parts`` gives these
-rows and the checksums.
+Several processes write a checkpoint together: the first its file, and each one some rows of some arrays, as a
+file ``<time>.checkpoint.<first row>`` of the same format. The header's ``parts`` gives these rows and the
+checksums.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import logging
 import math
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -34,7 +34,7 @@ from foamprb.results.atomic import atomic_write, drop_cache
 
 log = logging.getLogger("foamprb")
 
-VERSION = 10
+VERSION = 11
 PARTICLES, FUNCTIONS = "particles/", "functions/"
 """What the names of arrays begin with: of the state of particles, and of what cloud functions remember."""
 MOST_FILES = 2
@@ -42,7 +42,7 @@ MOST_FILES = 2
 
 _FORMAT = b"foamprb checkpoint "
 _NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.checkpoint")
-_SUM_BYTES = 8
+_SUM_BYTES = _PLACE_BYTES = 8
 _LONGEST_FIRST = len(_FORMAT) + 8
 # Rows that are compared first.
 _FIRST = 1000
@@ -153,7 +153,23 @@ def _remove(file: Path) -> None:
 
 
 def write_checkpoint(path: Path, checkpoint: Checkpoint) -> str:
-    """Write a checkpoint, or a part of one, in one step.
+    """Write a checkpoint; see :func:`write_arrays`."""
+    return write_arrays(path, checkpoint.time, checkpoint.header, checkpoint.arrays.items())
+
+
+def write_arrays(
+    path: Path, time: float, header: Mapping[str, Any], arrays: Iterable[tuple[str, NDArray[Any]]]
+) -> str:
+    """Write a checkpoint, or a part of one, in one step, an array after the other.
+
+    Parameters
+    ----------
+    path
+        The file.
+    time, header
+        See :class:`Checkpoint`.
+    arrays
+        Names and arrays.
 
     Returns
     -------
@@ -164,14 +180,20 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> str:
     OSError
         If the file cannot be written.
     """
-    arrays = {name: np.asarray(array, order="C") for name, array in checkpoint.arrays.items()}
-    rows = {name: len(array) for name, array in arrays.items() if is_one_row(array)}
-    header = {"time": checkpoint.time, "arrays": list(arrays), "rows": rows, **checkpoint.header}
-    first = _FORMAT + b"%d\n" % VERSION
+    first, names, rows = _FORMAT + b"%d\n" % VERSION, [], {}
     with atomic_write(path) as temporary, temporary.open("w+b") as file:
-        file.write(first + bytes(_SUM_BYTES) + json.dumps(header, allow_nan=False).encode() + b"\n")
-        for name, array in arrays.items():
+        file.write(first + bytes(_SUM_BYTES + _PLACE_BYTES))
+        for name, given in arrays:
+            array = np.asarray(given, order="C")
+            names.append(name)
+            if is_one_row(array):
+                rows[name] = len(array)
             np.lib.format.write_array(file, array[:1] if name in rows else array)
+        place = file.tell()
+        text = json.dumps({"time": time, "arrays": names, "rows": rows, **header}, allow_nan=False)
+        file.write(text.encode())
+        file.seek(len(first) + _SUM_BYTES)
+        file.write(place.to_bytes(_PLACE_BYTES, "little"))
         checksum = _checksum(file, first)
         file.seek(len(first))
         file.write(checksum)
@@ -320,7 +342,9 @@ def _open(path: Path, verify: bool) -> tuple[_File, str]:
                 f"{path}: a checkpoint of format {version}; this version of foamprb reads format {VERSION}."
             )
         file.seek(len(first) + _SUM_BYTES)
-        header = json.loads(file.readline())
+        file.seek(int.from_bytes(file.read(_PLACE_BYTES), "little"))
+        header = json.loads(file.read())
+        file.seek(len(first) + _SUM_BYTES + _PLACE_BYTES)
         rows, places = header.pop("rows"), {}
         for name in header.pop("arrays"):
             np.lib.format.read_magic(file)

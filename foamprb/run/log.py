@@ -114,7 +114,7 @@ class RunLog:
     def __init__(self, job: Job) -> None:
         self._job = job
         self._started, self._cpu = clock.perf_counter(), clock.process_time()
-        failed = np.concatenate(job.cloud.at_homes(_failed_of, _MAX_LISTED_FAILURES))
+        failed = np.sort(np.concatenate(job.cloud.at_homes(_failed_of, _MAX_LISTED_FAILURES)))
         self._listed = set(failed[:_MAX_LISTED_FAILURES].tolist())
         """Numbers of failed particles that need no line; no more than lines."""
         self._unstable = 0

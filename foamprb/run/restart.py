@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
-from foamprb.cloudfunctions.base import Memory
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
@@ -33,8 +32,6 @@ from foamprb.results.checkpoint import (
     Checkpoint,
     Checkpoints,
     StoredCheckpoint,
-    part_file,
-    write_checkpoint,
 )
 from foamprb.results.folder import FATES, ResultsFolder
 from foamprb.results.manifest import Checksum, checksum
@@ -113,7 +110,7 @@ def checkpoint_of(
     parts: Sequence[tuple[int, str]] = (),
     around: Sequence[Sums] = (),
 ) -> Checkpoint:
-    """Return the checkpoint of a run, or the file of its first particles.
+    """Return the checkpoint of a run, without the particles if several processes hold them.
 
     Parameters
     ----------
@@ -128,7 +125,7 @@ def checkpoint_of(
     marks
         The run's :func:`fingerprint`.
     parts
-        What :func:`write_part` has returned for further particles.
+        Numbers and checksums of the parts with the particles of several processes.
     around
         :func:`sums_around` at its time.
     """
@@ -145,33 +142,6 @@ def checkpoint_of(
         "parts": list(parts),
     }
     return Checkpoint(cloud.time, header, _arrays_of(cloud.particles, functions))
-
-
-def write_part(p: Particles, memory: Memory, file: Path, time: float) -> tuple[int, str] | None:
-    """Write consecutive particles as a part of a checkpoint, if they are not its first.
-
-    Parameters
-    ----------
-    p, time
-        The particles and their time, s.
-    memory
-        What cloud functions remember of them, by ``function/array``.
-    file
-        The checkpoint.
-
-    Returns
-    -------
-    The number of the first of them, and a checksum; None if nothing was written.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
-    first = int(p.number[0]) if p.size else 0
-    if first == 0:
-        return None
-    return first, write_checkpoint(part_file(file, first), Checkpoint(time, {}, _arrays_of(p, memory)))
 
 
 def _arrays_of(p: Particles, memory: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:

@@ -53,7 +53,6 @@ from foamprb.run.restart import (
     restore,
     snapshots_until,
     sums_around,
-    write_part,
 )  # fmt: skip
 from foamprb.settings.solution import StartFrom
 
@@ -271,7 +270,6 @@ class Results:
         functions = self._job.functions
         rest = stepper.sample_away(names) if isinstance(stepper, RankStepper) else names
         if rest:
-            stepper.gather(functions.watched(rest))
             functions.sample(rest)
 
     def _gathered(self, stepper: Stepper) -> Cloud:
@@ -320,12 +318,9 @@ class Results:
         self._write_checkpoint(snapshot, memory, parts)
 
     def _write_parts(self, stepper: Stepper) -> list[tuple[int, str]]:
-        """Let all processes write their parts of the checkpoint; return the parts of the others."""
+        """Let several processes write their parts of the checkpoint; return these."""
         homes, time = stepper.cloud.homes, stepper.cloud.time
-        if homes is None:
-            return []
-        written = homes.at_homes(write_part, self._checkpoints.file(time), time, of="")
-        return [part for part in written if part is not None]
+        return [] if homes is None else homes.write_parts(self._checkpoints.file(time), time)
 
     def _write_checkpoint(
         self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]], parts: Sequence[tuple[int, str]]
@@ -341,7 +336,7 @@ class Results:
         if stepper is not None:
             file = self._checkpoints.file(stepper.cloud.time)
             homes = stepper.cloud.homes
-            found += [file, *(part_file(file, first) for first in (homes.firsts[1:] if homes else ()))]
+            found += [file, *(part_file(file, first) for first in (homes.firsts if homes else ()))]
         return found
 
     def _write_functions(self) -> list[Path]:

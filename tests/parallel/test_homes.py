@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import small_clouds
+import thread_mpi
 from observing import observed, pipe_cloud
 
 from foamprb.cloud.cloud import Cloud, Stepper, regrouped, same
@@ -26,13 +27,14 @@ from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.cloudfunctions.suspension_stress import SuspensionStress
 from foamprb.errors import InputError
-from foamprb.parallel.exchange import Share
+from foamprb.parallel import worker as worker_module
+from foamprb.parallel.exchange import record
 from foamprb.parallel.homes import RankHomes
 from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.worker import Worker
-from foamprb.results.checkpoint import Checkpoint, part_file, write_checkpoint
+from foamprb.results.checkpoint import Checkpoint, part_file, read_checkpoint, write_checkpoint
 from foamprb.run.description import _surveyed
-from foamprb.run.restart import _agree, _sums_of_particles, write_part
+from foamprb.run.restart import _agree, _sums_of_particles
 
 PLANE = (0.004, 0.0, 0.0), (1.0, 0.0, 0.0)
 FUNCTIONS = {
@@ -46,58 +48,54 @@ FUNCTIONS = {
 }
 
 
-class Mail:
-    """What one process sends to another."""
-
-    def __init__(self, size: int) -> None:
-        self.size, self.letters = size, []
-
-    def send(self, letter: Any, rank: int) -> None:  # noqa: ARG002
-        self.letters.append(letter)
-
-    def recv(self, source: int) -> Any:  # noqa: ARG002
-        return self.letters.pop()
-
-
 class Processes:
-    """Workers that execute orders one after the other."""
+    """Workers of several processes, without a flow of their own."""
 
     def __init__(self, n: int) -> None:
-        mail, self.workers = Mail(n), []
-        for rank in range(n):
-            worker = Worker.__new__(Worker)
-            worker.comm, worker.rank = mail, rank
-            worker.home = Share(empty(0), np.empty(0, dtype=np.int64))
-            self.workers.append(worker)
+        self._comms = thread_mpi.processes(n)
+        modules = [thread_mpi.Mpi(comm) for comm in self._comms]
+        self.workers = thread_mpi.together([partial(Worker, module) for module in modules])
 
     def order(self, name: str, *arguments: Any, own: tuple[Any, ...] = ()) -> list[Any]:
-        return [getattr(w, name)(*arguments, *(own if w.rank == 0 else ())) for w in self.workers]
+        works = [partial(getattr(w, name), *arguments, *(own if w.rank == 0 else ())) for w in self.workers]
+        return thread_mpi.together(works)
 
     def homes_of(self, p: Particles) -> RankHomes:
         parts = [p.take(slice(k, k + 11)) for k in range(0, p.size, 11)]
         return RankHomes(self.workers[0], self.order, p.size, parts)
 
-    def prepare(self, sampling: Sampling, cloud: Cloud) -> None:
-        """Let the workers sample the particles at their homes."""
+    def set_out(self, sampling: Sampling, cloud: Cloud) -> None:
+        """Let the particles set out, and the workers sample them."""
         for worker in self.workers:
-            worker.own, worker._sampling, worker._tracker = worker.home, sampling, cloud.tracker
-            worker._flow, worker._sampled, worker._part, worker._events = cloud.make_ready(), None, None, {}
+            worker._sampling, worker._tracker = sampling, cloud.tracker
+            worker._dtype = record(sampling.carried)
+            worker._flow = cloud.make_ready()
+        self.order("set_out", [list(range(len(self.workers)))])
 
     def before_steps(self, start: float, until: float) -> None:
         for worker in self.workers:
             functions = worker._sampling.functions
             worker._observe(functions, start, lambda f, memory, cloud: f.before_steps(memory, cloud, until))
 
-    def gather(self, p: Particles) -> None:
-        """Send the state of all particles home."""
+    def take(self, p: Particles) -> None:
+        """Take the state of all particles as that of the particles of each process."""
         for worker in self.workers:
-            for own, array in zip(worker.home.particles, p, strict=True):
-                own[:] = array[worker.home.ids]
+            numbers = worker.particles.number.copy()
+            for own, array in zip(worker.particles, p, strict=True):
+                own[:] = array[numbers]
+
+    def mix(self, random: np.random.Generator) -> None:
+        """Send some particles from each process to others."""
+        rows = [np.flatnonzero(random.random(w.particles.size) < 0.4) for w in self.workers]
+        to = [random.integers(0, len(self.workers), len(own)) for own in rows]
+        works = [partial(w._send, *given) for w, *given in zip(self.workers, rows, to, strict=True)]
+        thread_mpi.together(works)
 
     def joined(self) -> dict[str, np.ndarray]:
-        """Return what cloud functions remember at all homes."""
-        names = self.workers[0].home.memory
-        return {k: np.concatenate([w.home.memory[k] for w in self.workers]) for k in names}
+        """Return what cloud functions remember of all particles, in the order of their numbers."""
+        order = np.argsort(np.concatenate([w.particles.number for w in self.workers]))
+        names = self.workers[0].own.memory
+        return {k: np.concatenate([w.own.memory[k] for w in self.workers])[order] for k in names}
 
 
 @pytest.fixture(autouse=True)
@@ -123,18 +121,20 @@ def assert_same_files(folder: Path, others: Path) -> None:
 
 
 def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, tables: str = "csv") -> None:
-    """Observe a cloud here and at homes; all files and all that is remembered are the same."""
+    """Observe a cloud here and elsewhere; all files and all that is remembered are the same."""
     afar, processes = at_homes(cloud, n)
     ends = [dataclasses.replace(observed(c), tables=tables) for c in (cloud, afar)]
     here, there = (CloudFunctions(functions, end) for end in ends)
     travelling = there.travelling
     rest = [name for name in functions if name not in travelling]
-    processes.prepare(Sampling.of(there, cloud.medium), cloud)
+    processes.set_out(Sampling.of(there, cloud.medium), cloud)
+    afar.particles, random = empty(0), np.random.default_rng(1)
     for k in range(30):
         start, until = (cloud.start + (cloud.step + steps) * cloud.dt for steps in (0, 10))
         processes.before_steps(start, until)
         Stepper(cloud, here).advance(10)
-        processes.gather(cloud.particles)
+        processes.take(cloud.particles)
+        processes.mix(random)
         afar.step = cloud.step
         rows = cloud.take_rebounds()
         for functions_of, names in ((here, functions), (there, rest)):
@@ -151,6 +151,7 @@ def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, 
     assert_same_files(folder / "here", folder / "there")
     found, expected = there.state() | processes.joined(), here.state()
     assert list(found) == list(expected)
+    assert len({w.particles.size for w in processes.workers}) > 1 or n == 1
     for name, array in expected.items():
         assert found[name].dtype == array.dtype
         assert found[name].tobytes() == array.tobytes(), name
@@ -185,13 +186,15 @@ def test_fields_on_the_mesh_are_those_of_one_process(tmp_path):
 
 def test_particles_are_found_by_their_numbers():
     cloud = pipe_cloud()
-    afar, _ = at_homes(cloud, 3)
+    afar, processes = at_homes(cloud, 3)
+    assert (afar.size, afar.particles.size) == (40, 14)
+    processes.set_out(Sampling.of(CloudFunctions({}, observed(afar)), cloud.medium), cloud)
+    processes.mix(np.random.default_rng(2))
     numbers = np.array([39, 0, 17, 17, 2])
     for found, expected in zip(afar.of(numbers), cloud.of(numbers), strict=True):
         assert found.tobytes() == expected.tobytes()
     assert afar.values_of(numbers, "R").tolist() == cloud.values_of(numbers, "R").tolist()
     assert afar.whole().x.tobytes() == cloud.particles.x.tobytes()
-    assert (afar.size, afar.particles.size) == (40, 14)
     assert afar.counts() == cloud.counts()
     assert [p.number[0] for p in afar.in_order(same)] == [0, 7, 14, 21, 27, 34]
     assert [p.size for p in afar.in_order(same)] == [7, 7, 7, 6, 7, 6]
@@ -237,20 +240,22 @@ def test_faults_of_particles_elsewhere_have_the_same_message():
 def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path):
     cloud = pipe_cloud()
     written, processes = at_homes(cloud, before)
-    CloudFunctions(FUNCTIONS, observed(written))
+    functions = CloudFunctions(FUNCTIONS, observed(written))
+    processes.set_out(Sampling.of(functions, cloud.medium), cloud)
     cloud.advance(20)
-    processes.gather(cloud.particles)
+    processes.take(cloud.particles)
+    processes.mix(np.random.default_rng(3))
     for worker in processes.workers:
-        for array in worker.home.memory.values():
-            array[:] = np.arange(array.size).reshape(array.shape) % 7
+        for array in worker.own.memory.values():
+            array[:] = (np.arange(array[:1].size) + worker.particles.number[:, None]).reshape(array.shape) % 7
     file = tmp_path / "1.checkpoint"
-    parts = [part for part in written.homes.at_homes(write_part, file, 1.0, of="") if part is not None]
-    assert len(parts) == before - 1
+    parts = written.homes.write_parts(file, 1.0)
+    assert len(parts) == before
+    assert [first for first, _ in parts] == list(written.homes.firsts)
     assert all(part_file(file, first).exists() for first, _ in parts)
-    first = processes.workers[0].home
-    arrays = {f"particles/{k}": a for k, a in first.particles._asdict().items()}
-    arrays |= {f"functions/{k}": a for k, a in first.memory.items()}
-    write_checkpoint(file, Checkpoint(1.0, {"parts": parts}, arrays))
+    empty_rows = {f"particles/{k}": a for k, a in empty(0)._asdict().items()}
+    empty_rows |= {f"functions/{k}": a[:0] for k, a in processes.workers[0].own.memory.items()}
+    write_checkpoint(file, Checkpoint(1.0, {"parts": parts}, empty_rows))
 
     again, others = at_homes(pipe_cloud(), 3)
     CloudFunctions(FUNCTIONS, observed(again))
@@ -260,7 +265,24 @@ def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path
     expected = processes.joined()
     for name, found in others.joined().items():
         assert found.tobytes() == expected[name].tobytes(), name
-    assert len(others.workers[1].home.ids) == 13
+    assert others.workers[1].particles.size == 13
+
+
+def test_a_process_that_cannot_write_still_sends_what_the_others_need(tmp_path, monkeypatch):
+    written, _ = at_homes(pipe_cloud(), 3)
+    file, write = tmp_path / "1.checkpoint", worker_module.write_arrays
+
+    def on_a_full_disk(path, time, header, arrays):
+        if path.name.endswith(".14"):
+            next(iter(arrays))
+            raise OSError(28, "No space left on device")
+        return write(path, time, header, arrays)
+
+    monkeypatch.setattr(worker_module, "write_arrays", on_a_full_disk)
+    with pytest.raises(OSError, match="No space left"):
+        written.homes.write_parts(file, 1.0)
+    for first, n in ((0, 14), (27, 13)):
+        assert read_checkpoint(part_file(file, first)).arrays["particles/R"].shape == (n,)
 
 
 def test_regrouped_parts_have_the_size_that_is_asked_for():

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+from functools import partial
 
 import numpy as np
 import pytest
+import thread_mpi
 from hypothesis import given
 from hypothesis import strategies as st
 from pipe_case import copy_of_pipe, message
@@ -15,6 +17,7 @@ from pipe_case import copy_of_pipe, message
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
 from foamprb.parallel.exchange import Share, homes_of, idle_share, pack, plan_exchange, record, unpack
+from foamprb.parallel.route import Route
 
 
 @given(st.lists(st.integers(0, 40 * LANES), min_size=2, max_size=9))
@@ -60,13 +63,66 @@ def test_records_hold_every_bit_of_a_particle(random):
     rows = np.array([5, 0, 6])
     memory = {"loads/D": random.random(7), "plane/x": random.random((7, 3))}
     dtype = record((name, array.dtype.str, array.shape[1:]) for name, array in memory.items())
-    whole = Share(p, np.arange(7) + 100, memory)
+    whole = Share(p, memory)
     found, expected_of = unpack(pack(whole, rows, dtype)), whole.take(rows)
     assert found.arrays().keys() == expected_of.arrays().keys()
     for name, array in found.arrays().items():
         expected = expected_of.arrays()[name]
         assert array.dtype == expected.dtype
         assert array.tobytes() == expected.tobytes()
+
+
+@given(st.data())
+def test_shares_keep_every_bit_when_particles_are_replaced(data):
+    """In their own memory where it suffices, whatever was there before."""
+    share, expected, number = Share(empty(0)), {}, 0
+    for _ in range(data.draw(st.integers(1, 8))):
+        n, zeros = share.particles.size, data.draw(st.booleans())
+        rows = np.array(sorted(data.draw(st.sets(st.integers(0, n - 1)))) if n else [], dtype=np.int64)
+        others = Share(empty(data.draw(st.integers(0, 12))))
+        for k in range(others.particles.size):
+            number += 1
+            others.particles.number[k] = number
+            others.particles.bonds[k] = expected[number] = 0 if zeros else number
+            others.particles.eddy[k] = -0.0 if number % 2 else 0.0
+        for gone in share.particles.number[rows]:
+            del expected[gone]
+        share = share.with_others(rows, others)
+        p = share.particles
+        assert dict(zip(p.number.tolist(), p.bonds.tolist(), strict=True)) == expected
+        assert (np.signbit(p.eddy).all(axis=1) == (p.number % 2 == 1)).all()
+        assert all(len(array) == p.size for array in p)
+
+
+def test_a_share_of_changing_size_stays_in_its_memory():
+    share = Share(empty(100)).with_others(np.empty(0, dtype=np.int64), Share(empty(5)))
+    before = share.particles.F.ctypes.data
+    for leaving, arriving in ((20, 3), (1, 15), (0, 3)):
+        share = share.with_others(np.arange(leaving), Share(empty(arriving)))
+    assert (share.particles.size, share.particles.F.ctypes.data) == (105, before)
+
+
+@pytest.mark.parametrize(("n", "size"), [(1, 1), (0, 3), (7, 3), (200_000, 2)])
+def test_rows_go_where_they_should(n, size):
+    """Several arrays of the same rows, more of them than are sent at once."""
+    comms, random = thread_mpi.processes(size), np.random.default_rng(n)
+    to = [random.integers(0, size, n + rank) for rank in range(size)]
+    rows = [np.arange(len(own)) + 1_000_000 * rank for rank, own in enumerate(to)]
+
+    def exchange(comm):
+        route = Route(thread_mpi.Mpi(comm), comm, to[comm.rank])
+        numbers = rows[comm.rank]
+        sent = numbers, np.outer(numbers, [0.5, 2.0]), (numbers % 7).astype(np.int8), 0.0 * numbers
+        return route.size, *map(route.send, sent)
+
+    for rank, found in enumerate(thread_mpi.together([partial(exchange, c) for c in comms])):
+        expected = np.concatenate([own[chosen == rank] for own, chosen in zip(rows, to, strict=True)])
+        number, pairs, small, zeros = found[1:]
+        assert found[0] == len(expected)
+        assert np.sort(number).tolist() == expected.tolist()
+        assert (pairs == np.outer(number, [0.5, 2.0])).all()
+        assert (small == number % 7).all()
+        assert (zeros.dtype, zeros.shape, zeros.any()) == (np.dtype(float), number.shape, False)
 
 
 @pytest.mark.parametrize("number", ["0", "1"])

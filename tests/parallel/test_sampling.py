@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import thread_mpi
 from mesh_shapes import cyclic_row
 from observing import WATER, observed, pipe_cloud
 
@@ -54,7 +55,7 @@ def test_samples_of_shares_are_those_of_the_whole():
         share_of = random.integers(0, 3, cloud.particles.size)
         for number in range(3):
             rows = np.flatnonzero(share_of == number)
-            own = Share(cloud.particles, np.arange(cloud.particles.size), carried).take(rows)
+            own = Share(cloud.particles, carried).take(rows)
             p, memory = own.particles, own.memory
             events[number] = sampling.observe(
                 names, memory, p, flow, cloud.tracker, cloud.time, events[number], _sample
@@ -95,9 +96,8 @@ def test_passages_are_recorded_by_the_process_that_has_the_particle(tmp_path):
     sampling, carried = Sampling.of(apart, cloud.medium), apart.with_particles(functions)
     workers = []
     for _ in range(3):
-        worker = Worker.__new__(Worker)
-        worker._sampling, worker._tracker, worker._events = sampling, cloud.tracker, {}
-        worker._flow, worker._sampled, worker._part = cloud.make_ready(), None, None
+        worker = Worker(thread_mpi.Mpi(*thread_mpi.processes(1)))
+        worker._sampling, worker._tracker, worker._flow = sampling, cloud.tracker, cloud.make_ready()
         workers.append(worker)
     for k in range(1, 41):
         cloud.advance(20)
@@ -108,7 +108,7 @@ def test_passages_are_recorded_by_the_process_that_has_the_particle(tmp_path):
         share_of = random.integers(0, 3, n)
         for number, worker in enumerate(workers):
             mine = random.permutation(np.flatnonzero(share_of == number))
-            worker.own = Share(cloud.particles, np.arange(n), carried).take(mine)
+            worker._become(Share(cloud.particles, carried).take(mine))
             if len(rows):
                 worker.record(rows, cloud.time)
             worker.sample(names, cloud.time)

@@ -34,7 +34,7 @@ class Apart(Stepper):
     def counts(self):
         return self.own.counts()
 
-    def gather(self, numbers=None):  # noqa: ARG002
+    def gather(self):
         for array, own in zip(self.cloud.particles, self.own, strict=True):
             array[:] = own
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from benchmarks import pipe
 from benchmarks.records import KILO, Results
-from benchmarks.scaling import MEMORY, SPEED_UP, WALL
+from benchmarks.scaling import MEMORY, PARTICLE, SPEED_UP, WALL
 
 TEMPLATE = Path(__file__).with_name("performance.md.in")
 _BUSY = 0.5
@@ -231,8 +231,15 @@ def _scaling(results: Results) -> str:
     for cores in sorted({row.size for row in results.part("scaling") if row.quantity == WALL}):
         values = [results.get(quantity, way, cores) for way in ways for quantity in (WALL, SPEED_UP, MEMORY)]
         lines.append((f"{cores:g}", *("" if v is None else number(v) for v in values)))
+    if not lines:
+        return "Not measured."
     head = ("cores", *(text for way in ways for text in (f"{way}, ns", "speed-up", "MB")))
-    return table(head, lines) if lines else "Not measured."
+    each = [
+        (f"{way}, {cores:g} core{'s'[: cores > 1]}", number(value))
+        for way in ways
+        for cores, value in results.curve(PARTICLE, way)
+    ]
+    return f"{table(head, lines)}\n\n{table(('way', 'kB of memory a particle'), each)}"
 
 
 def _by_processor(results: Results) -> str:

@@ -18,10 +18,13 @@ from benchmarks.tracker import OPENFOAM_STEP, openfoam_environment
 from foamprb.parallel.shared_memory import NODE_RANKS
 
 WALL, SPEED_UP, MEMORY = "wall time by cores", "speed-up by cores", "memory of the largest process by cores"
+PARTICLE = "memory per particle by cores"
 CUTS = (4, 4, 4)
 """Parts of the decomposed pipe along its axis and across: more than nodes, so that these can choose."""
 _REACH = 2.0
 """Particles are spread over so many thirds of the pipe; none leaves it."""
+_FEWER = 5
+"""Share of the particles in the runs that give the memory of one: their number over this."""
 
 
 class Use(NamedTuple):
@@ -71,7 +74,7 @@ def _write_cloud(case: Path, n: int, steps: int) -> Path:
 
 
 def measure(options: Options) -> list[Row]:
-    """Measure with 1, 2, 4, … cores: medians of alternate runs, and the largest memory."""
+    """Measure with 1, 2, 4, … cores: medians of alternate runs, the largest memory, that of a particle."""
     grid, n, steps, repeats = ("40k", 20_000, 10, 1) if options.quick else ("300k", 500_000, 100, 2)
     case = pipe.case(grid)
     settings = _write_cloud(case, n, steps)
@@ -79,6 +82,7 @@ def measure(options: Options) -> list[Row]:
     if shutil.which("mpirun") and (shutil.which("decomposePar") or decomposed_folder(case, CUTS).is_dir()):
         ways += ["processes", "nodes"]
     runs: dict[tuple[str, int], list[Use]] = {("threads", 1): []}
+    ends = {("threads", 1), *((way, 2) for way in ways)}
     cores = 2
     while cores <= len(os.sched_getaffinity(0)):
         runs |= {(way, cores): [] for way in ways}
@@ -86,6 +90,8 @@ def measure(options: Options) -> list[Row]:
     for _ in range(repeats):
         for (way, cores), uses in runs.items():
             uses.append(_run(case, settings, cores, way))
+    settings = _write_cloud(case, n // _FEWER, steps // _FEWER)
+    fewer = {run: _run(case, settings, run[1], run[0]).memory for run in ends if run in runs}
     found, one = [], statistics.median(use.wall for use in runs["threads", 1])
     for (way, cores), uses in runs.items():
         wall = statistics.median(use.wall for use in uses)
@@ -93,4 +99,8 @@ def measure(options: Options) -> list[Row]:
         found.append(Row("scaling", WALL, way, cores, KILO * MEGA * wall / (n * steps), "ns/particle-step"))
         found.append(Row("scaling", SPEED_UP, way, cores, one / wall, ""))
         found.append(Row("scaling", MEMORY, way, cores, memory / MEGA, "MB"))
+        if (way, cores) in fewer:
+            processes = 1 if way == "threads" else cores
+            more = processes * (memory - fewer[way, cores]) / (n - n // _FEWER)
+            found.append(Row("scaling", PARTICLE, way, cores, more / KILO, "kB"))
     return found

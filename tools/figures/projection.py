@@ -85,7 +85,7 @@ class Measured(NamedTuple):
     state: float
     """State per particle."""
     peak: float
-    """Peak per particle in a run with output."""
+    """Peak per particle in a run with output on two nodes."""
     cell: float
     """Mesh and flow per cell."""
     cell_peak: float
@@ -126,7 +126,7 @@ def measured(results: Results) -> Measured:
         step=1e-6 * last("cost", "foamprb paper"),
         efficiency=min(1.0, (results.get("speed-up", "foamprb paper", 2) or 2.0) / 2.0),
         state=1e3 * last("memory per particle", "tracking alone, kept"),
-        peak=1e3 * last("memory per particle", "run with output"),
+        peak=1e3 * last("memory per particle by cores", "nodes"),
         cell=1e3 * last("memory kept per cell, kB", "foamprb"),
         cell_peak=1e9 * last("peak memory, GB", "foamprb") / cells,
         ready=ready / cells,
@@ -284,7 +284,7 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         "mesh, whole, during its preparation": CELLS * m.cell_peak,
         "mesh, the part of a node with its layers": held * m.cell,
         "mesh, the part, during its preparation": held * PREPARED,
-        "particles of a node and those whose home it is, evenly": particles / c.nodes * (m.state + m.peak),
+        "particles of a node, evenly": particles / c.nodes * m.peak,
         "first process: places of all particles, while they are drawn": particles * PLACE,
     }
     text = TEMPLATE.read_text(encoding="utf-8").format(
@@ -296,7 +296,7 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
                 ("CPU of a particle-step of `paper`, µs", number(1e6 * m.step)),
                 ("efficiency of threads", number(m.efficiency)),
                 ("state, bytes/particle", number(m.state)),
-                ("peak in a run with output, bytes/particle", number(m.peak)),
+                ("peak in a run with output on nodes, bytes/particle", number(m.peak)),
                 ("mesh and flow, bytes/cell", number(m.cell)),
                 ("the same during preparation, whole, bytes/cell", number(m.cell_peak)),
                 ("the same, a part, bytes/cell held", number(PREPARED)),
