@@ -23,8 +23,8 @@ CUTS = (4, 4, 4)
 """Parts of the decomposed pipe along its axis and across: more than nodes, so that these can choose."""
 _REACH = 2.0
 """Particles are spread over so many thirds of the pipe; none leaves it."""
-_FEWER = 5
-"""Share of the particles in the runs that give the memory of one: their number over this."""
+_SHORTER = 5
+"""Runs with twice the particles, which give the memory of one, have so many times fewer steps."""
 
 
 class Use(NamedTuple):
@@ -90,8 +90,8 @@ def measure(options: Options) -> list[Row]:
     for _ in range(repeats):
         for (way, cores), uses in runs.items():
             uses.append(_run(case, settings, cores, way))
-    settings = _write_cloud(case, n // _FEWER, steps // _FEWER)
-    fewer = {run: _run(case, settings, run[1], run[0]).memory for run in ends if run in runs}
+    settings = _write_cloud(case, 2 * n, steps // _SHORTER)
+    twice = {run: _run(case, settings, run[1], run[0]).memory for run in ends if run in runs}
     found, one = [], statistics.median(use.wall for use in runs["threads", 1])
     for (way, cores), uses in runs.items():
         wall = statistics.median(use.wall for use in uses)
@@ -99,8 +99,8 @@ def measure(options: Options) -> list[Row]:
         found.append(Row("scaling", WALL, way, cores, KILO * MEGA * wall / (n * steps), "ns/particle-step"))
         found.append(Row("scaling", SPEED_UP, way, cores, one / wall, ""))
         found.append(Row("scaling", MEMORY, way, cores, memory / MEGA, "MB"))
-        if (way, cores) in fewer:
+        if (way, cores) in twice:
             processes = 1 if way == "threads" else cores
-            more = processes * (memory - fewer[way, cores]) / (n - n // _FEWER)
-            found.append(Row("scaling", PARTICLE, way, cores, more / KILO, "kB"))
+            each = processes * (twice[way, cores] - memory) / n
+            found.append(Row("scaling", PARTICLE, way, cores, each / KILO, "kB"))
     return found
