@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.state import VARIABLES, Particles
+from foamprb.cloud.state import Particles
 from foamprb.parallel.route import has_bits
 
 Rows = NDArray[np.int64]
@@ -89,19 +89,13 @@ _ROOM = 8
 """A share that grows has room for a part of its particles more: pages that are not written take no memory."""
 
 
-def record(carried: Iterable[tuple[str, str, tuple[int, ...]]] = ()) -> np.dtype[Any]:
-    """Return the type of a particle as it travels: its state, and what is carried with it.
-
-    ``carried`` are names, types and shapes.
-    """
-    return np.dtype([*((name, v.dtype, v.shape) for name, v in VARIABLES.items()), *carried])
-
-
-def pack(share: Share, rows: Rows, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Return records of the particles in some rows, with the arrays of the type."""
-    records, arrays = np.empty(len(rows), dtype=dtype), share.arrays()
-    for name in dtype.names or ():
-        records[name] = arrays[name][rows]
+def pack(share: Share, rows: Rows) -> NDArray[Any]:
+    """Return records of the particles in some rows."""
+    arrays = share.arrays()
+    layout = [(name, array.dtype, array.shape[1:]) for name, array in arrays.items()]
+    records = np.empty(len(rows), dtype=layout)
+    for name, array in arrays.items():
+        records[name] = array[rows]
     return records
 
 
@@ -113,7 +107,7 @@ def unpack(records: NDArray[Any]) -> Share:
 def homes_of(n: int, size: int) -> NDArray[np.int64]:
     """Return the number of the first particle whose home is each of several processes, and n, (size + 1,).
 
-    A process is the home of particles of consecutive numbers: it writes their rows of checkpoints and tables.
+    A process is the home of particles of consecutive numbers: it writes them to checkpoints.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Homes of particles: processes that write the rows of particles of consecutive numbers."""
+"""Homes of particles: processes that write particles of consecutive numbers to checkpoints."""
 
 from __future__ import annotations
 
@@ -9,11 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Value, parts_of, same
+from foamprb.cloud import cloud
+from foamprb.cloud.cloud import Value, same
 from foamprb.cloud.state import VARIABLES, Particles, concatenate
 from foamprb.parallel.exchange import homes_of
 from foamprb.parallel.worker import Worker
 from foamprb.settings.libs import loaded_libs
+
+AT_ONCE = 1 << 18
+"""Most particles of which the first process takes what a function finds at once."""
 
 
 class RankHomes:
@@ -38,14 +42,9 @@ class RankHomes:
         self._bounds = homes_of(size, worker.comm.size)
         order("settle", loaded_libs(), self._bounds)
         for p in parts:
-            first = int(p.number[0]) if p.size else 0
-            for rank, (start, end) in enumerate(zip(self._bounds[:-1], self._bounds[1:], strict=True)):
-                rows = slice(max(0, start - first), max(0, end - first))
-                own = p.take(rows)._asdict()
-                if len(own["number"]):
-                    # Unused arrays of zeros take no memory of the machine until they are written.
-                    used = {k: a for k, a in own.items() if not VARIABLES[k].optional or a.any()}
-                    self._put(rank, int(own["number"][0] - start), used)
+            # Unused arrays of zeros take no memory of the machine until they are written.
+            used = {k: a for k, a in p._asdict().items() if not VARIABLES[k].optional or a.any()}
+            self._put(p.number, used)
 
     @property
     def firsts(self) -> tuple[int, ...]:
@@ -70,8 +69,11 @@ class RankHomes:
         self, function: Callable[..., Value], *arguments: Any, of: str | None = None
     ) -> Iterator[Value]:
         """See :class:`foamprb.cloud.cloud.Homes`."""
-        for rank, part in self._parts():
-            yield self._of_part(rank, part, of, function, *arguments)
+        size = self._worker.comm.size
+        rows = max(1, min(cloud.PART, AT_ONCE // size))
+        for first in range(0, max(self.size, 1), rows * size):
+            found: list[Value] = self._order("of_parts", function, first, rows, of, *arguments)
+            yield from found[: max(1, -(-(self.size - first) // rows))]
 
     def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
@@ -79,9 +81,8 @@ class RankHomes:
 
     def begin(self, name: str, first: Callable[[Particles], Mapping[str, NDArray[Any]]]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
-        for rank, part in self._parts():
-            found = first(self._of_part(rank, part, None, same))
-            self._put(rank, part.start, {f"{name}/{key}": array for key, array in found.items()})
+        for p in self.in_order(same):
+            self._put(p.number, {f"{name}/{key}": array for key, array in first(p).items()})
 
     def restore(self, file: PathLike[str]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
@@ -91,21 +92,15 @@ class RankHomes:
         """See :class:`foamprb.cloud.cloud.Homes`."""
         return [part for part in self._order("write_part", file, time) if part is not None]
 
-    def _parts(self) -> Iterator[tuple[int, slice]]:
-        """Yield the homes and the rows of their parts, in the order of the particles."""
-        for rank, n in enumerate(np.diff(self._bounds).tolist()):
-            if n or rank == 0:
-                yield from ((rank, slice(part.start, min(part.stop, n))) for part in parts_of(n))
-
-    def _of_part(
-        self, rank: int, part: slice, of: str | None, function: Callable[..., Value], *arguments: Any
-    ) -> Value:
-        found: list[Value] = self._order("of_part", function, rank, part, of, *arguments)
-        return found[rank]
-
-    def _put(self, rank: int, first: int, arrays: Mapping[str, NDArray[Any]]) -> None:
-        """Store arrays of particles from a row on at a home."""
-        if rank == 0:
-            self._worker.put(0, first, arrays)
-        else:
-            self._order("put", rank, first, own=(arrays,))
+    def _put(self, numbers: NDArray[np.int64], arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Store arrays of particles of consecutive numbers at their homes."""
+        ends = np.searchsorted(numbers, self._bounds)
+        for rank, rows in enumerate(map(slice, ends[:-1], ends[1:])):
+            own = {name: array[rows] for name, array in arrays.items()}
+            if rows.start == rows.stop:
+                continue
+            first = int(numbers[rows.start] - self._bounds[rank])
+            if rank == 0:
+                self._worker.put(0, first, own)
+            else:
+                self._order("put", rank, first, own=(own,))

@@ -27,8 +27,6 @@ class Sampling:
     functions: Mapping[str, CloudFunction]
     events: Memory
     """Empty tables of events by the names of their functions."""
-    carried: tuple[tuple[str, str, tuple[int, ...]], ...]
-    """Name, type and shape of what a function remembers of a particle."""
     interactions: tuple[Interaction, ...]
     medium: Medium
     injectors: tuple[str, ...]
@@ -39,11 +37,9 @@ class Sampling:
         """Return those of the functions of a cloud that can sample so."""
         cloud = functions.cloud
         names = functions.travelling
-        arrays = functions.with_particles(names)
         return cls(
             {name: functions.functions[name] for name in names},
             functions.new_events(names),
-            tuple((name, array.dtype.str, array.shape[1:]) for name, array in arrays.items()),
             tuple(cloud.cloud.interactions),
             medium,
             cloud.injectors,

@@ -28,7 +28,7 @@ from foamprb.flow.fields import Fields
 from foamprb.flow.loaded import LoadedFlow
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.parallel.exchange import Share, pack, record, unpack
+from foamprb.parallel.exchange import Share, pack, unpack
 from foamprb.parallel.parts import Part, Summary
 from foamprb.parallel.route import Route
 from foamprb.parallel.sampling import Observe, Sampling
@@ -86,15 +86,13 @@ class Worker:
         self.own = Share(empty(0))
         """Particles that this process holds: those whose home it is, until they set out."""
         self._homes = np.zeros(self.comm.size + 1, dtype=np.int64)
-        self._at_home, self._settled = True, False
-        """Whether all particles are at their homes; whether they are where their cells are."""
+        self._settled = False
+        """Whether particles are where their cells are."""
         self._sorted: NDArray[np.int64] | None = None
         """Rows of the particles in the order of their numbers, as long as it is known."""
         self._local_hosts = False
         """Whether hosts are numbered as in the part of the node."""
         self._events: Memory = {}
-        self._dtype = record()
-        """Type of a particle as it travels."""
         self._flow: Any = None
         self._sampled: Fields | None = None
         self._part: Part | None = None
@@ -138,7 +136,7 @@ class Worker:
         load_libs(libs)
         self._homes = homes
         self._become(Share(empty(int(homes[self.rank + 1] - homes[self.rank]))))
-        self._at_home, self._settled, self._local_hosts = True, False, False
+        self._settled, self._local_hosts = False, False
 
     def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
         """Make room for what cloud functions remember of these particles, by arrays without rows."""
@@ -179,7 +177,6 @@ class Worker:
         self._sampling: Sampling
         self._tracker, self._sampling = pickle.loads(models)
         self._threads = threads
-        self._dtype = record(self._sampling.carried)
 
     def set_out(self, ranks_of: list[list[int]]) -> None:
         """Send the particles to the processes that advance them.
@@ -198,7 +195,7 @@ class Worker:
         arrays, self.own = self.own.arrays(), Share(empty(0))
         # One variable after the other: memory holds one of them twice.
         self._become(Share.of({name: route.send(arrays.pop(name)) for name in [*arrays]}))
-        self._at_home, self._settled = False, True
+        self._settled = True
         self._use_local_hosts()
 
     def _become(self, share: Share) -> None:
@@ -355,7 +352,7 @@ class Worker:
 
     def _packed(self, rows: NDArray[np.int64]) -> NDArray[Any]:
         """Return records of particles with their hosts in the whole mesh."""
-        records = pack(self.own, rows, self._dtype)
+        records = pack(self.own, rows)
         if self._local_hosts:
             records["host"] = self._held.numbers_of(records["host"])
         return records
@@ -470,31 +467,25 @@ class Worker:
         rows = np.flatnonzero(np.isin(self.particles.number, numbers))
         return self._abroad(Share(self.particles.take(rows))).particles
 
-    def of_part(
-        self, function: Callable[..., Any], rank: int, part: slice, of: str | None, *arguments: Any
+    def of_parts(
+        self, function: Callable[..., Any], first: int, rows: int, of: str | None, *arguments: Any
     ) -> Any:
-        """Return what a function finds of particles of consecutive numbers, on their home.
+        """Return what a function finds of particles of consecutive numbers, other ones on each process.
 
         Parameters
         ----------
         function, of
             See :meth:`of_own`.
-        rank, part
-            The home, and its particles.
+        first, rows
+            The first number of the first process, and how many particles each has; the last may have fewer.
         """
-        share = self._collect(rank, part)
-        return _found(share, function, of, arguments) if rank == self.rank else None
-
-    def _collect(self, rank: int, part: slice) -> Share:
-        """Return particles of consecutive numbers on their home; none on the others."""
-        if self._at_home:
-            return self.own.take(part if rank == self.rank else slice(0))
-        first, number = int(self._homes[rank]), self.particles.number
-        ends = np.searchsorted(number, (first + part.start, first + part.stop), sorter=self._in_order)
-        rows = self._in_order[slice(*ends)]
+        numbers, end = self.particles.number, first + rows * self.comm.size
+        chosen = self._in_order[slice(*np.searchsorted(numbers, (first, end), sorter=self._in_order))]
         with self._exchanging():
-            arrived = self._route(np.full(len(rows), rank)).send(self._packed(rows))
-        return unpack(arrived[np.argsort(arrived["number"])])
+            arrived = self._route((numbers[chosen] - first) // rows).send(self._packed(chosen))
+        if self.rank and not len(arrived):
+            return None
+        return _found(unpack(arrived[np.argsort(arrived["number"])]), function, of, arguments)
 
     def write_part(self, file: PathLike[str], time: float) -> tuple[int, str] | None:
         """Write the particles whose home this process is as a part of a checkpoint at a time, s.

@@ -28,7 +28,6 @@ from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.cloudfunctions.suspension_stress import SuspensionStress
 from foamprb.errors import InputError
 from foamprb.parallel import worker as worker_module
-from foamprb.parallel.exchange import record
 from foamprb.parallel.homes import RankHomes
 from foamprb.parallel.sampling import Sampling
 from foamprb.parallel.worker import Worker
@@ -68,7 +67,6 @@ class Processes:
         """Let the particles set out, and the workers sample them."""
         for worker in self.workers:
             worker._sampling, worker._tracker = sampling, cloud.tracker
-            worker._dtype = record(sampling.carried)
             worker._flow = cloud.make_ready()
         self.order("set_out", [list(range(len(self.workers)))])
 
@@ -196,8 +194,8 @@ def test_particles_are_found_by_their_numbers():
     assert afar.values_of(numbers, "R").tolist() == cloud.values_of(numbers, "R").tolist()
     assert afar.whole().x.tobytes() == cloud.particles.x.tobytes()
     assert afar.counts() == cloud.counts()
-    assert [p.number[0] for p in afar.in_order(same)] == [0, 7, 14, 21, 27, 34]
-    assert [p.size for p in afar.in_order(same)] == [7, 7, 7, 6, 7, 6]
+    assert [p.number[0] for p in afar.in_order(same)] == [0, 7, 14, 21, 28, 35]
+    assert [p.size for p in afar.in_order(same)] == [7, 7, 7, 7, 7, 5]
 
 
 def test_a_cloud_elsewhere_is_the_same_cloud():

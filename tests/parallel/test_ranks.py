@@ -16,7 +16,7 @@ from pipe_case import copy_of_pipe, message
 
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
-from foamprb.parallel.exchange import Share, homes_of, idle_share, pack, plan_exchange, record, unpack
+from foamprb.parallel.exchange import Share, homes_of, idle_share, pack, plan_exchange, unpack
 from foamprb.parallel.route import Route
 
 
@@ -62,9 +62,8 @@ def test_records_hold_every_bit_of_a_particle(random):
         p._asdict()[name][...] = raw.view(variable.dtype).reshape(p._asdict()[name].shape)
     rows = np.array([5, 0, 6])
     memory = {"loads/D": random.random(7), "plane/x": random.random((7, 3))}
-    dtype = record((name, array.dtype.str, array.shape[1:]) for name, array in memory.items())
     whole = Share(p, memory)
-    found, expected_of = unpack(pack(whole, rows, dtype)), whole.take(rows)
+    found, expected_of = unpack(pack(whole, rows)), whole.take(rows)
     assert found.arrays().keys() == expected_of.arrays().keys()
     for name, array in found.arrays().items():
         expected = expected_of.arrays()[name]

@@ -26,6 +26,7 @@ from benchmarks.records import Results, read_rows
 from benchmarks.report import number, table
 
 from foamprb.cloud.cloud import PART
+from foamprb.parallel.homes import AT_ONCE
 from foamprb.results.tables import write_table
 
 RADIUS, LENGTH, WALL_RATE, GRAVITY = 2.1e-3, 0.75, 923.8, 9.81
@@ -37,7 +38,7 @@ PREPARED = 1700.0
 PLACE = 100.0
 """Bytes for each particle on the first process while places of release are drawn, measured with 1e6."""
 PASSES = 5
-"""How often all particles pass the first process part by part: four times at the start, once at the end."""
+"""How often the processes go through all particles together: four times at the start, once at the end."""
 RINGS = 5
 """Layers of cells around those of a node."""
 PAUSE = 2e-3
@@ -268,9 +269,8 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         * max(gathered / c.disk, gathered / c.nodes / c.per_node_disk),
         f"{writes} snapshots and checkpoints: metadata, two files a core": 2 * writes * operations * ranks,
         "the cloud at the start, sent by the first process part by part": gathered / c.link,
-        f"parts of the cloud that the first process asks for, {PASSES} times": PASSES
-        * max(particles / PART, ranks)
-        * PAUSE,
+        f"rows of tables and the like, {PASSES} times for all particles": PASSES
+        * (particles / min(AT_ONCE, PART * ranks) * PAUSE + gathered / (c.nodes * c.link)),
         "the table of fates, as text, a process a core": particles * m.row / ranks,
         "the table of fates, written by the first process": particles * m.row_bytes / c.per_node_disk,
         "start of Python, a process a core, from the parallel file system": ranks
