@@ -68,10 +68,10 @@ class Comm:
     def Alltoallv(self, outgoing: list[Any], incoming: list[Any]) -> None:
         array, (received, places), row = incoming
         target = array.reshape(-1).view(np.uint8)
-        for rank, (given, (sent, starts), _) in enumerate(self._of_all(outgoing)):
-            start, end = row.size * starts[self.rank], row.size * (starts[self.rank] + sent[self.rank])
+        for rank, (given, (sent, starts), own) in enumerate(self._of_all(outgoing)):
+            start, end = own.size * starts[self.rank], own.size * (starts[self.rank] + sent[self.rank])
             place = row.size * places[rank]
-            assert sent[self.rank] == received[rank]
+            assert own.size * sent[self.rank] == row.size * received[rank]
             target[place : place + end - start] = given.reshape(-1).view(np.uint8)[start:end]
         self._barrier.wait()
 

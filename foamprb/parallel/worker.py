@@ -223,7 +223,7 @@ class Worker:
             self.particles.host[:] = self._held.numbers_of(self.particles.host)
             self._local_hosts = False
 
-    def _abroad(self, share: Share) -> Share:
+    def _with_whole_hosts(self, share: Share) -> Share:
         """Return some of the particles with hosts of the whole mesh."""
         if not self._local_hosts:
             return share
@@ -460,12 +460,12 @@ class Worker:
         of
             Name of the cloud function.
         """
-        return _found(self._abroad(self.own), function, of, arguments)
+        return _found(self._with_whole_hosts(self.own), function, of, arguments)
 
     def chosen(self, numbers: NDArray[np.int64]) -> Particles:
         """Return those of some particles that this process holds."""
         rows = np.flatnonzero(np.isin(self.particles.number, numbers))
-        return self._abroad(Share(self.particles.take(rows))).particles
+        return self._with_whole_hosts(Share(self.particles.take(rows))).particles
 
     def of_parts(
         self, function: Callable[..., Any], first: int, rows: int, of: str | None, *arguments: Any
@@ -514,9 +514,9 @@ class Worker:
     def _sent_home(self) -> Iterator[tuple[str, NDArray[Any]]]:
         """Yield the arrays of the particles whose home this process is, by their names in a checkpoint.
 
-        One variable after the other, so that memory holds one of them twice.
+        One variable after the other, of which memory holds two more copies.
         """
-        share = self._abroad(self.own)
+        share = self._with_whole_hosts(self.own)
         numbers = share.particles.number
         with self._exchanging():
             route = self._route(np.searchsorted(self._homes[1:], numbers, side="right"))

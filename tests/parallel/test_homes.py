@@ -191,11 +191,12 @@ def test_particles_are_found_by_their_numbers():
     numbers = np.array([39, 0, 17, 17, 2])
     for found, expected in zip(afar.of(numbers), cloud.of(numbers), strict=True):
         assert found.tobytes() == expected.tobytes()
-    assert afar.values_of(numbers, "R").tolist() == cloud.values_of(numbers, "R").tolist()
+    assert afar.values_of(numbers, "x").tolist() == cloud.values_of(numbers, "x").tolist()
     assert afar.whole().x.tobytes() == cloud.particles.x.tobytes()
     assert afar.counts() == cloud.counts()
     assert [p.number[0] for p in afar.in_order(same)] == [0, 7, 14, 21, 28, 35]
     assert [p.size for p in afar.in_order(same)] == [7, 7, 7, 7, 7, 5]
+    assert [p.size for p in Processes(3).homes_of(empty(0)).in_order(same)] == [0]
 
 
 def test_a_cloud_elsewhere_is_the_same_cloud():

@@ -101,11 +101,13 @@ def test_a_share_of_changing_size_stays_in_its_memory():
     assert (share.particles.size, share.particles.F.ctypes.data) == (105, before)
 
 
-@pytest.mark.parametrize(("n", "size"), [(1, 1), (0, 3), (7, 3), (200_000, 2)])
-def test_rows_go_where_they_should(n, size):
-    """Several arrays of the same rows, more of them than are sent at once."""
+@pytest.mark.parametrize(
+    ("n", "size", "takers"), [(1, 1, 1), (0, 3, 3), (7, 3, 3), (7, 3, 1), (200_000, 2, 2)]
+)
+def test_rows_go_where_they_should(n, size, takers):
+    """Several arrays of the same rows, more of them than are sent at once; some processes take none."""
     comms, random = thread_mpi.processes(size), np.random.default_rng(n)
-    to = [random.integers(0, size, n + rank) for rank in range(size)]
+    to = [random.integers(0, takers, n + rank) for rank in range(size)]
     rows = [np.arange(len(own)) + 1_000_000 * rank for rank, own in enumerate(to)]
 
     def exchange(comm):
