@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud import cloud
-from foamprb.cloud.cloud import Value, same
+from foamprb.cloud.cloud import Value, parts_of, same
 from foamprb.cloud.state import VARIABLES, Particles, concatenate
 from foamprb.parallel.exchange import homes_of
 from foamprb.parallel.worker import Worker
 from foamprb.settings.libs import loaded_libs
 
-AT_ONCE = 1 << 18
-"""Most particles of which the first process takes what a function finds at once."""
+PARTS = 4
+"""Most parts of a cloud of which the first process takes at once what a function finds."""
 
 
 class RankHomes:
@@ -70,7 +70,15 @@ class RankHomes:
     ) -> Iterator[Value]:
         """See :class:`foamprb.cloud.cloud.Homes`."""
         size = self._worker.comm.size
-        rows = max(1, min(cloud.PART, AT_ONCE // size))
+        if self._worker.at_home:
+            # Nothing has to be sent.
+            sizes = enumerate(np.diff(self._bounds).tolist())
+            parts = [(rank, part) for rank, n in sizes if n or rank == 0 for part in parts_of(n)]
+            for some in (parts[k : k + PARTS] for k in range(0, len(parts), PARTS)):
+                own = [iter(found) for found in self._order("of_home", function, some, of, *arguments)]
+                yield from (next(own[rank]) for rank, _ in some)
+            return
+        rows = max(1, min(PARTS, size) * cloud.PART // size)
         for first in range(0, max(self.size, 1), rows * size):
             found: list[Value] = self._order("of_parts", function, first, rows, of, *arguments)
             yield from found[: max(1, -(-(self.size - first) // rows))]

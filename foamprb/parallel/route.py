@@ -34,13 +34,13 @@ class Route:
     def __init__(self, MPI: Any, comm: Any, to: NDArray[np.int64]) -> None:
         self._MPI, self._comm = MPI, comm
         most = max(1, min(_ROWS, _AT_ONCE // comm.size))
-        self._rounds = []
+        self._rounds: list[tuple[Any, NDArray[np.int64], NDArray[np.int64]]] = []
         for k in range(max(1, comm.allreduce(-(-len(to) // most), MPI.MAX))):
             some = to[k * most : (k + 1) * most]
             sent = np.bincount(some, minlength=comm.size).astype(np.int64)
             received = np.empty_like(sent)
             comm.Alltoall(sent, received)
-            self._rounds.append((k * most + np.argsort(some, kind="stable"), sent, received))
+            self._rounds.append((_sorted_rows(some, k * most), sent, received))
         self.size = sum(int(received.sum()) for _, _, received in self._rounds)
         """Number of rows that arrive."""
 
@@ -63,6 +63,13 @@ class Route:
             start = end
         row.Free()
         return found
+
+
+def _sorted_rows(to: NDArray[np.int64], first: int) -> NDArray[np.int64] | slice:
+    """Return rows from a first one on in the order of the processes to which they go."""
+    if (to[1:] >= to[:-1]).all():
+        return slice(first, first + len(to))
+    return first + np.argsort(to, kind="stable")
 
 
 def has_bits(array: NDArray[Any]) -> bool:

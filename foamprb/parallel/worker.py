@@ -86,8 +86,8 @@ class Worker:
         self.own = Share(empty(0))
         """Particles that this process holds: those whose home it is, until they set out."""
         self._homes = np.zeros(self.comm.size + 1, dtype=np.int64)
-        self._settled = False
-        """Whether particles are where their cells are."""
+        self.at_home, self._settled = True, False
+        """Whether all particles are at their homes; whether they are where their cells are."""
         self._sorted: NDArray[np.int64] | None = None
         """Rows of the particles in the order of their numbers, as long as it is known."""
         self._local_hosts = False
@@ -136,7 +136,7 @@ class Worker:
         load_libs(libs)
         self._homes = homes
         self._become(Share(empty(int(homes[self.rank + 1] - homes[self.rank]))))
-        self._settled, self._local_hosts = False, False
+        self.at_home, self._settled, self._local_hosts = True, False, False
 
     def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
         """Make room for what cloud functions remember of these particles, by arrays without rows."""
@@ -195,7 +195,7 @@ class Worker:
         arrays, self.own = self.own.arrays(), Share(empty(0))
         # One variable after the other: memory holds one of them twice.
         self._become(Share.of({name: route.send(arrays.pop(name)) for name in [*arrays]}))
-        self._settled = True
+        self.at_home, self._settled = False, True
         self._use_local_hosts()
 
     def _become(self, share: Share) -> None:
@@ -466,6 +466,25 @@ class Worker:
         """Return those of some particles that this process holds."""
         rows = np.flatnonzero(np.isin(self.particles.number, numbers))
         return self._with_whole_hosts(Share(self.particles.take(rows))).particles
+
+    def of_home(
+        self,
+        function: Callable[..., Any],
+        parts: Sequence[tuple[int, slice]],
+        of: str | None,
+        *arguments: Any,
+    ) -> list[Any]:
+        """Return what a function finds of each of some parts that this process has, while all are at home.
+
+        Parameters
+        ----------
+        function, of
+            See :meth:`of_own`.
+        parts
+            Homes, and rows of their particles.
+        """
+        own = (self.own.take(part) for rank, part in parts if rank == self.rank)
+        return [_found(share, function, of, arguments) for share in own]
 
     def of_parts(
         self, function: Callable[..., Any], first: int, rows: int, of: str | None, *arguments: Any

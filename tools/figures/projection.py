@@ -26,7 +26,7 @@ from benchmarks.records import Results, read_rows
 from benchmarks.report import number, table
 
 from foamprb.cloud.cloud import PART
-from foamprb.parallel.homes import AT_ONCE
+from foamprb.parallel.homes import PARTS
 from foamprb.results.tables import write_table
 
 RADIUS, LENGTH, WALL_RATE, GRAVITY = 2.1e-3, 0.75, 923.8, 9.81
@@ -270,7 +270,9 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         f"{writes} snapshots and checkpoints: metadata, two files a core": 2 * writes * operations * ranks,
         "the cloud at the start, sent by the first process part by part": gathered / c.link,
         f"rows of tables and the like, {PASSES} times for all particles": PASSES
-        * (particles / min(AT_ONCE, PART * ranks) * PAUSE + gathered / (c.nodes * c.link)),
+        * particles
+        / (PART * min(PARTS, ranks))
+        * PAUSE,
         "the table of fates, as text, a process a core": particles * m.row / ranks,
         "the table of fates, written by the first process": particles * m.row_bytes / c.per_node_disk,
         "start of Python, a process a core, from the parallel file system": ranks
