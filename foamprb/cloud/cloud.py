@@ -77,8 +77,14 @@ class Homes(Protocol):
             Returns what is remembered of some particles.
         """
 
+    def share_sums(self, name: str, sums: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Make room for the sums of cells of a cloud function; return what this process has, no rows."""
+
+    def of_cells(self, name: str, part: slice) -> NDArray[np.float64]:
+        """Return the sums of consecutive cells of a cloud function."""
+
     def restore(self, file: PathLike[str]) -> None:
-        """Read the particles, and what is remembered of them, from a checkpoint."""
+        """Read the particles, and what is remembered of them and of cells, from a checkpoint."""
 
     def write_parts(self, file: PathLike[str], time: float) -> list[tuple[int, str]]:
         """Write the same as parts of a checkpoint at a time, s.

@@ -29,7 +29,6 @@ from foamprb.flow.loaded import LoadedFlow
 from foamprb.results.tables import Column
 
 __all__ = [
-    "AT_ONCE",
     "STATUS_NAMES",
     "CloudFunction",
     "CloudShare",
@@ -40,6 +39,7 @@ __all__ = [
     "SampledFunction",
     "append",
     "columns",
+    "in_time",
     "masses",
     "memory_of",
     "names_of",
@@ -50,8 +50,8 @@ __all__ = [
 Rows: TypeAlias = NDArray[np.int64]
 """Row numbers of particles in their cloud."""
 Memory: TypeAlias = dict[str, NDArray[Any]]
-AT_ONCE = 1 << 20
-"""Particle numbers whose events complete a sample together; sums depend on it in their round-off."""
+CELLS = 1 << 18
+"""Cells in a part of :meth:`ObservedCloud.of_cells`."""
 SampleInterval = Annotated[int, AtLeastOne, Meaning("steps between two samples")]
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
 
@@ -154,6 +154,13 @@ class ObservedCloud:
         p = p._replace(status=np.full_like(p.status, Status.ACTIVE))
         return contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time)
 
+    def of_cells(self, sums: NDArray[np.float64], n: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
+        """Yield parts of n cells in their order, and their sums; see :attr:`CloudFunction.sums`."""
+        homes = self.cloud.homes
+        for first in range(0, n, CELLS):
+            part = slice(first, min(first + CELLS, n))
+            yield part, sums[part] if homes is None else homes.of_cells(self.name, part)
+
     def fields(self, rows: Rows) -> Mapping[str, FieldValues]:
         """Return the sampled fields at particles at their times; NaN at pending ones."""
         p = self.particles.take(rows)
@@ -202,12 +209,16 @@ class CloudFunction:
     each call. Otherwise it uses :meth:`ObservedCloud.of`, ``at_homes`` and ``in_order``, or has
     :attr:`rows`."""
     rows: ClassVar[bool] = False
-    """Whether all its arrays have a row for each particle, but :attr:`events` and :attr:`common`. It can then
-    begin and sample with some particles and their rows, which go with the particles."""
+    """Whether all its arrays have a row for each particle, but :attr:`events`, :attr:`common` and ``sums``.
+    It can then begin and sample with some particles and their rows, which go with the particles."""
     events: ClassVar[str] = ""
     """Name of the array with a row for each event: number of the particle, time, and others."""
     common: ClassVar[frozenset[str]] = frozenset({"history", "written", "warned"})
     """Names of arrays that only :meth:`write` needs."""
+    sums: ClassVar[bool] = False
+    """Whether its array ``sums`` has a row for each cell of the mesh, to which the events of each sample are
+    added and then removed. An event has the number of the particle, another one that orders its events, the
+    cell, and what is added. Of a cloud at homes each process has the rows of some cells."""
 
     @property
     def needed_fields(self) -> tuple[str, ...]:
@@ -222,17 +233,11 @@ class CloudFunction:
         """Return the arrays with a row for each particle."""
         if not self.rows:
             return {}
-        return {key: array for key, array in memory.items() if key not in {self.events, *self.common}}
+        others = {self.events, "sums", *self.common}
+        return {key: array for key, array in memory.items() if key not in others}
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Record a sample of the cloud, every ``interval`` steps and before each writing."""
-
-    def end_sample(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Complete a sample after all particles have been sampled.
-
-        The events are those of the sample, in the order of the particles. If the particles are elsewhere, it
-        is called for every :data:`AT_ONCE` of their numbers in turn, with their events.
-        """
 
     def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
         """Observe particles before the steps of a call of the loop, from the time of the cloud ``until``, s.
@@ -329,6 +334,21 @@ def append(memory: Memory, name: str, lines: Any) -> NDArray[np.float64]:
     table = memory[name]
     memory[name] = np.concatenate([table, np.reshape(lines, (-1, table.shape[1]))])
     return memory[name]
+
+
+def in_time(events: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return events in the order of their times, then of particle numbers."""
+    steps = np.diff(events[:, :2], axis=0)
+    if ((steps[:, 1] > 0.0) | ((steps[:, 1] == 0.0) & (steps[:, 0] >= 0.0))).all():
+        return events
+    return events[np.lexsort((events[:, 0], events[:, 1]))]
+
+
+def add_up(sums: NDArray[np.float64], events: NDArray[np.float64]) -> None:
+    """Add events to sums of cells in their order; see :attr:`CloudFunction.sums`."""
+    cell = events[:, 2].astype(np.int64)
+    for total, values in zip(sums.T, events[:, 3:].T, strict=True):
+        np.add.at(total, cell, values)
 
 
 def taylor_of(cloud: ObservedCloud, rows: Rows, F: NDArray[np.float64]) -> NDArray[np.float64]:

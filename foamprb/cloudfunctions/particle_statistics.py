@@ -11,16 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from foamprb.cloud.measures import as_slice, shapes
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloudfunctions.base import (
-    AT_ONCE,
-    Memory,
-    ObservedCloud,
-    Rows,
-    SampledFunction,
-    SampleInterval,
-    append,
-)
+from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows, SampledFunction, SampleInterval, append
 from foamprb.dictionary.constraints import Meaning
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshSizes
@@ -56,7 +49,7 @@ class ParticleStatistics(SampledFunction):
     sigmaParticles: Annotated[bool, Meaning("whether to write the particles' stress and volume, too")] = False
 
     events: ClassVar[str] = "passed"
-    common: ClassVar[frozenset[str]] = SampledFunction.common | {"time", "timeD", "timeS"}
+    sums: ClassVar[bool] = True
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return cells, −1 outside and before the release, and Taylor's D."""
@@ -64,19 +57,16 @@ class ParticleStatistics(SampledFunction):
         inside = np.flatnonzero((p.host[rows] >= 0) & (p.status[rows] != Status.PENDING))
         if len(inside):
             cell[inside] = _cell_of(cloud, p.host[rows[inside]])
-        own = {"cell": cell, "D": cloud.measure(rows, "taylorDeformation")[0]}
-        if self.sigmaParticles:
-            # The volume comes first among the seven.
-            J, S = cloud.measure(rows, "J", "stresslet")
-            own["S"] = np.column_stack([4.0 / 3.0 * math.pi * cloud.particles.R[rows] ** 3 * J, S])
-        return own
+        if not self.sigmaParticles:
+            return {"cell": cell, "D": shapes(p.take(as_slice(rows)))[1]}
+        D, J, S = cloud.measure(rows, "taylorDeformation", "J", "stresslet")
+        # The volume comes first among the seven.
+        return {"cell": cell, "D": D, "S": np.column_stack([4.0 / 3.0 * math.pi * p.R[rows] ** 3 * J, S])}
 
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return sums of zero; raise InputError if the flow has no mesh."""
         n, columns = _flow(cloud).mesh.n_cells, 9 if self.sigmaParticles else 2
-        stress = {"timeS": np.zeros((7, n))} if self.sigmaParticles else {}
-        passed = np.empty((0, 3 + 2 * columns))
-        return {"time": np.zeros(n), "timeD": np.zeros(n), **stress, "passed": passed}
+        return {"sums": np.zeros((n, columns)), "passed": np.empty((0, 3 + columns))}
 
     def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
         """Store the cells of the particles that appear, where their tetrahedra are known."""
@@ -84,60 +74,58 @@ class ParticleStatistics(SampledFunction):
         memory["cell"][rows] = _cell_of(cloud, cloud.particles.host[rows])
 
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
-        """Store half the time since the last sample, and cells and values at both its ends.
-
-        The sums are those of :meth:`end_sample`, so that they do not depend on the order of the particles.
-        """
+        """Store half the time since the last sample, and its products, for the cells at both ends."""
         half = 0.5 * (now["t"] - memory["t"][rows])
         # A particle that the mesh has lost counts in its last cell.
         now["cell"] = np.where(now["cell"] >= 0, now["cell"], memory["cell"][rows])
-        names = ("cell", "D", *(("S",) if self.sigmaParticles else ()))
-        ends = [values[name] for values in ({k: memory[k][rows] for k in names}, now) for name in names]
-        append(memory, "passed", np.column_stack([cloud.particles.number[rows], 0.0 * half, half, *ends]))
-
-    def end_sample(self, memory: Memory, cloud: ObservedCloud) -> None:  # noqa: ARG002
-        """Add the sample to the sums of the cells."""
-        passed = memory["passed"]
-        parts = (passed[:, 0] // AT_ONCE).astype(np.int64)
-        for part in np.unique(parts):
-            self._add_up(memory, passed[parts == part])
-        memory["passed"] = passed[:0]
-
-    def _add_up(self, memory: Memory, passed: Floats) -> None:
-        n = len(memory["time"])
-        for end in np.split(passed[:, 3:], 2, axis=1):
-            known = end[:, 0] >= 0
-            cell, weight = end[known, 0].astype(np.int64), passed[known, 2]
-            memory["time"] += np.bincount(cell, weight, n)
-            memory["timeD"] += np.bincount(cell, weight * end[known, 1], n)
-            if self.sigmaParticles:
-                for total, values in zip(memory["timeS"], end[known, 2:].T, strict=True):
-                    total += np.bincount(cell, weight * values, n)
+        for end, values in enumerate(({name: memory[name][rows] for name in now}, now)):
+            known = np.flatnonzero(values["cell"] >= 0)
+            number, weight = cloud.particles.number[rows[known]], half[known]
+            own = [np.ones(len(known)), *(values[name][known] for name in ("D", "S") if name in now)]
+            added = weight[:, None] * np.column_stack(own)
+            ends = np.full(len(known), end)
+            append(memory, "passed", np.column_stack([number, ends, values["cell"][known], added]))
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
-        sizes, time = _flow(cloud).mesh_sizes(), memory["time"]
-        passed = np.maximum(sizes.volumes, 1e-300) * max(cloud.time - cloud.cloud.start, 1e-300)
-        fields = {
-            "concentration": time / passed,
-            "residenceTime": time,
-            "meanD": np.divide(memory["timeD"], time, out=np.zeros_like(time), where=time > 0.0),
-            "deposition": np.zeros_like(time),
-        }
-        if self.sigmaParticles:
-            volume, *stress = memory["timeS"] / passed
-            fields |= {"volumeFraction": volume, "sigmaParticles": np.stack(stress, axis=1)}
-        stuck = _stuck_on_faces(cloud, sizes)
+        sizes = _flow(cloud).mesh_sizes()
+        n, time = len(sizes.volumes), max(cloud.time - cloud.cloud.start, 1e-300)
+        beside = np.empty((len(sizes.owner), memory["sums"].shape[1]))
+        for part, sums in cloud.of_cells(memory["sums"], n):
+            faces = np.flatnonzero((sizes.owner >= part.start) & (sizes.owner < part.stop))
+            beside[faces] = sums[sizes.owner[faces] - part.start]
+        on_faces = _fields(beside, sizes.volumes[sizes.owner], time)
+        on_faces["deposition"] = _stuck_on_faces(cloud, sizes) / sizes.areas
         folder.mkdir(exist_ok=True)
-        for name, values in fields.items():
-            on_faces = stuck / sizes.areas if name == "deposition" else values[sizes.owner]
+        for name, values in on_faces.items():
             patches = {
-                patch.name: PatchValues("calculated", on_faces[slice(*sizes.patch_start[k : k + 2])])
+                patch.name: PatchValues("calculated", values[slice(*sizes.patch_start[k : k + 2])])
                 if patch.type in GENERIC
                 else PatchValues(patch.type)
                 for k, patch in enumerate(cloud.cloud.flow.patches)
             }
-            write_field(folder / f"{cloud.time:.12g}" / name, _DIMENSIONS[name], values, patches)
+            cells = (
+                _fields(sums, sizes.volumes[part], time)[name]
+                for part, sums in cloud.of_cells(memory["sums"], n)
+            )
+            write_field(folder / f"{cloud.time:.12g}" / name, _DIMENSIONS[name], cells, n, patches)
+
+
+def _fields(sums: Floats, volumes: Floats, time: float) -> dict[str, Floats]:
+    """Return the fields at cells by the sums of all samples, volumes (m³) and the time since the start, s."""
+    spent, timeD, *more = sums.T
+    passed = np.maximum(volumes, 1e-300) * time
+    found = {
+        "concentration": spent / passed,
+        "residenceTime": spent,
+        "meanD": np.divide(timeD, spent, out=np.zeros_like(spent), where=spent > 0.0),
+        "deposition": np.zeros_like(spent),
+    }
+    if more:
+        # The volume comes first.
+        volume, *stress = more / passed
+        found |= {"volumeFraction": volume, "sigmaParticles": np.stack(stress, axis=1)}
+    return found
 
 
 def _flow(cloud: ObservedCloud) -> Any:

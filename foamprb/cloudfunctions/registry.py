@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from foamprb.cloud.cloud import Value
 from foamprb.cloud.state import Particles, empty
 from foamprb.cloudfunctions.base import (
-    AT_ONCE,
     CloudFunction,
     Memory,
     ObservedCloud,
+    add_up,
     append,
+    in_time,
     memory_of,
 )
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
@@ -86,6 +87,8 @@ class CloudFunctions:
             return
         self._memory[name] = memory = function.begin(cloud.seeing(empty(0)))
         homes.remember({f"{name}/{key}": array for key, array in function.of_particles(memory).items()})
+        if function.sums:
+            memory["sums"] = homes.share_sums(name, memory["sums"])
         homes.begin(name, lambda p: function.of_particles(function.begin(cloud.seeing(p))))
 
     def _seen_by(self, name: str) -> ObservedCloud:
@@ -110,6 +113,11 @@ class CloudFunctions:
         """Names of the functions whose data go with the particles."""
         return [name for name, function in self.functions.items() if function.rows]
 
+    @property
+    def summing(self) -> list[str]:
+        """Names of the functions that have sums of cells."""
+        return [name for name, function in self.functions.items() if function.sums]
+
     def before_steps(self, flow: LoadedFlow, start: float, until: float) -> None:
         """Let the functions observe the particles before a call of the loop, while its flow is loaded."""
         cloud = self.cloud.at(flow, start)
@@ -126,30 +134,11 @@ class CloudFunctions:
         """Let some functions record a sample."""
         self._record_rebounds()
         for name in names:
-            function = self.functions[name]
+            function, memory = self.functions[name], self._memory[name]
             self._observe(name, function.sample)
-            function.end_sample(self._memory[name], self.cloud)
-
-    def end_samples(
-        self, names: Iterable[str], take: Callable[[str, int], Sequence[NDArray[np.float64]]]
-    ) -> None:
-        """Complete samples of particles that are elsewhere, see :meth:`CloudFunction.end_sample`.
-
-        Parameters
-        ----------
-        names
-            The functions.
-        take
-            Returns the events of a function from all processes, of the particles below a number, and removes
-            them there.
-        """
-        for name in names:
-            function, memory, size = self.functions[name], self._memory[name], self.cloud.cloud.size
-            if type(function).end_sample is CloudFunction.end_sample:
-                continue
-            for until in range(AT_ONCE, size + AT_ONCE, AT_ONCE):
-                append(memory, function.events, _in_time(np.concatenate(take(name, until))))
-                function.end_sample(memory, self.cloud)
+            if function.sums:
+                add_up(memory["sums"], memory[function.events])
+                memory[function.events] = memory[function.events][:0]
 
     def _observe(self, name: str, observe: Callable[[Memory, ObservedCloud], None]) -> None:
         """Let a function observe particles, and add its events in their order."""
@@ -159,14 +148,14 @@ class CloudFunctions:
             memory[events] = before[:0]
         observe(memory, self._seen_by(name))
         if before is not None:
-            memory[events] = np.concatenate([before, _in_time(memory[events])])
+            memory[events] = np.concatenate([before, in_time(memory[events])])
 
     def write(self, folder: Path) -> None:
         """Let every function write into a folder of its name."""
         for name, function in self.functions.items():
             if function.events:
                 # Those of rebounds and of samples were recorded one after the other.
-                self._memory[name][function.events] = _in_time(self._memory[name][function.events])
+                self._memory[name][function.events] = in_time(self._memory[name][function.events])
             function.write(self._memory[name], self._seen_by(name), folder / name)
 
     def with_particles(self, names: Iterable[str]) -> Memory:
@@ -186,7 +175,7 @@ class CloudFunctions:
         """Add tables of events, which were recorded apart, in the order of their times."""
         for name in found[0]:
             new = np.concatenate([tables[name] for tables in found])
-            append(self._memory[name], self.functions[name].events, _in_time(new))
+            append(self._memory[name], self.functions[name].events, in_time(new))
 
     def with_fates(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
         """Yield what a function finds of all particles and of the columns that are added to ``fates``.
@@ -228,7 +217,10 @@ class CloudFunctions:
         InputError
             If it belongs to other functions.
         """
-        elsewhere = () if self.cloud.cloud.homes is None else self.with_particles(self.travelling)
+        elsewhere: set[str] = set()
+        if self.cloud.cloud.homes is not None:
+            sums = [f"{name}/sums" for name in self.summing]
+            elsewhere = {*self.with_particles(self.travelling), *sums}
         expected, found = {*self.state()}, {*stored}
         if expected != found:
             changed = ", ".join(sorted({key.split("/")[0] for key in expected ^ found}))
@@ -236,11 +228,6 @@ class CloudFunctions:
         for name, memory in self._memory.items():
             own = {key: f"{name}/{key}" for key in memory}
             memory.update({key: read(path) for key, path in own.items() if path not in elsewhere})
-
-
-def _in_time(events: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return events in the order of their times, then of particle numbers."""
-    return events[np.lexsort((events[:, 0], events[:, 1]))]
 
 
 def _with_fates(

@@ -92,6 +92,16 @@ class RankHomes:
         for p in self.in_order(same):
             self._put(p.number, {f"{name}/{key}": array for key, array in first(p).items()})
 
+    def share_sums(self, name: str, sums: NDArray[np.float64]) -> NDArray[np.float64]:
+        """See :class:`foamprb.cloud.cloud.Homes`."""
+        none = sums[:0].copy()
+        self._order("share_sums", name, len(sums), none)
+        return none
+
+    def of_cells(self, name: str, part: slice) -> NDArray[np.float64]:
+        """See :class:`foamprb.cloud.cloud.Homes`."""
+        return np.concatenate(self._order("of_cells", name, part))
+
     def restore(self, file: PathLike[str]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
         self._order("restore", file)

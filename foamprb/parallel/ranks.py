@@ -17,7 +17,6 @@ import logging
 import pickle
 import time as clock
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -221,7 +220,9 @@ class RankStepper(Stepper):
         if away:
             self._publish_present()
             self.ranks.order("sample", away, self.cloud.time)
-            self._functions.end_samples(away, partial(self.ranks.order, "take_events_below"))
+            summing = [name for name in away if name in self._functions.summing]
+            if summing:
+                self.ranks.order("add_up", summing)
             self._gathered = False
         return [name for name in names if name not in travelling]
 

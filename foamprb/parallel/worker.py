@@ -21,7 +21,7 @@ from foamprb.cloud.report import report
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings.wall_lift import wall_distances
 from foamprb.cloud.tracker import Outcome, Tracker
-from foamprb.cloudfunctions.base import Memory, memory_of
+from foamprb.cloudfunctions.base import Memory, add_up, in_time, memory_of
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats
 from foamprb.flow.fields import Fields
@@ -93,6 +93,8 @@ class Worker:
         self._local_hosts = False
         """Whether hosts are numbered as in the part of the node."""
         self._events: Memory = {}
+        self._sums: dict[str, tuple[NDArray[np.int64], Floats]] = {}
+        """Of each function with sums of cells, the first cell of each process, and own sums."""
         self._flow: Any = None
         self._sampled: Fields | None = None
         self._part: Part | None = None
@@ -136,6 +138,7 @@ class Worker:
         load_libs(libs)
         self._homes = homes
         self._become(Share(empty(int(homes[self.rank + 1] - homes[self.rank]))))
+        self._sums = {}
         self.at_home, self._settled, self._local_hosts = True, False, False
 
     def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
@@ -143,6 +146,23 @@ class Worker:
         n = self.particles.size
         more = {name: np.zeros((n, *array.shape[1:]), dtype=array.dtype) for name, array in layout.items()}
         self.own = self.own._replace(memory={**self.own.memory, **more})
+
+    def share_sums(self, name: str, n: int, none: Floats) -> None:
+        """Make room for sums of some cells of a function.
+
+        Parameters
+        ----------
+        name
+            The function.
+        n, none
+            Number of all cells, and sums without rows.
+        """
+        homes = self._homes
+        # A process without a part of a checkpoint has none.
+        first = np.where(homes == homes[-1], n, homes * n // max(homes[-1], 1))
+        first[0] = 0
+        own = first[self.rank + 1] - first[self.rank]
+        self._sums[name] = first, np.zeros((int(own), *none.shape[1:]))
 
     def put(self, rank: int, first: int, arrays: Mapping[str, NDArray[Any]] | None = None) -> None:
         """Store arrays of particles at a home.
@@ -163,13 +183,15 @@ class Worker:
                 own[name][first : first + len(array)] = array
 
     def restore(self, file: PathLike[str]) -> None:
-        """Read the particles whose home this process is, and what is remembered, from a checkpoint."""
+        """Read the particles whose home this process is, what is remembered, and sums, from a checkpoint."""
         stored = StoredCheckpoint(Path(file))
         rows = slice(*self._homes[self.rank : self.rank + 2].tolist())
         for name, array in self.particles._asdict().items():
             stored.read_into(array, f"{PARTICLES}{name}", rows.start)
         for name, array in self.own.memory.items():
             stored.read_into(array, f"{FUNCTIONS}{name}", rows.start)
+        for name, (first, sums) in self._sums.items():
+            stored.read_into(sums, f"{FUNCTIONS}{name}/sums", int(first[self.rank]))
 
     def prepare(self, models: bytes, threads: int) -> None:
         """Compile the loop; ``models`` are a tracker and a :class:`Sampling`."""
@@ -430,13 +452,21 @@ class Worker:
         found, self._events = {**self._sampling.events, **self._events}, {}
         return found
 
-    def take_events_below(self, name: str, number: int) -> NDArray[np.float64]:
-        """Return and remove the events of a function, of the particles below a number."""
-        events = self._events[name]
-        events = events[np.argsort(events[:, 0], kind="stable")]
-        n = int(np.searchsorted(events[:, 0], number))
-        self._events[name] = events[n:]
-        return np.asarray(events[:n])
+    def add_up(self, names: Sequence[str]) -> None:
+        """Add the events of some functions to the sums of cells, each on the process that has these."""
+        for name in names:
+            (first, sums), events = self._sums[name], self._events[name]
+            with self._exchanging():
+                found = self._route(np.searchsorted(first[1:], events[:, 2], side="right")).send(events)
+            found[:, 2] -= first[self.rank]
+            add_up(sums, in_time(found))
+            self._events[name] = events[:0]
+
+    def of_cells(self, name: str, part: slice) -> Floats:
+        """Return the sums of those of some consecutive cells that this process has."""
+        first, sums = self._sums[name]
+        own = slice(*np.clip([part.start, part.stop], *first[self.rank : self.rank + 2]) - first[self.rank])
+        return sums[own]
 
     def each(self, function: Callable[..., Any], time: float, *arguments: Any) -> Any:
         """Return what a function finds of the particles that this process advances."""
@@ -507,7 +537,7 @@ class Worker:
         return _found(unpack(arrived[np.argsort(arrived["number"])]), function, of, arguments)
 
     def write_part(self, file: PathLike[str], time: float) -> tuple[int, str] | None:
-        """Write the particles whose home this process is as a part of a checkpoint at a time, s.
+        """Write the particles whose home this process is, and its sums, to part of a checkpoint at a time, s.
 
         Returns
         -------
@@ -531,7 +561,7 @@ class Worker:
                 pass
 
     def _sent_home(self) -> Iterator[tuple[str, NDArray[Any]]]:
-        """Yield the arrays of the particles whose home this process is, by their names in a checkpoint.
+        """Yield the arrays of the particles whose home this process is, and sums, by names in a checkpoint.
 
         One variable after the other, of which memory holds two more copies.
         """
@@ -545,6 +575,7 @@ class Worker:
                 with self._exchanging():
                     found = route.send(array)
                 yield f"{kind}{name}", found[order]
+        yield from ((f"{FUNCTIONS}{name}/sums", sums) for name, (_, sums) in self._sums.items())
 
     @property
     def _seen(self) -> LoadedFlow:

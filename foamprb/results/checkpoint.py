@@ -34,7 +34,7 @@ from foamprb.results.atomic import atomic_write, drop_cache
 
 log = logging.getLogger("foamprb")
 
-VERSION = 11
+VERSION = 12
 PARTICLES, FUNCTIONS = "particles/", "functions/"
 """What the names of arrays begin with: of the state of particles, and of what cloud functions remember."""
 MOST_FILES = 2

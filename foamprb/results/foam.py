@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.results.atomic import write_text
+from foamprb.results.atomic import atomic_write, write_text
 
 __all__ = ["GENERIC", "SYMMETRIC", "PatchValues", "remove_lagrangian", "write_field", "write_lagrangian"]
 
@@ -34,7 +35,8 @@ class PatchValues(NamedTuple):
 def write_field(
     path: Path,
     dimensions: Sequence[int],
-    cells: Floats,
+    cells: Iterable[Floats],
+    n: int,
     patches: Mapping[str, PatchValues],
     name: str | None = None,
 ) -> None:
@@ -47,7 +49,9 @@ def write_field(
     dimensions
         Exponents of kg, m, s, K, mol, A, cd.
     cells
-        Values at the cells, (n,), or (n, 6) in the order xx yy zz xy yz xz.
+        Values at the cells, part by part, (…,), or (…, 6) in the order xx yy zz xy yz xz.
+    n
+        Number of cells.
     patches
         Fields on the patches by name, in the order of the mesh.
     name
@@ -58,27 +62,48 @@ def write_field(
     OSError
         If the file cannot be written.
     """
-    kind = "volScalarField" if cells.ndim == 1 else "volSymmTensorField"
-    parts = [
-        f"{_header(kind, name or path.name)}dimensions      [{' '.join(map(str, dimensions))}];\n\n"
-        f"internalField   {_values(cells)};\n\nboundaryField\n{{\n"
-    ]
-    for key, patch in patches.items():
-        value = "" if patch.values is None else f"        value           {_values(patch.values)};\n"
-        word = key if key.replace("_", "").replace("-", "").isalnum() else f'"{key}"'
-        parts.append(f"    {word}\n    {{\n        type            {patch.type};\n{value}    }}\n")
-    parts.append("}\n")
-    write_text(path, "".join(parts))
+    parts = iter(cells)
+    first = next(parts)
+    with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8") as file:
+        file.write(_header("volScalarField" if first.ndim == 1 else "volSymmTensorField", name or path.name))
+        file.write(f"dimensions      [{' '.join(map(str, dimensions))}];\n\ninternalField   ")
+        file.writelines(_values(first, parts, n))
+        file.write(";\n\nboundaryField\n{\n")
+        for key, patch in patches.items():
+            word = key if key.replace("_", "").replace("-", "").isalnum() else f'"{key}"'
+            file.write(f"    {word}\n    {{\n        type            {patch.type};\n")
+            if patch.values is not None:
+                file.write("        value           ")
+                file.writelines(_values(patch.values, iter(()), len(patch.values)))
+                file.write(";\n")
+            file.write("    }\n")
+        file.write("}\n")
 
 
-def _values(values: Floats) -> str:
+def _values(first: Floats, parts: Iterator[Floats], n: int) -> Iterator[str]:
+    """Yield the text of a list of n values: the first of them, and further parts."""
+    part, equal = first, 0
+    while len(part) and (part == first[0]).all():
+        equal += len(part)
+        part = next(parts, first[:0])
+    if n and equal == n:
+        yield f"uniform {_items(first[:1])[0]}"
+        return
+    yield f"nonuniform List<{'scalar' if first.ndim == 1 else 'symmTensor'}> {n}\n(\n"
+    # Parts that are all equal to the first row have been passed over.
+    before = (
+        first[np.zeros(min(len(first), equal - k), dtype=int)] for k in range(0, equal, len(first) or 1)
+    )
+    for values in chain(before, [part], parts):
+        yield "".join(f"{item}\n" for item in _items(values))
+    yield ")"
+
+
+def _items(values: Floats) -> list[str]:
+    """Return the text of each value."""
     if values.ndim == 1:
-        inner, items = "scalar", [f"{v!r}" for v in values.tolist()]
-    else:
-        inner, items = "symmTensor", [f"({' '.join(map(repr, v))})" for v in values[:, SYMMETRIC].tolist()]
-    if items and (values == values[0]).all():
-        return f"uniform {items[0]}"
-    return f"nonuniform List<{inner}> {len(items)}\n(\n" + "".join(f"{item}\n" for item in items) + ")"
+        return [f"{v!r}" for v in values.tolist()]
+    return [f"({' '.join(map(repr, v))})" for v in values[:, SYMMETRIC].tolist()]
 
 
 _CLASSES = {1: "scalarField", 3: "vectorField", 6: "symmTensorField", 9: "tensorField"}

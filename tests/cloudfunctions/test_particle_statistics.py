@@ -111,9 +111,20 @@ def test_a_flow_without_a_mesh_is_refused(tmp_path):
         observe(pipe_cloud(), ParticleStatistics(), tmp_path)
 
 
+@pytest.mark.parametrize("equal", [0, 1, 4, 7, 11, 12])
+def test_a_field_that_comes_in_parts_is_written_as_if_whole(equal, tmp_path):
+    values = np.where(np.arange(12) < equal, 0.25, 1.0 / np.arange(1, 13))
+    for cells in (values, np.outer(values, np.arange(1.0, 7.0))):
+        for size in (12, 5, 4, 1):
+            parts = [cells[k : k + size] for k in range(0, 12, size)]
+            write_field(tmp_path / f"{size}", (0,) * 7, parts, 12, {}, "s")
+        assert len({(tmp_path / f"{size}").read_bytes() for size in (12, 5, 4, 1)}) == 1
+        assert ("nonuniform" in (tmp_path / "12").read_text()) == (equal < 12)
+
+
 def test_a_field_is_written_as_openfoam_reads_it(tmp_path):
     patches = {"wall": PatchValues("calculated", np.array([1.0, 0.1])), "front": PatchValues("empty")}
-    write_field(tmp_path / "s", (0, -2, 0, 0, 0, 0, 0), np.array([2.0, 3.0]), patches)
+    write_field(tmp_path / "s", (0, -2, 0, 0, 0, 0, 0), [np.array([2.0, 3.0])], 2, patches)
     text = (tmp_path / "s").read_text()
     assert "dimensions      [0 -2 0 0 0 0 0];" in text
     assert "internalField   nonuniform List<scalar> 2\n(\n2.0\n3.0\n);" in text

@@ -90,17 +90,17 @@ class Processes:
         thread_mpi.together(works)
 
     def joined(self) -> dict[str, np.ndarray]:
-        """Return what cloud functions remember of all particles, in the order of their numbers."""
+        """Return what cloud functions remember of all particles, by their numbers, and sums of all cells."""
         order = np.argsort(np.concatenate([w.particles.number for w in self.workers]))
-        names = self.workers[0].own.memory
-        return {k: np.concatenate([w.own.memory[k] for w in self.workers])[order] for k in names}
+        names, sums = self.workers[0].own.memory, self.workers[0]._sums
+        found = {k: np.concatenate([w.own.memory[k] for w in self.workers])[order] for k in names}
+        return found | {f"{k}/sums": np.concatenate([w._sums[k][1] for w in self.workers]) for k in sums}
 
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
     monkeypatch.setattr("foamprb.cloud.cloud.PART", 7)
-    for user in ("registry", "particle_statistics"):
-        monkeypatch.setattr(f"foamprb.cloudfunctions.{user}.AT_ONCE", 2)
+    monkeypatch.setattr("foamprb.cloudfunctions.base.CELLS", 5)
 
 
 def at_homes(cloud: Cloud, n: int, **changes: Any) -> tuple[Cloud, Processes]:
@@ -140,7 +140,7 @@ def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, 
         processes.order("record", rows, cloud.time)
         here.sample(list(functions))
         processes.order("sample", travelling, cloud.time)
-        there.end_samples(travelling, partial(processes.order, "take_events_below"))
+        processes.order("add_up", there.summing)
         there.sample(rest)
         there.add_events(processes.order("take_events"))
         if k % 10 == 9:
@@ -240,6 +240,10 @@ def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path
     cloud = pipe_cloud()
     written, processes = at_homes(cloud, before)
     functions = CloudFunctions(FUNCTIONS, observed(written))
+    written.homes.share_sums("cells", np.zeros((11, 2)))
+    for worker in processes.workers:
+        first, sums = worker._sums["cells"]
+        sums[:] = np.arange(*first[worker.rank : worker.rank + 2])[:, None] + [0.5, 0.25]
     processes.set_out(Sampling.of(functions, cloud.medium), cloud)
     cloud.advance(20)
     processes.take(cloud.particles)
@@ -253,18 +257,29 @@ def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path
     assert [first for first, _ in parts] == list(written.homes.firsts)
     assert all(part_file(file, first).exists() for first, _ in parts)
     empty_rows = {f"particles/{k}": a for k, a in empty(0)._asdict().items()}
-    empty_rows |= {f"functions/{k}": a[:0] for k, a in processes.workers[0].own.memory.items()}
+    empty_rows |= {f"functions/{k}": a[:0] for k, a in processes.joined().items()}
     write_checkpoint(file, Checkpoint(1.0, {"parts": parts}, empty_rows))
 
     again, others = at_homes(pipe_cloud(), 3)
     CloudFunctions(FUNCTIONS, observed(again))
+    again.homes.share_sums("cells", np.zeros((11, 2)))
     again.homes.restore(file)
+    assert again.homes.of_cells("cells", slice(2, 9))[:, 0].tolist() == (np.arange(2, 9) + 0.5).tolist()
     for found, expected in zip(again.whole(), cloud.particles, strict=True):
         assert found.tobytes() == expected.tobytes()
     expected = processes.joined()
     for name, found in others.joined().items():
         assert found.tobytes() == expected[name].tobytes(), name
     assert others.workers[1].particles.size == 13
+
+
+@pytest.mark.parametrize("particles", [0, 1, 2, 40])
+def test_processes_that_write_checkpoints_have_all_sums(particles):
+    processes = Processes(3)
+    homes = processes.homes_of(pipe_cloud().particles.take(slice(particles)))
+    homes.share_sums("cells", np.zeros((11, 2)))
+    of_each = [len(w._sums["cells"][1]) for w in processes.workers]
+    assert of_each == {0: [11, 0, 0], 1: [11, 0, 0], 2: [5, 6, 0], 40: [3, 4, 4]}[particles]
 
 
 def test_a_process_that_cannot_write_still_sends_what_the_others_need(tmp_path, monkeypatch):
