@@ -55,6 +55,11 @@ class Homes(Protocol):
     def of(self, numbers: NDArray[np.int64]) -> Particles:
         """Return particles by their numbers, which rise."""
 
+    def observe(
+        self, numbers: NDArray[np.int64], function: Callable[..., Value], time: float, *arguments: Any
+    ) -> list[Value]:
+        """Return what a function finds of particles as a cloud function observes them where they move."""
+
     def at_homes(self, function: Callable[..., Value], *arguments: Any, of: str | None = None) -> list[Value]:
         """See :meth:`Cloud.at_homes`; ``of`` adds what a cloud function remembers to the arguments."""
 

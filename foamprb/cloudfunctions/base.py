@@ -93,6 +93,21 @@ class ObservedCloud:
         """Return the same cloud with the particles of some numbers, in their order."""
         return self.seeing(self.cloud.of(numbers))
 
+    def observe(self, numbers: Rows, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """Return what a function finds of some particles, where they move.
+
+        Parameters
+        ----------
+        numbers
+            The particles; rising.
+        function
+            Called with the cloud that has only those of them that a process moves, and the ``arguments``;
+            other processes import it.
+        """
+        if self.cloud.homes is None:
+            return [function(self.of(numbers), *arguments)]
+        return self.cloud.homes.observe(numbers, function, self.time, *arguments)
+
     def at_homes(self, remembered: Memory, function: Callable[..., Value], *arguments: Any) -> list[Value]:
         """Return what a function finds of the particles of each process.
 

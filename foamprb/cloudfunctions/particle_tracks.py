@@ -56,7 +56,7 @@ class ParticleTracks(CloudFunction):
         tracks = min(n, self.maxTracks)
         rows = np.arange(tracks) * n // max(tracks, 1)
         tracked = cloud.of(rows)
-        points = self._points(tracked, np.arange(tracks))
+        points = _points(tracked, np.arange(tracks), tracked.fields(np.arange(tracks)))
         memory = {
             "row": rows,
             "host": tracked.particles.host.copy(),
@@ -87,23 +87,22 @@ class ParticleTracks(CloudFunction):
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add a point to the path of every particle that has moved since."""
-        tracked = cloud.of(memory["row"])
-        status = tracked.particles.status
-        last = memory["points"][np.arange(len(status)), memory["count"] - 1, 3]
-        moved = tracked.particles.t > last
-        tracks = np.flatnonzero(~memory["closed"] & (status != Status.PENDING) & moved)
+        open_ = memory["row"][~memory["closed"]]
+        number, ended, points = map(np.concatenate, zip(*cloud.observe(open_, _released), strict=True))
+        tracks = np.searchsorted(memory["row"], number)
+        memory["closed"][tracks] = ended
+        last = memory["points"][tracks, memory["count"][tracks] - 1, 3]
+        moved = np.flatnonzero(points[:, 3] > last)
+        tracks, points, ended = tracks[moved], points[moved], np.flatnonzero(ended[moved])
         first = tracks[memory["count"][tracks] == 1]
-        fields = tracked.fields_at_release(first, memory["host"][first])
-        if fields and len(first):
-            values = np.concatenate([f.values for f in fields.values()], axis=1)
-            memory["points"][first, 0, len(_POINT) :] = values
-        self._append(memory, tracks, self._points(tracked, tracks))
-        memory["closed"] |= tracked.has_ended(np.arange(len(status)))
-
-    def _points(self, cloud: ObservedCloud, rows: Rows) -> NDArray[np.float64]:
-        p = cloud.particles
-        point = [p.x[rows], p.t[rows], p.v[rows], *cloud.measure(rows, *_TRACKED), np.zeros(len(rows))]
-        return np.column_stack([*point, *(f.values for f in cloud.fields(rows).values())])
+        if points.shape[1] > len(_POINT) and len(first):
+            found = cloud.of(memory["row"][first])
+            fields = found.fields_at_release(np.arange(len(first)), memory["host"][first])
+            memory["points"][first, 0, len(_POINT) :] = _values(fields, len(first))
+        if points.shape[1] > len(_POINT) and len(ended):
+            found = cloud.of(memory["row"][tracks[ended]])
+            points[ended, len(_POINT) :] = _values(found.fields(np.arange(len(ended))), len(ended))
+        self._append(memory, tracks, points)
 
     def _append(self, memory: Memory, tracks: Rows, points: NDArray[np.float64]) -> None:
         fits = memory["count"][tracks] < self.maxSamples
@@ -147,3 +146,26 @@ class ParticleTracks(CloudFunction):
                 {"status": STATUS_NAMES, "patch": cloud.patches, "injector": cloud.injectors},
             ),
         )  # fmt: skip
+
+
+def _released(cloud: ObservedCloud) -> tuple[Rows, NDArray[np.bool_], NDArray[np.float64]]:
+    """Return the numbers of released particles, whether they have ended, and their points of paths.
+
+    The fields are unknown where they have ended: the flow of that time may not be loaded.
+    """
+    p = cloud.particles
+    rows, ended = np.flatnonzero(p.status != Status.PENDING), cloud.has_ended(slice(None))
+    moving = cloud.seeing(p._replace(host=np.where(ended, -1, p.host).astype(p.host.dtype)))
+    return p.number[rows], ended[rows], _points(cloud, rows, moving.fields(rows))
+
+
+def _points(cloud: ObservedCloud, rows: Rows, fields: Mapping[str, FieldValues]) -> NDArray[np.float64]:
+    """Return points of paths of particles."""
+    p = cloud.particles
+    point = [p.x[rows], p.t[rows], p.v[rows], *cloud.measure(rows, *_TRACKED), np.zeros(len(rows))]
+    return np.column_stack([*point, _values(fields, len(rows))])
+
+
+def _values(fields: Mapping[str, FieldValues], n: int) -> NDArray[np.float64]:
+    """Return the values of fields at n points side by side."""
+    return np.concatenate([np.empty((n, 0)), *(f.values for f in fields.values())], axis=1)

@@ -65,6 +65,12 @@ class RankHomes:
         found = concatenate(self._order("chosen", numbers))
         return found.take(np.argsort(found.number))
 
+    def observe(
+        self, numbers: NDArray[np.int64], function: Callable[..., Value], time: float, *arguments: Any
+    ) -> list[Value]:
+        """See :class:`foamprb.cloud.cloud.Homes`."""
+        return self._order("observe", numbers, function, time, *arguments)
+
     def in_order(
         self, function: Callable[..., Value], *arguments: Any, of: str | None = None
     ) -> Iterator[Value]:

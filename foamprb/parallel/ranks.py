@@ -215,10 +215,11 @@ class RankStepper(Stepper):
     def sample_away(self, names: Sequence[str]) -> list[str]:
         """Let the cloud functions sample that can do so on all processes; return the others."""
         self._record_rebounds()
+        if names:
+            self._publish_present()
         travelling = self._functions.travelling
         away = [name for name in names if name in travelling]
         if away:
-            self._publish_present()
             self.ranks.order("sample", away, self.cloud.time)
             summing = [name for name in away if name in self._functions.summing]
             if summing:

@@ -46,6 +46,11 @@ class Sampling:
             cloud.patches,
         )
 
+    def cloud(self, p: Particles, flow: LoadedFlow, tracker: Tracker, time: float) -> ObservedCloud:
+        """Return the cloud with some of its particles as functions observe it; see :meth:`observe`."""
+        share: Any = CloudShare(self.interactions, flow, self.medium, tracker, time)
+        return ObservedCloud(share, self.injectors, self.patches, seen=p)
+
     def observe(
         self,
         names: Iterable[str],
@@ -72,8 +77,7 @@ class Sampling:
         observe
             Lets a function observe the particles.
         """
-        share: Any = CloudShare(self.interactions, flow, self.medium, tracker, time)
-        cloud, found = ObservedCloud(share, self.injectors, self.patches, seen=p), {}
+        cloud, found = self.cloud(p, flow, tracker, time), {}
         for name in names:
             function, known = self.functions[name], memory_of(memory, name)
             if function.events:

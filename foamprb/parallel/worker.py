@@ -447,6 +447,13 @@ class Worker:
             names, own.memory, own.particles, self._seen, self._tracker, time, self._events, observe
         )
 
+    def observe(
+        self, numbers: NDArray[np.int64], function: Callable[..., Any], time: float, *arguments: Any
+    ) -> Any:
+        """Return what a function finds of those of some particles that this process advances, as a cloud."""
+        own = self.particles.take(np.flatnonzero(np.isin(self.particles.number, numbers)))
+        return function(self._sampling.cloud(own, self._seen, self._tracker, time), *arguments)
+
     def take_events(self) -> Memory:
         """Return the events that the functions have recorded since the last call."""
         found, self._events = {**self._sampling.events, **self._events}, {}
