@@ -127,7 +127,10 @@ def test_values_along_paths_and_after_a_restart(tmp_path):
     put_linear(time, mesh, at=np.array([100.0, 0.0, 0.0]))
     put_linear(time, mesh, "thermo:rho", begin=2.0, at=np.zeros(3))
     put_linear(time, mesh, "rho", at=np.eye(3), begin=0.0, dimensions="[0 1 -1 0 0 0 0]")
-    entry = "cloudFunctions { sample { type fieldSampling; fields (T rho thermo:rho); }"
+    entry = """cloudFunctions
+    {
+        sample { type fieldSampling; fields (T rho thermo:rho); }
+        paths { type particleTracks; trackInterval 10; maxSamples 100; }"""
     edit(case, r"^cloudFunctions\s*\{", entry)
     stop_after(case, 0.5 * END)
     run_steady(case, "-resume")
@@ -150,7 +153,9 @@ def test_values_along_paths_and_after_a_restart(tmp_path):
     np.testing.assert_array_equal(column(fates, "T"), column(rows, "T"))
     np.testing.assert_array_equal(column(fates, "rhocz"), column(rows, "rhocz"))
     np.testing.assert_allclose(column(fates, "thermo:rho"), 2.0, rtol=1e-12)
-    for file in (sorted(output.rglob("*.vtp"))[0], *output.rglob("tracks.vtp")):
+    tracks = output / "paths/tracks.vtp"
+    assert 1 in pyvista.read(tracks).cell_data["status"]
+    for file in (sorted(output.rglob("*.vtp"))[0], tracks):
         data = pyvista.read(file)
         np.testing.assert_allclose(data.point_data["T"], 100.0 * data.points[:, 0] - 1.0, atol=1e-9)
         np.testing.assert_allclose(data.point_data["rhoc"], data.points, atol=1e-12)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import thread_mpi
+from hypothesis import given
+from hypothesis import strategies as st
 from mesh_shapes import cyclic_row
 from observing import WATER, observed, pipe_cloud
 
@@ -11,7 +13,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Cyclic, Rebound
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
-from foamprb.cloudfunctions.base import Memory
+from foamprb.cloudfunctions.base import Memory, in_time
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.haemolysis import Haemolysis
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
@@ -32,6 +34,13 @@ FUNCTIONS = {
     "blood": Haemolysis("Ding", "morphology", sampleInterval=5),
     "paths": ParticleTracks(5, 100),
 }
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 2)), max_size=8), st.booleans())
+def test_events_are_ordered_by_time_then_by_number(rows, sort):
+    events = np.array([(n, t, k) for k, (n, t) in enumerate(rows)], dtype=float).reshape(-1, 3)
+    expected = sorted(events.tolist(), key=lambda row: (row[1], row[0]))
+    assert in_time(np.reshape(expected, (-1, 3)) if sort else events).tolist() == expected
 
 
 def _sample(function, memory, cloud):
