@@ -58,7 +58,18 @@ class Homes(Protocol):
     def observe(
         self, numbers: NDArray[np.int64], function: Callable[..., Value], time: float, *arguments: Any
     ) -> list[Value]:
-        """Return what a function finds of particles as a cloud function observes them where they move."""
+        """Return what a function finds of some particles, as a cloud function observes them, on each process.
+
+        Parameters
+        ----------
+        numbers
+            The particles; rising.
+        function
+            Called with an ``ObservedCloud`` that has only those of them that a process moves, and the
+            ``arguments``.
+        time
+            Time of the state, s.
+        """
 
     def at_homes(self, function: Callable[..., Value], *arguments: Any, of: str | None = None) -> list[Value]:
         """See :meth:`Cloud.at_homes`; ``of`` adds what a cloud function remembers to the arguments."""
@@ -82,8 +93,8 @@ class Homes(Protocol):
             Returns what is remembered of some particles.
         """
 
-    def share_sums(self, name: str, sums: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Make room for the sums of cells of a cloud function; return what this process has, no rows."""
+    def share_sums(self, name: str, shape: tuple[int, ...]) -> None:
+        """Make room for sums of a cloud function, of a shape (n_cells, …), some cells on each process."""
 
     def of_cells(self, name: str, part: slice) -> NDArray[np.float64]:
         """Return the sums of consecutive cells of a cloud function."""

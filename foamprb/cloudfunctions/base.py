@@ -29,6 +29,7 @@ from foamprb.flow.loaded import LoadedFlow
 from foamprb.results.tables import Column
 
 __all__ = [
+    "CELLS",
     "STATUS_NAMES",
     "CloudFunction",
     "CloudShare",
@@ -37,6 +38,7 @@ __all__ = [
     "Rows",
     "SampleInterval",
     "SampledFunction",
+    "add_up",
     "append",
     "columns",
     "in_time",
@@ -170,7 +172,7 @@ class ObservedCloud:
         return contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time)
 
     def of_cells(self, sums: NDArray[np.float64], n: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
-        """Yield parts of n cells in their order, and their sums; see :attr:`CloudFunction.sums`."""
+        """Yield parts of n cells in their order, and the sums of each; see :attr:`CloudFunction.sums`."""
         homes = self.cloud.homes
         for first in range(0, n, CELLS):
             part = slice(first, min(first + CELLS, n))
@@ -221,7 +223,7 @@ class CloudFunction:
 
     whole: ClassVar[bool] = True
     """Whether it reads ``particles`` of the whole cloud, which the first process of several then collects for
-    each call. Otherwise it uses :meth:`ObservedCloud.of`, ``at_homes`` and ``in_order``, or has
+    each call. Otherwise it uses :meth:`ObservedCloud.of`, ``observe``, ``at_homes`` and ``in_order``, or has
     :attr:`rows`."""
     rows: ClassVar[bool] = False
     """Whether all its arrays have a row for each particle, but :attr:`events`, :attr:`common` and ``sums``.
@@ -248,7 +250,7 @@ class CloudFunction:
         """Return the arrays with a row for each particle."""
         if not self.rows:
             return {}
-        others = {self.events, "sums", *self.common}
+        others = {self.events, *self.common, *(("sums",) if self.sums else ())}
         return {key: array for key, array in memory.items() if key not in others}
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
@@ -360,7 +362,7 @@ def in_time(events: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def add_up(sums: NDArray[np.float64], events: NDArray[np.float64]) -> None:
-    """Add events to sums of cells in their order; see :attr:`CloudFunction.sums`."""
+    """Add events, (n, 3 + k), in their order to sums, (n_cells, k); see :attr:`CloudFunction.sums`."""
     cell = events[:, 2].astype(np.int64)
     for total, values in zip(sums.T, events[:, 3:].T, strict=True):
         np.add.at(total, cell, values)

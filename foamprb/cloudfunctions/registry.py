@@ -88,7 +88,8 @@ class CloudFunctions:
         self._memory[name] = memory = function.begin(cloud.seeing(empty(0)))
         homes.remember({f"{name}/{key}": array for key, array in function.of_particles(memory).items()})
         if function.sums:
-            memory["sums"] = homes.share_sums(name, memory["sums"])
+            homes.share_sums(name, memory["sums"].shape)
+            memory["sums"] = memory["sums"][:0].copy()
         homes.begin(name, lambda p: function.of_particles(function.begin(cloud.seeing(p))))
 
     def _seen_by(self, name: str) -> ObservedCloud:
@@ -138,7 +139,7 @@ class CloudFunctions:
             self._observe(name, function.sample)
             if function.sums:
                 add_up(memory["sums"], memory[function.events])
-                memory[function.events] = memory[function.events][:0]
+                memory[function.events] = memory[function.events][:0].copy()
 
     def _observe(self, name: str, observe: Callable[[Memory, ObservedCloud], None]) -> None:
         """Let a function observe particles, and add its events in their order."""

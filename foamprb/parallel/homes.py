@@ -98,11 +98,9 @@ class RankHomes:
         for p in self.in_order(same):
             self._put(p.number, {f"{name}/{key}": array for key, array in first(p).items()})
 
-    def share_sums(self, name: str, sums: NDArray[np.float64]) -> NDArray[np.float64]:
+    def share_sums(self, name: str, shape: tuple[int, ...]) -> None:
         """See :class:`foamprb.cloud.cloud.Homes`."""
-        none = sums[:0].copy()
-        self._order("share_sums", name, len(sums), none)
-        return none
+        self._order("share_sums", name, shape)
 
     def of_cells(self, name: str, part: slice) -> NDArray[np.float64]:
         """See :class:`foamprb.cloud.cloud.Homes`."""

@@ -147,22 +147,14 @@ class Worker:
         more = {name: np.zeros((n, *array.shape[1:]), dtype=array.dtype) for name, array in layout.items()}
         self.own = self.own._replace(memory={**self.own.memory, **more})
 
-    def share_sums(self, name: str, n: int, none: Floats) -> None:
-        """Make room for sums of some cells of a function.
-
-        Parameters
-        ----------
-        name
-            The function.
-        n, none
-            Number of all cells, and sums without rows.
-        """
-        homes = self._homes
+    def share_sums(self, name: str, shape: tuple[int, ...]) -> None:
+        """Make room for sums of a function, of a shape (n_cells, …), of the cells that this process has."""
+        homes, n = self._homes, shape[0]
         # A process without a part of a checkpoint has none.
         first = np.where(homes == homes[-1], n, homes * n // max(homes[-1], 1))
         first[0] = 0
         own = first[self.rank + 1] - first[self.rank]
-        self._sums[name] = first, np.zeros((int(own), *none.shape[1:]))
+        self._sums[name] = first, np.zeros((int(own), *shape[1:]))
 
     def put(self, rank: int, first: int, arrays: Mapping[str, NDArray[Any]] | None = None) -> None:
         """Store arrays of particles at a home.
@@ -337,9 +329,8 @@ class Worker:
 
     def normals(self, numbers: NDArray[np.int64]) -> tuple[NDArray[np.int64], Floats]:
         """Return which of some particles this process has, and the normals of the walls where they ended."""
-        own = self.particles.number
-        rows = np.flatnonzero(np.isin(own, numbers))
-        return own[rows], self._tracker.contact_normals(self._flow, self.particles, rows)
+        rows = self._rows_of(numbers)
+        return self.particles.number[rows], self._tracker.contact_normals(self._flow, self.particles, rows)
 
     def wall_distances(self, x: Floats, numbers: NDArray[np.int64], *others: Any) -> Any:
         """Return which hosts are in own cells of the node, and the distances from walls there.
@@ -451,7 +442,7 @@ class Worker:
         self, numbers: NDArray[np.int64], function: Callable[..., Any], time: float, *arguments: Any
     ) -> Any:
         """Return what a function finds of those of some particles that this process advances, as a cloud."""
-        own = self.particles.take(np.flatnonzero(np.isin(self.particles.number, numbers)))
+        own = self.particles.take(self._rows_of(numbers))
         return function(self._sampling.cloud(own, self._seen, self._tracker, time), *arguments)
 
     def take_events(self) -> Memory:
@@ -467,7 +458,7 @@ class Worker:
                 found = self._route(np.searchsorted(first[1:], events[:, 2], side="right")).send(events)
             found[:, 2] -= first[self.rank]
             add_up(sums, in_time(found))
-            self._events[name] = events[:0]
+            self._events[name] = events[:0].copy()
 
     def of_cells(self, name: str, part: slice) -> Floats:
         """Return the sums of those of some consecutive cells that this process has."""
@@ -478,6 +469,10 @@ class Worker:
     def each(self, function: Callable[..., Any], time: float, *arguments: Any) -> Any:
         """Return what a function finds of the particles that this process advances."""
         return function(self.particles, self._seen, time, *arguments)
+
+    def _rows_of(self, numbers: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the rows of those of some particles that this process has."""
+        return np.flatnonzero(np.isin(self.particles.number, numbers))
 
     @property
     def _in_order(self) -> NDArray[np.int64]:
@@ -501,7 +496,7 @@ class Worker:
 
     def chosen(self, numbers: NDArray[np.int64]) -> Particles:
         """Return those of some particles that this process holds."""
-        rows = np.flatnonzero(np.isin(self.particles.number, numbers))
+        rows = self._rows_of(numbers)
         return self._with_whole_hosts(Share(self.particles.take(rows))).particles
 
     def of_home(

@@ -7,11 +7,13 @@ import shutil
 
 import numpy as np
 import pytest
-from observing import observe, pipe_cloud
+import small_clouds
+from observing import observe, observed, pipe_cloud
 from paths import PIPE
 
 from foamprb.cli import main
 from foamprb.cloudfunctions.particle_statistics import ParticleStatistics
+from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.read.field import Kind, read_field
 from foamprb.flow.read.openfoam import read_case
@@ -117,6 +119,19 @@ def test_a_run_without_stress_and_another_file_are_refused(run, tmp_path, capsys
     assert main(["export", "stress", "-case", str(run)]) == 1
     assert "type particleStatistics; sigmaParticles yes;" in capsys.readouterr().err
     (tmp_path / "fields").rename(results)
+
+
+def test_times_and_deformation_are_the_same_with_the_stress(tmp_path):
+    sums = []
+    for sigmaParticles in (False, True):
+        cloud = small_clouds.box_cloud("stokes")
+        functions = CloudFunctions({"f": ParticleStatistics(1, sigmaParticles)}, observed(cloud))
+        for _ in range(10):
+            cloud.advance(1)
+            functions.sample(functions.functions)
+        sums.append(functions.state()["f/sums"])
+    assert (sums[0] > 0.0).any(axis=0).all()
+    assert sums[0].tobytes() == sums[1][:, :2].tobytes()
 
 
 def test_a_flow_without_a_mesh_is_refused(tmp_path):

@@ -240,7 +240,7 @@ def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path
     cloud = pipe_cloud()
     written, processes = at_homes(cloud, before)
     functions = CloudFunctions(FUNCTIONS, observed(written))
-    written.homes.share_sums("cells", np.zeros((11, 2)))
+    written.homes.share_sums("cells", (11, 2))
     for worker in processes.workers:
         first, sums = worker._sums["cells"]
         sums[:] = np.arange(*first[worker.rank : worker.rank + 2])[:, None] + [0.5, 0.25]
@@ -262,7 +262,7 @@ def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path
 
     again, others = at_homes(pipe_cloud(), 3)
     CloudFunctions(FUNCTIONS, observed(again))
-    again.homes.share_sums("cells", np.zeros((11, 2)))
+    again.homes.share_sums("cells", (11, 2))
     again.homes.restore(file)
     assert again.homes.of_cells("cells", slice(2, 9))[:, 0].tolist() == (np.arange(2, 9) + 0.5).tolist()
     for found, expected in zip(again.whole(), cloud.particles, strict=True):
@@ -277,7 +277,7 @@ def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path
 def test_processes_that_write_checkpoints_have_all_sums(particles):
     processes = Processes(3)
     homes = processes.homes_of(pipe_cloud().particles.take(slice(particles)))
-    homes.share_sums("cells", np.zeros((11, 2)))
+    homes.share_sums("cells", (11, 2))
     of_each = [len(w._sums["cells"][1]) for w in processes.workers]
     assert of_each == {0: [11, 0, 0], 1: [11, 0, 0], 2: [5, 6, 0], 40: [3, 4, 4]}[particles]
 
