@@ -7,6 +7,7 @@ import json
 import zlib
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
+from functools import cache
 from pathlib import Path, PurePosixPath
 from typing import Any, TypeAlias
 
@@ -85,7 +86,7 @@ class Manifest:
         self._write({})
 
     def _write(self, sums: Mapping[str, Checksum]) -> None:
-        names = sorted(file.relative_to(self.folder).as_posix() for file in self.files)
+        names = sorted(_name(file, self.folder) for file in self.files)
         content = {"format": FORMAT, "files": names, "sha256": _digest(names), "sums": sums}
         write_text(self.path, f"{json.dumps(content, indent=1)}\n")
 
@@ -99,9 +100,7 @@ class Manifest:
         OSError
             If a file cannot be read, or the manifest cannot be written.
         """
-        self._write(
-            {file.relative_to(self.folder).as_posix(): checksum(contents[file]) for file in sorted(contents)}
-        )
+        self._write({_name(file, self.folder): checksum(contents[file]) for file in sorted(contents)})
 
     def remove(self, files: Iterable[Path]) -> None:
         """Remove listed files, in order, and the folders that become empty.
@@ -117,6 +116,11 @@ class Manifest:
             for parent in file.relative_to(self.folder).parents[:-1]:
                 with suppress(OSError):
                     (self.folder / parent).rmdir()
+
+
+@cache
+def _name(file: Path, folder: Path) -> str:
+    return file.relative_to(folder).as_posix()
 
 
 def checksum(path: Path) -> Checksum:

@@ -151,19 +151,10 @@ def _arrays_of(p: Particles, memory: Mapping[str, NDArray[Any]]) -> dict[str, ND
     }
 
 
-def checksums(
-    folder: Path, entries: Sequence[SnapshotFile], known: Mapping[str, Checksum]
-) -> dict[str, Checksum]:
-    """Return the sizes and checksums of the files of snapshots by name; known ones are not read again."""
-    found: dict[str, Checksum] = {}
-    for entry in entries:
-        names = [name for name in known if name == entry.file or name.startswith(f"{Path(entry.file).stem}/")]
-        if entry.file in names:
-            found |= {name: known[name] for name in names}
-        else:
-            files = files_of(folder / entry.file)
-            found |= {file.relative_to(folder).as_posix(): checksum(file) for file in files}
-    return found
+def checksums(folder: Path, entries: Sequence[SnapshotFile]) -> dict[str, Checksum]:
+    """Return the sizes and checksums of the files of snapshots, by name."""
+    files = [file for entry in entries for file in files_of(folder / entry.file)]
+    return {file.relative_to(folder).as_posix(): checksum(file) for file in files}
 
 
 def require_choice(folder: ResultsFolder, start_from: StartFrom | None) -> None:
@@ -300,7 +291,7 @@ def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tupl
     missing = [file.relative_to(pvd.parent) for file in files if not file.exists()]
     fault = f"{missing[0]} is missing" if missing else fault
     if not fault:
-        now, then = checksums(pvd.parent, entries, {}), checkpoint.header["sums"]
+        now, then = checksums(pvd.parent, entries), checkpoint.header["sums"]
         changed = [name for name, found in now.items() if found != then.get(name)]
         fault = f"{changed[0]} was changed or cut after it was written" if changed else ""
     if fault:
@@ -319,7 +310,7 @@ def _existing(stem: Path) -> Path:
 
 def _stems(entries: Sequence[SnapshotFile]) -> list[list[float | str]]:
     """Return times and files without their endings, which depend on how many processes wrote them."""
-    return [[entry.time, Path(entry.file).stem] for entry in entries]
+    return [[entry.time, entry.file.rpartition(".")[0]] for entry in entries]
 
 
 def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:

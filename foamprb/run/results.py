@@ -326,7 +326,8 @@ class Results:
         self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]], parts: Sequence[tuple[int, str]]
     ) -> None:
         entries = self._series.entries
-        self._sums = checksums(self._job.folder.path, entries, self._sums)
+        new = [entry for entry in entries if entry.file not in self._sums]
+        self._sums |= checksums(self._job.folder.path, new)
         given = self._sums, self._fingerprint, parts, self._around
         self._checkpoints.write(checkpoint_of(cloud, memory, entries, *given))
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import errno
 import json
 import re
+import sys
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -17,9 +19,11 @@ from pipe_case import edit, message, results
 
 from foamprb import execute, prepare
 from foamprb.cli import main
+from foamprb.cloud.cloud import Stepper
 from foamprb.cloud.state import Status
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
+from foamprb.results.background import Writer
 from foamprb.results.checkpoint import Checkpoints
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.manifest import Manifest
@@ -345,3 +349,27 @@ def test_a_case_that_is_moved_ends_its_run(case):
         execute(job, stop=move)
     assert not case.exists()
     assert (elsewhere / "postProcessing/softCloud/softCloud.pvd").exists()
+
+
+def test_the_cost_of_a_write_is_linear_in_the_number_of_snapshots(case):
+    job, calls = prepare(case, threads=1), [0]
+
+    def count(_frame: object, event: str, _argument: object) -> None:
+        calls[-1] += event in ("call", "c_call")
+
+    with atomic.only_writer(job.folder.path), Writer() as thread:
+        written = results_of_run.Results(job, thread)
+        written.begin("startTime")
+        stepper = Stepper(job.cloud, job.functions)
+        threading.setprofile(count)
+        sys.setprofile(count)
+        try:
+            for job.cloud.step in range(1, 61):
+                written.write(stepper)
+                thread.finish()
+                calls.append(0)
+        finally:
+            sys.setprofile(None)
+            threading.setprofile(None)
+    # Lists of the snapshots take some twenty calls for each; comparing all pairs of them took thousands.
+    assert sum(calls[50:60]) - sum(calls[20:30]) < 10 * 30 * 30
