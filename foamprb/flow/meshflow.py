@@ -81,17 +81,12 @@ def shortest_extent(corners: Floats, of_all: Callable[[Any], list[Any]] = alone)
     return float(extents[totals > _FACING * totals.sum()].min(initial=np.inf))
 
 
-def _folds(
-    mesh: Mesh, nodes: Floats, tree: Tree, everywhere: Callable[[Floats], Floats]
-) -> tuple[NDArray[np.uint8], Ints, Ints]:
-    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`.
-
-    ``everywhere`` returns the boxes of inverted tetrahedra of the whole mesh, if this is a part.
-    """
+def _folds(mesh: Mesh, nodes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], Ints, Ints]:
+    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
     folds = np.zeros(mesh.n_cells, dtype=np.uint8)
     folded = np.empty((mesh.inverted, 6))
     n = link(grade)(nodes, mesh.tets, mesh.n_points, folds, folded)
-    folded = everywhere(folded[:n])
+    folded = folded[:n]
     start, rim = np.zeros(mesh.n_cells + 1, dtype=np.int32), np.empty(0, dtype=np.int32)
     if len(folded) > 0:
         boxes = cell_boxes(mesh)
@@ -204,10 +199,9 @@ class MeshFlow:
         self._zones = zones
         self.patches = mesh.patches
         self.notes = tuple(notes)
-        inverted, n_tets = self._inverted(mesh)
-        if inverted:
+        if mesh.inverted:
             self.notes += (
-                f"{inverted} of {n_tets} tetrahedra are inverted: the mesh has cells "
+                f"{mesh.inverted} of {len(mesh.tets)} tetrahedra are inverted: the mesh has cells "
                 "far from convex there, and paths through them take longer.",
             )
         self.bounds, self.width = self._extents(mesh)
@@ -222,7 +216,7 @@ class MeshFlow:
         nodes[:, FREE] = free_nodes(mesh)
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
-        folds, rim_start, rim = _folds(mesh, nodes, tree, self._everywhere)
+        folds, rim_start, rim = _folds(mesh, nodes, tree)
         across, partners = triangles_across(mesh)
         self._arrays = no_mesh()._replace(
             nodes=nodes,
@@ -251,17 +245,9 @@ class MeshFlow:
             strayed=np.zeros(1, dtype=np.int32),
         )
 
-    def _inverted(self, mesh: Mesh) -> tuple[int, int]:
-        """Return the number of inverted tetrahedra, and of all."""
-        return mesh.inverted, len(mesh.tets)
-
     def _tree(self, mesh: Mesh) -> Tree:
         """Return the tree over the cells."""
         return build_tree(cell_boxes(mesh))
-
-    def _everywhere(self, rows: Floats) -> Floats:
-        """Return rows of all parts of the mesh; here there is one."""
-        return rows
 
     def _extents(self, mesh: Mesh) -> tuple[tuple[Floats, Floats], float]:
         """Return ``bounds`` and ``width``; see :class:`foamprb.flow.base.Flow`."""

@@ -17,10 +17,9 @@ from foamprb.flow.mesh.geometry import Faces, inward_normals, largest_fluxes
 from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.locator import cell_boxes, depth_of
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.parting import inverted_boxes
 from foamprb.flow.mesh.submesh import BEYOND, Halo, Homes
 from foamprb.flow.mesh.tree import Tree, build_tree
-from foamprb.flow.meshflow import AT_ONCE, MeshFlow, Numbering, end_triangles, shortest_extent
+from foamprb.flow.meshflow import MeshFlow, Numbering, end_triangles, shortest_extent
 from foamprb.flow.nodes import NodeValues
 from foamprb.flow.rotating import RotatingArrays, RotatingFlow
 from foamprb.flow.series import SeriesFlow
@@ -70,23 +69,6 @@ class PartFlow(MeshFlow):
         """(n_cells,) first tetrahedron of each cell in the whole mesh."""
         self.counts = n_cells, n_points, sum(tets)
         """Cells, points and tetrahedra of the whole mesh."""
-
-    def _inverted(self, mesh: Mesh) -> tuple[int, int]:
-        own = np.flatnonzero(self.halo.part.own[mesh.tets[:, 0] - mesh.n_points])
-        inverted = 0
-        if self.halo.any(mesh.inverted > 0):
-            nodes = mesh.nodes
-            for start in range(0, len(own), AT_ONCE):
-                vertices = nodes[mesh.tets[own[start : start + AT_ONCE]]]
-                inverted += int(np.count_nonzero(np.linalg.det(vertices[:, 1:] - vertices[:, :1]) <= 0.0))
-        counts = self.halo.of_all((inverted, len(own)))
-        return sum(n for n, _ in counts), sum(n for _, n in counts)
-
-    def _everywhere(self, rows: Floats) -> Floats:
-        if not self.halo.any(len(rows) > 0):
-            return rows
-        # In the outermost layers others may be inverted than in the whole mesh.
-        return np.concatenate(self.halo.of_all(inverted_boxes(self.halo.part)))
 
     def _extents(self, mesh: Mesh) -> tuple[tuple[Floats, Floats], float]:
         ends = self.halo.of_all((mesh.points.min(axis=0), mesh.points.max(axis=0)))

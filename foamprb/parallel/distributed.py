@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, FieldValues, by_name, width
-from foamprb.flow.mesh.fragment import Labels
+from foamprb.flow.mesh.fragment import IndivisibleMeshError, Labels
 from foamprb.flow.mesh.submesh import layers_over
 from foamprb.flow.meshflow import MeshFlow, MeshSizes
 from foamprb.flow.nodes import Ends, Function, NodeValues, joined, stride_over
@@ -73,17 +73,21 @@ class WholeCounts(NamedTuple):
     tets: range
 
 
-def why_whole(case: Path, source: FlowSource, nodes: int) -> str | None:
-    """Return why each node must hold the whole mesh of a case; None if each can hold a part."""
+def require_divisible(case: Path, source: FlowSource, nodes: int, followed: bool = False) -> None:
+    """Raise IndivisibleMeshError if each node must hold the whole mesh, before any node reads the case.
+
+    ``followed`` is true if the solver of the flow is running.
+    """
+    if followed:
+        raise IndivisibleMeshError("-follow reads times while the solver writes them")
     if source.file is not None:
-        return "a mesh file is read"
+        raise IndivisibleMeshError("a mesh file is read")
     if not (source.decomposed or is_only_decomposed(case, source.region)):
         found = "the flow is read from the case itself; -decomposed reads its processor folders"
-        return found if processor_folders(case) else "it is not decomposed"
+        raise IndivisibleMeshError(found if processor_folders(case) else "it is not decomposed")
     opened = DecomposedCase(case, source.region)
     if opened.processors.n < nodes:
-        return f"the case has {opened.processors.n} processor folders for {nodes} nodes"
-    return None
+        raise IndivisibleMeshError(f"the case has {opened.processors.n} processor folders for {nodes} nodes")
 
 
 class DistributedFlow:
@@ -345,11 +349,6 @@ class DistributedSeries(Timeline, DistributedFlow):
         super().__init__(*given)
         first = self.summaries[0]
         self._set_times(first.times, first.period)
-
-    def extend(self, names: Sequence[str], usable: int) -> None:
-        """See :meth:`Timeline.extend`."""
-        self._ask("extend", names, usable)
-        super().extend(names, usable)
 
     def load(self, start: float, end: float) -> float:
         """Let all nodes load times; see :meth:`foamprb.flow.series.SeriesFlow.load`.

@@ -31,8 +31,9 @@ from foamprb.cloud.tracker import Outcome, never
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.fields import Fields
 from foamprb.flow.loaded import loaded_fields
+from foamprb.flow.mesh.fragment import IndivisibleMeshError
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.parallel.distributed import DistributedFlow, distributed_flow, why_whole
+from foamprb.parallel.distributed import DistributedFlow, distributed_flow, require_divisible
 from foamprb.parallel.exchange import idle_share, plan_exchange
 from foamprb.parallel.homes import RankHomes
 from foamprb.parallel.sampling import Sampling
@@ -91,7 +92,7 @@ class Ranks:
         return [answer.value for answer in answers]
 
     def open_flow(
-        self, case: Path, times: FlowTimes, source: FlowSource, step: float
+        self, case: Path, times: FlowTimes, source: FlowSource, step: float, followed: bool = False
     ) -> DistributedFlow | None:
         """Return the flow of a decomposed case with a part on each of several nodes.
 
@@ -101,6 +102,8 @@ class Ranks:
             The case; the times of the flow; the names of its fields.
         step
             Time between two points where particles can change nodes, s.
+        followed
+            Whether the solver of the flow is running.
 
         Returns
         -------
@@ -109,18 +112,18 @@ class Ranks:
         nodes = self.worker.windows.nodes
         if nodes == 1:
             return None
-        reason = why_whole(case, source, nodes)
-        if reason is not None:
-            log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
-            return None
 
         def open_parts(depth: int, load: NDArray[np.int64] | None) -> list[Any]:
-            # Further times may have become known.
-            now = times._replace(known=tuple(times.known))
-            return self.order("open_part", case, source.region, now, source, depth, load, step)
+            return self.order("open_part", case, source.region, times, source, depth, load, step)
 
         started = clock.perf_counter()
-        flow = distributed_flow(self.order, open_parts, step)
+        try:
+            require_divisible(case, source, nodes, followed)
+            flow = distributed_flow(self.order, open_parts, step)
+        except IndivisibleMeshError as reason:
+            log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
+            self.order("close_part")
+            return None
         flow.seconds = clock.perf_counter() - started
         for number, summary in enumerate(flow.summaries):
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,

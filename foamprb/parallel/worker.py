@@ -281,13 +281,17 @@ class Worker:
         step: float,
     ) -> Summary | None:
         """Read the flow on the cells of this node; return a summary on its first process."""
+        self.close_part()
+        self._part = Part(self._MPI, self.windows)
+        return self._part.open(root, region, times, source, depth, load, step)
+
+    def close_part(self) -> None:
+        """Free the flow on the cells of this node."""
         if self._part is not None:
             self._use_whole_hosts()
             self._part.close()
             self._part = None
             gc.collect()
-        self._part = Part(self._MPI, self.windows)
-        return self._part.open(root, region, times, source, depth, load, step)
 
     def load_of_folders(self, n: int) -> NDArray[np.int64]:
         """Return the number of active particles in each of n processor folders."""

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.tracker import never
@@ -20,7 +20,6 @@ from foamprb.flow.read.flows import open_case
 from foamprb.flow.read.follow import FollowedCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.series import SeriesFlow
-from foamprb.parallel.distributed import DistributedSeries
 from foamprb.results.atomic import only_writer
 from foamprb.results.checkpoint import Checkpoints
 from foamprb.results.folder import ResultsFolder
@@ -29,7 +28,6 @@ from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
 
-FollowedFlow: TypeAlias = SeriesFlow | DistributedSeries
 _ROUND_OFF = 1e-9
 _PAUSE, _LONG_PAUSE, _SHARE = 0.1, 1.0, 0.02
 """Shortest and longest time between two looks at the case, s; and its share of the time waited so far."""
@@ -66,7 +64,7 @@ class Following:
     """
 
     def __init__(
-        self, case: FollowedCase, flow: FollowedFlow, lag: int, patience: float, signal: Callable[[], int]
+        self, case: FollowedCase, flow: SeriesFlow, lag: int, patience: float, signal: Callable[[], int]
     ) -> None:
         self.flow = flow
         self._case, self._lag, self._patience, self._signal = case, lag, patience, signal
@@ -207,7 +205,7 @@ def begin_to_follow(
                 f"{case}: the solver has ended (system/controlDict) with {len(followed.times)} time of the "
                 "flow in the selected range. Allowed: two or more."
             )
-        times = FlowTimes(selection, transient=True, known=followed.times)
+        times = FlowTimes(selection, transient=True)
         flow: Any = read(followed.folder, times, source)
         return Following(followed, flow, lag, options.patience, signal)
     except BaseException:

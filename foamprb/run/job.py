@@ -291,13 +291,18 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
 
 
 def _open_flow(
-    settings: Settings, ranks: Ranks | None, case: Path, times: FlowTimes, source: FlowSource
+    settings: Settings,
+    ranks: Ranks | None,
+    case: Path,
+    times: FlowTimes,
+    source: FlowSource,
+    followed: bool = False,
 ) -> Flow:
     """Return the flow of a case, with a part on each of several nodes if it can be."""
     if ranks is not None:
         solution = settings.solution
         step = solution.deltaT * stretch_of(solution.stride)
-        parts: Any = ranks.open_flow(case, times, source, step)
+        parts: Any = ranks.open_flow(case, times, source, step, followed)
         if parts is not None:
             found: Flow = parts
             return found
@@ -338,7 +343,8 @@ def _follow(
         raise InputError(f"{settings.case}: rotating zones (MRFProperties) are seen in steady flows only.")
     folder = ResultsFolder.of_case(settings.case, settings.name, settings.region, output)
     options = replace(options, start_from=options.start_from or solution.startFrom)
-    selection, read = None if time is None else str(time), partial(_open_flow, settings, ranks)
+    selection = None if time is None else str(time)
+    read = partial(_open_flow, settings, ranks, followed=True)
     signal = (lambda: 0) if ranks is None else ranks.signal
     return begin_to_follow(settings.case, folder, options, selection, source, read, signal)
 

@@ -20,13 +20,14 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.measures import largest_slip
 from foamprb.cloud.state import empty
 from foamprb.errors import InputError
+from foamprb.flow.mesh.fragment import IndivisibleMeshError
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.fluid import _NU, ViscosityField
 from foamprb.flow.read.foamfile import FoamFile
 from foamprb.flow.read.openfoam import flow_of, steady_flow
 from foamprb.flow.read.parts import PartCase, ends_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.parallel.distributed import deepest, distributed_flow, why_whole
+from foamprb.parallel.distributed import deepest, distributed_flow, require_divisible
 from foamprb.parallel.parts import summary_of
 
 
@@ -340,17 +341,25 @@ def test_an_error_that_is_caught_holds_no_arrays_of_its_callers():
     ("changes", "nodes", "reason"),
     [
         ({}, 2, "the flow is read from the case itself; -decomposed reads its processor folders"),
-        ({"decomposed": True}, 2, None),
+        ({"file": Path("mesh.vtu")}, 2, "a mesh file is read"),
         ({"decomposed": True}, 3, "the case has 2 processor folders for 3 nodes"),
     ],
 )
 def test_the_reason_for_a_whole_mesh_is_given(changes, nodes, reason, case):
-    assert why_whole(case, FlowSource(**changes), nodes) == reason
+    require_divisible(case, FlowSource(decomposed=True), 2)
+    with pytest.raises(IndivisibleMeshError, match=reason):
+        require_divisible(case, FlowSource(**changes), nodes)
+
+
+def test_a_case_beside_its_solver_is_read_as_a_whole(case):
+    with pytest.raises(IndivisibleMeshError, match="-follow reads times while the solver writes them"):
+        require_divisible(case, FlowSource(decomposed=True), 2, followed=True)
 
 
 def test_a_case_without_processor_folders_is_not_decomposed(case, tmp_path):
     whole = shutil.copytree(case, tmp_path / "case", ignore=shutil.ignore_patterns("processor*"))
-    assert why_whole(whole, FlowSource(), 2) == "it is not decomposed"
+    with pytest.raises(IndivisibleMeshError, match="it is not decomposed"):
+        require_divisible(whole, FlowSource(), 2)
 
 
 @given(st.lists(st.tuples(st.integers(1, 1000), st.integers(1, 1000)), min_size=4, max_size=30))

@@ -14,7 +14,7 @@ from scipy.sparse import csgraph
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import mix
-from foamprb.flow.mesh.fragment import NO_PAIRS, Fragment, Pairs, Team, grow, places_of
+from foamprb.flow.mesh.fragment import Fragment, Team
 from foamprb.flow.mesh.geometry import Faces
 from foamprb.flow.mesh.lists import Index, Labels, int32, take_lists
 
@@ -49,49 +49,21 @@ def part_points(points: Floats, faces: Faces, start: Ints, cell_points: Ints) ->
     return np.concatenate([points, points[pairs[0, copy]]]), faces._replace(points=lists), moved
 
 
-def part_fragment(own: Fragment, team: Team, n_internal: int) -> tuple[Fragment, Pairs]:
-    """Duplicate the points of baffles in the own cells of a node; see :func:`part_points`.
+def has_baffles(own: Fragment, team: Team, n_internal: int) -> bool:
+    """Return True if two boundary faces of the own cells of all nodes have the same points.
 
     Parameters
     ----------
     own
-        The cells.
+        The own cells of this node.
     team
         The nodes.
     n_internal
         Number of faces between cells in the whole mesh.
-
-    Returns
-    -------
-    The cells, and (2, n) the copies of all nodes and their originals.
     """
     codes, size = _codes(own.start, own.lists, np.flatnonzero(own.faces >= n_internal)), team.size
     found = np.concatenate(team.exchange([codes[codes % np.uint64(size) == k] for k in range(size)]))
-    if not any(team.of_all(len(np.unique(found)) < len(found))):
-        return own, NO_PAIRS
-    # All cells around the points of own cells.
-    around = grow([own], team, 1).fragment
-    n, lists = len(around.points), places_of(around.points, around.lists)
-    sides = [places_of(around.cells, side) for side in (around.owner, around.neighbour)]
-    corners, groups = _groups(n, around.start, lists, np.flatnonzero(around.faces >= n_internal), *sides)
-    # The lowest cell of each group, and its point.
-    cells, points = np.divmod(corners[np.unique(groups, return_index=True)[1]], n)
-    order = np.lexsort([cells, points])
-    copy = order[1:][points[order[1:]] == points[order[:-1]]]
-    ends = team.of_all((int(own.points.max(initial=-1)), int(own.cells.max(initial=-1))))
-    n_points, n_cells = (1 + max(column) for column in zip(*ends, strict=True))
-    keys = around.points[points] * n_cells + around.cells[cells]
-    complete = copy[np.isin(around.points[points[copy]], own.points)]
-    copies = np.unique(np.concatenate(team.of_all(keys[complete])))
-    place = places_of(copies, keys)
-    names = np.where(place < 0, around.points[points], n_points + place)[groups]
-    side = places_of(around.cells, np.where(own.owner < 0, own.neighbour, own.owner))
-    wanted = np.repeat(side, np.diff(own.start)) * n + places_of(around.points, own.lists)
-    parted = _looked_up(corners, names, wanted, own.lists).astype(np.int64)
-    held, first = np.unique(parted, return_index=True)
-    places = own.places[np.searchsorted(own.points, own.lists[first])]
-    numbers = n_points + np.arange(len(copies)), copies // n_cells
-    return own._replace(points=held, places=places, lists=parted), np.stack(numbers)
+    return any(team.of_all(len(np.unique(found)) < len(found)))
 
 
 def _codes(start: Labels, lists: Labels, faces: Index) -> NDArray[np.uint64]:

@@ -1,7 +1,7 @@
 """Fragments of a mesh, numbered as in the whole, and their growth by layers of cells of other nodes.
 
 A node of a parallel run holds its own cells and some layers of cells around them, which it obtains from the
-nodes that own these. Nobody holds the whole mesh.
+nodes that own these. No node holds the whole mesh.
 """
 
 from __future__ import annotations
@@ -81,14 +81,8 @@ class Team:
         self.exchange(self.size * [None])
 
 
-class Alone(Team):
-    """The only node."""
-
-    rank, size = 0, 1
-
-    def swap(self, parcels: Sequence[Any]) -> list[Any]:
-        """See :meth:`Team.swap`."""
-        return list(parcels)
+class IndivisibleMeshError(InputError):
+    """Reason why each node must hold the whole mesh; all nodes raise it together."""
 
 
 class _Failure(NamedTuple):
@@ -184,7 +178,7 @@ class CellSearch:
         return np.unique(take_lists(self.own.start, self.own.lists, open_)[1]).astype(np.int64)
 
     def points_of(self, faces: Labels) -> Labels:
-        """Return the points of those of some faces that are here."""
+        """Return the points of the locally present faces."""
         here = np.flatnonzero(np.isin(self.own.faces, faces))
         return np.unique(take_lists(self.own.start, self.own.lists, here)[1]).astype(np.int64)
 
@@ -195,17 +189,6 @@ def places_of(numbers: Labels, wanted: Labels) -> Index:
         return np.full(len(wanted), -1, dtype=np.intp)
     at = np.minimum(np.searchsorted(numbers, wanted), len(numbers) - 1)
     return np.where(numbers[at] == wanted, at, -1)
-
-
-NO_PAIRS = np.empty((2, 0), dtype=np.int64)
-
-
-def with_copies(points: Labels, copies: Pairs) -> Labels:
-    """Return points, and the others at the same places; ``copies`` (2, n) are points and their originals."""
-    if copies.size == 0:
-        return points
-    originals = np.append(points, copies[1][np.isin(copies[0], points)])
-    return np.unique(np.append(originals, copies[0][np.isin(copies[1], originals)]))
 
 
 class Grown(NamedTuple):
@@ -220,15 +203,8 @@ class Grown(NamedTuple):
     """Number of layers that were added."""
 
 
-def grow(
-    pieces: list[Fragment],
-    team: Team,
-    layers: int,
-    links: Pairs = NO_PAIRS,
-    copies: Pairs = NO_PAIRS,
-    rims: Pairs = NO_PAIRS,
-) -> Grown:
-    """Add layers of cells around the own cells, which share a point, also across coupled faces and baffles.
+def grow(pieces: list[Fragment], team: Team, layers: int, links: Pairs) -> Grown:
+    """Add layers of cells around the own cells, which share a point, also across coupled faces.
 
     Parameters
     ----------
@@ -239,15 +215,11 @@ def grow(
     layers
         Number of layers.
     links
-        Boundary faces, rising, and faces that may continue them.
-    copies
-        See :func:`with_copies`.
-    rims
-        Folded cells, rising, and boundary faces in their boxes, whose cells belong to the next layer.
+        Boundary faces, rising, and the faces that continue them.
     """
     own = merged(pieces)
     pieces.clear()
-    everyone, search = range(team.size), CellSearch(own)
+    search = CellSearch(own)
     sent = np.zeros((team.size, len(own.cells)), dtype=bool)
     sent[team.rank] = True
     found = [(own, team.rank, 0)]
@@ -255,7 +227,7 @@ def grow(
     def fetch(points: Labels, number: int) -> None:
         """Find the cells of each node that touch some points, without those that it has sent before."""
         parcels = []
-        for k, wanted in enumerate(team.of_all(with_copies(points, copies))):
+        for k, wanted in enumerate(team.of_all(points)):
             touched = search.touching(wanted) & ~sent[k]
             sent[k] |= touched
             parcels.append(search.take(touched))
@@ -264,17 +236,15 @@ def grow(
 
     # All cells around the other points are own ones.
     points, asked, crossed = search.rim(), own.points, np.empty(0, dtype=np.int64)
-    latest, linked = 0, links.size + rims.size > 0
+    latest = 0
     for number in range(1, layers + 1):
         before, latest = latest, len(found)
         fetch(points, number)
-        if linked:
+        if links.size:
             faces = [_linked_faces(piece, links, asked) for piece, _, _ in found[before:]]
-            faces += [_seconds_of(rims, piece.cells) for piece, _, _ in found[before:latest]]
             across = np.setdiff1d(np.concatenate([asked[:0], *faces]), crossed)
             crossed = np.union1d(crossed, across)
-            asking = team.exchange([across for _ in everyone])
-            answers = team.exchange([search.points_of(wanted) for wanted in asking])
+            answers = team.exchange([search.points_of(wanted) for wanted in team.of_all(across)])
             fetch(np.unique(np.concatenate(answers)), number)
         new = [piece.points for piece, _, _ in found[latest:]]
         points = np.setdiff1d(np.concatenate([asked[:0], *new]), asked)
@@ -290,17 +260,11 @@ def grow(
 
 
 def _linked_faces(part: Fragment, links: Pairs, points: Labels) -> Labels:
-    """Return the faces that may continue the faces with any of some points."""
+    """Return the faces that continue the faces with any of some points."""
     outer = np.flatnonzero(np.isin(part.faces, links[0]))
     if len(outer) == 0:
         return part.faces[:0]
     start, lists = take_lists(part.start, part.lists, outer)
     touched = part.faces[outer[np.logical_or.reduceat(np.isin(lists, points), start[:-1])]]
-    return _seconds_of(links, touched)
-
-
-def _seconds_of(pairs: Pairs, numbers: Labels) -> Labels:
-    """Return the second numbers of the pairs with some first numbers."""
-    first, end = (np.searchsorted(pairs[0], numbers, side=side) for side in ("left", "right"))
-    seconds: Labels = pairs[1][ragged(first, end - first)]
-    return seconds
+    partners: Labels = links[1][np.searchsorted(links[0], touched)]
+    return partners

@@ -1,4 +1,4 @@
-"""Coupled patches of a mesh that nodes hold in parts: each node couples all their faces."""
+"""Cyclic patches of a mesh that nodes hold in parts: each node couples all their faces."""
 
 from __future__ import annotations
 
@@ -8,29 +8,21 @@ from typing import NamedTuple
 import numpy as np
 
 from foamprb.flow.base import Floats, Patch
-from foamprb.flow.mesh.boundary import PatchSurface, with_surface
+from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.fragment import Fragment, Pairs, Team
 from foamprb.flow.mesh.geometry import Faces, measured
-from foamprb.flow.mesh.interfaces import pairs_within
 from foamprb.flow.mesh.lists import Index, int32, ragged, starts, take_lists
-
-_COUPLED = frozenset({"cyclic", "cyclicAMI", "wedge"})
-_MARGIN = 1.9
-"""Factor of a face's radius within which all lists of triangles across lie.
-
-The circle about the corners of a triangle in a circle, enlarged by 1.1, lies within 1.9 times its radius.
-"""
 
 
 class Joints(NamedTuple):
-    """Coupled patches of the whole mesh."""
+    """Cyclic patches of the whole mesh."""
 
     patches: tuple[Patch, ...]
     couplings: tuple[Coupling, ...]
     """Faces have their numbers in the whole mesh."""
     links: Pairs
-    """(2, n) faces, rising, and faces in which a path through them may continue."""
+    """(2, n) faces, rising, and the faces that continue them."""
 
 
 def couple_parts(
@@ -54,36 +46,16 @@ def couple_parts(
     team, source
         The nodes; the name of the mesh for messages.
     """
-    counts = np.where([patch.type in _COUPLED for patch in patches], np.diff(patch_start), 0)
+    counts = np.where([patch.type == "cyclic" for patch in patches], np.diff(patch_start), 0)
     named = [Patch(patch.name, patch.type, patch.neighbour, patch.groups) for patch in patches]
     if not counts.any():
         return Joints(tuple(named), (), np.empty((2, 0), dtype=np.int64))
     numbers = n_internal + ragged(patch_start[:-1], counts)
     faces, points = _gathered(own, numbers, team)
-    centres, areas = measured(points, faces)
-    begin = starts(counts)
-    surfaces = [
-        with_surface(patch, points, faces, slice(*begin[k : k + 2])) if patch.type == "cyclicAMI" else patch
-        for k, patch in enumerate(patches)
-    ]
-    joined, found = couple(named, begin, centres, areas, surfaces, source)
-    rim = np.linalg.norm(points[faces.points] - np.repeat(centres, np.diff(faces.start), axis=0), axis=1)
-    radius = np.maximum.reduceat(rim, faces.start[:-1])
-    links = [np.empty((2, 0), dtype=np.intp)]
-    for coupling in found:
-        if joined[coupling.patch].type != "wedge":
-            pairs = np.stack([coupling.faces, coupling.partners])
-            links += [pairs, pairs[::-1]]
-        if not coupling.matching:
-            there = np.arange(*begin[coupling.other : coupling.other + 2])
-            images = centres[coupling.faces] @ coupling.turn.T + coupling.shift
-            rows, columns = pairs_within(
-                images, radius[coupling.faces], centres[there], radius[there], _MARGIN
-            )
-            pairs = np.stack([coupling.faces[rows], there[columns]])
-            links += [pairs, pairs[::-1]]
-    renumbered = [c._replace(faces=numbers[c.faces], partners=numbers[c.partners]) for c in found]
-    return Joints(joined, tuple(renumbered), numbers[np.unique(np.concatenate(links, axis=1), axis=1)])
+    joined, found = couple(named, starts(counts), *measured(points, faces), patches, source)
+    couplings = tuple(c._replace(faces=numbers[c.faces], partners=numbers[c.partners]) for c in found)
+    links = np.concatenate([[c.faces, c.partners] for c in couplings], axis=1)
+    return Joints(joined, couplings, links[:, np.argsort(links[0])])
 
 
 def _gathered(own: Fragment, numbers: Index, team: Team) -> tuple[Faces, Floats]:

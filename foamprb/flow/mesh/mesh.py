@@ -140,9 +140,7 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     return assemble(poly_of_grid(grid, surfaces, source), source)
 
 
-def assemble(
-    poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple, *, parted: bool = False
-) -> Mesh:
+def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) -> Mesh:
     """Find neighbours, tetrahedra and coupled patches of a mesh.
 
     Parameters
@@ -151,8 +149,6 @@ def assemble(
         Points, faces and patches; the name of the mesh for messages.
     coupled
         Finds the coupled patches as :func:`foamprb.flow.mesh.coupling.couple` does.
-    parted
-        True if each side of a baffle has points of its own already.
 
     Raises
     ------
@@ -162,9 +158,8 @@ def assemble(
     points, faces, *_ = poly
     announce("cells", len(faces.first) - 1, CELL_BYTES)
     cell_start, cell_points = points_of_cells(faces, len(points))
-    if not parted:
-        points, faces, cell_points = part_points(points, faces, cell_start, cell_points)
-        poly = poly._replace(points=points, faces=faces)
+    points, faces, cell_points = part_points(points, faces, cell_start, cell_points)
+    poly = poly._replace(points=points, faces=faces)
     for _ in range(_MOST_TURNS):
         mesh, astray = _assemble(poly, (cell_start, cell_points), source, coupled)
         if len(astray) == 0:

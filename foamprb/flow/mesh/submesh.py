@@ -85,7 +85,7 @@ def assemble_part(
     Parameters
     ----------
     pieces
-        Its cells, parted at baffles; the list is emptied, to free them early.
+        Its cells; the list is emptied, to free them early.
     patches, patch_start
         Patches of the whole mesh, and the first boundary face of each.
     n_internal
@@ -98,7 +98,7 @@ def assemble_part(
     boundary, depth = numbers[2][n_inside:][:n_outside], layers - RINGS
     usable = (layer <= depth)[poly.faces.owner[n_inside : n_inside + n_outside]]
     found = _local_couplings(joints, boundary)
-    mesh = assemble(poly, source, lambda *_: found, parted=True)
+    mesh = assemble(poly, source, lambda *_: found)
     patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
     continued = np.append(usable, np.ones(len(mesh.boundary_centres) - n_outside, dtype=bool))
     one, other = (places_of(boundary, faces) for faces in joints.links)

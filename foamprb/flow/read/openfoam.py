@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -214,7 +214,7 @@ def read_series(
 def flow_of(case: Case, times: FlowTimes, source: FlowSource) -> MeshFlow:
     """Read the flow of a case; see :func:`steady_flow` and :func:`transient_flow`."""
     if times.transient:
-        return transient_flow(case, times.several, times.period, source, times.known)
+        return transient_flow(case, times.several, times.period, source)
     return steady_flow(case, times.steady, source)
 
 
@@ -273,19 +273,17 @@ def _count(zone: RotatingZone, halo: Halo | None) -> int:
     return len(zone.cells) if halo is None else sum(halo.of_all(int(halo.part.own[zone.cells].sum())))
 
 
-def transient_flow(
-    case: Case, times: str | None, period: float | None, source: FlowSource, known: Sequence[str] = ()
-) -> MeshFlow:
+def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
     """Prepare the flow of a case at several times; see :func:`read_series` and :class:`FlowTimes`."""
     if source.relative and read_rotations(case.root, case.region):
         raise InputError(
             f"{case.root}: rotating zones (MRFProperties) are seen from their rotors in steady flows only. "
             "Allowed: solution/transient no, or solution/rotatingZones absolute."
         )
-    names = list(known or case.select_times(times))
+    names = list(case.select_times(times))
     if len(names) == 1:
         return steady_flow(case, names[0], source)
-    kinds = kinds_of(source.sampled, case.fields, [n for n in names if not known or case.folder(n).is_dir()])
+    kinds = kinds_of(source.sampled, case.fields, names)
     for name in names[1:]:
         _refuse_moving(case, name)
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)

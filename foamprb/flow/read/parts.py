@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import Transform
-from foamprb.flow.mesh.fragment import Fragment, Labels, Team, merged
+from foamprb.flow.mesh.fragment import Fragment, IndivisibleMeshError, Labels, Team, merged
 from foamprb.flow.mesh.geometry import Faces, largest_fluxes, measured
 from foamprb.flow.mesh.lists import even_ends
 from foamprb.flow.mesh.parting import hold_part
@@ -27,11 +27,9 @@ from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, PatchField, read_field
 from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import (
-    JOINED,
     Address,
     Piece,
     checked,
-    found_addresses,
     fragment_of,
     join_zones,
     read_addresses,
@@ -41,6 +39,9 @@ from foamprb.flow.read.processors import (
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.turbulence import K_FIELD
 
+_COUPLED = frozenset({"cyclicAMI", "nonConformalCyclic", "wedge"})
+"""Types of coupled patches whose faces do not match one to one, or that only small meshes have."""
+_NO_ADDRESSES = "the processor folders have no files *ProcAddressing"
 _FINE = 1e9
 _ROUND_OFF = 1e-6
 """Relative difference of rates and volumes from those of the whole mesh, at most."""
@@ -64,6 +65,11 @@ class PartCase(DecomposedCase):
         (n,) particles in each of all processor folders, if they count.
     source, step
         Names of the fields; time in which the fluid must not cross the layers, s.
+
+    Raises
+    ------
+    IndivisibleMeshError
+        The folders have no addressing files.
     """
 
     def __init__(
@@ -82,20 +88,28 @@ class PartCase(DecomposedCase):
         """Fields that were read before the mesh was complete, by their files in a folder."""
         self._whole: CaseMesh | None = None
         folder = self.mesh_folder(self._times[-1]).relative_to(self._first)
-        ends = ends_of(self.processors.cells(folder), load, team.size) if team.rank == 0 else None
-        self.processors.chosen = range(*team.spread(ends)[team.rank :][:2])
+        cells = team.spread(self.processors.cells(folder) if team.rank == 0 else None)
+        if cells is None:
+            raise IndivisibleMeshError(_NO_ADDRESSES)
+        self.processors.chosen = range(*ends_of(cells, load, team.size)[team.rank :][:2])
 
     def mesh(self, time: str) -> CaseMesh:
-        """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`."""
+        """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`.
+
+        Raises
+        ------
+        IndivisibleMeshError
+            The folders have no addressing files, or see :func:`hold_part`; or some patches are coupled in
+            another way than ``cyclic`` ones.
+        """
         team, folder = self._team, self.mesh_folder(time)
         files = mesh_files(self._first, time, self.region)
         if self._whole is not None and files == self._files:
             return self._whole
         pieces = read_pieces(self.processors, files, self.root)
         parts = read_addresses(self.processors, files[1].parent, pieces)
-        lacking = any(team.of_all(parts is None))
-        if parts is None or lacking:
-            parts = found_addresses(pieces, team)
+        if any(team.of_all(parts is None)) or parts is None:
+            raise IndivisibleMeshError(_NO_ADDRESSES)
         addresses = parts
         nothing: Any = np.empty(0, dtype=np.int64)
         named = [(part.patches, part.of_patches) for part in parts]
@@ -105,13 +119,17 @@ class PartCase(DecomposedCase):
             for patches, of_patches in listed
         ]
         self._patches, self._ranges = whole_patches(self.root, everywhere)
+        coupled = [patch.type for patch in self._patches if patch.type in _COUPLED]
+        if coupled:
+            raise IndivisibleMeshError(f"the mesh has patches of type {coupled[0]}")
         most = max(int(part.faces.max(initial=-1)) for part in parts)
         n_internal = 1 + max(team.of_all(most)) - int(self._ranges[-1])
         surfaces, ranges = patches_of_mesh(self._patches), self._ranges.astype(np.intp)
 
         def own_cells() -> Fragment:
-            read = pieces or read_pieces(self.processors, files, self.root)
-            fragments = [fragment_of(piece, address) for piece, address in zip(read, addresses, strict=True)]
+            fragments = [
+                fragment_of(piece, address) for piece, address in zip(pieces, addresses, strict=True)
+            ]
             pieces.clear()
             return merged(fragments)
 
@@ -137,8 +155,7 @@ class PartCase(DecomposedCase):
         self._local = patches
         require_volumes(mesh, folder)
         require_patch_shapes(mesh, folder)
-        notes = *([JOINED] if lacking else []), *notes_of_types(patches)
-        self._whole, self._files = CaseMesh(mesh, patches, notes), files
+        self._whole, self._files = CaseMesh(mesh, patches, tuple(notes_of_types(patches))), files
         return self._whole
 
     def _layers(self, pieces: Sequence[Piece], time: str) -> int:

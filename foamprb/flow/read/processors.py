@@ -18,7 +18,7 @@ from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PolyMesh
-from foamprb.flow.mesh.fragment import Alone, Fragment, Team
+from foamprb.flow.mesh.fragment import Fragment
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts, take_lists
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
@@ -107,21 +107,16 @@ class Processors:
             files += blocks
         return files
 
-    def cells(self, folder: Path) -> Labels:
-        """Return the number of cells of each chosen processor, from the beginnings of its addressing files.
-
-        Without these files it is the number of faces.
+    def cells(self, folder: Path) -> Labels | None:
+        """Return the number of cells of each chosen processor, by its addressing files; None without them.
 
         Parameters
         ----------
         folder
             The folder of the mesh in that of a processor.
-
         """
-        files = self.files(folder / _ADDRESSING[2], HEADER_BYTES) or self.files(
-            folder / "owner", HEADER_BYTES
-        )
-        return np.array([file.count() for file in files]) if files else np.ones(len(self.chosen), np.int64)
+        files = self.files(folder / _ADDRESSING[2], HEADER_BYTES)
+        return np.array([file.count() for file in files]) if files else None
 
     def times(self) -> tuple[tuple[str, ...], str]:
         """Return the times that all folders have, and a note on others; InputError if they have none."""
@@ -240,48 +235,20 @@ def read_addresses(processors: Processors, folder: Path, pieces: Sequence[Piece]
     return found
 
 
-class _Outline(NamedTuple):
-    """Sizes and patches of a piece, which all nodes hold of all pieces."""
-
-    faces_file: Path
-    boundary_file: Path
-    cells: int
-    points: int
-    internal: int
-    """Number of faces between its cells."""
-    patches: Sequence[PatchInfo]
-
-
-def found_addresses(pieces: Sequence[Piece], team: Team | None = None) -> list[Address]:
+def found_addresses(pieces: Sequence[Piece]) -> list[Address]:
     """Return a numbering of the whole mesh by which the pieces meet at their processor patches.
-
-    Parameters
-    ----------
-    pieces
-        The pieces; of several nodes each has consecutive ones.
-    team
-        The nodes, which call it together.
 
     Raises
     ------
     InputError
         A processor patch has no counterpart with the same faces.
     """
-    team = team or Alone()
-    own = [
-        _Outline(p.paths[1], p.paths[4], p.n_cells, len(p.points), len(p.neighbour), p.patches)
-        for p in pieces
-    ]
-    listed = team.of_all(own)
-    outlines = [outline for part in listed for outline in part]
-    node_of = np.repeat(np.arange(team.size), [len(part) for part in listed]).tolist()
-    begin = node_of.index(team.rank)
-    internal = starts(np.array([outline.internal for outline in outlines]))
-    between, n = _between(outlines, int(internal[-1]))
-    outer = _boundary_starts(outlines, n)
-    points = _found_points(pieces, outlines, node_of, team)
-    cells, found = starts(np.array([outline.cells for outline in outlines])), []
-    for k, piece in enumerate(pieces, begin):
+    internal = starts(np.array([len(piece.neighbour) for piece in pieces]))
+    between, n = _between(pieces, int(internal[-1]))
+    outer = _boundary_starts(pieces, n)
+    points = _found_points(pieces)
+    cells, found = starts(np.array([piece.n_cells for piece in pieces])), []
+    for k, piece in enumerate(pieces):
         faces = np.full(len(piece.owner), -1, dtype=np.int64)
         turned = np.zeros(len(piece.owner), dtype=bool)
         faces[: len(piece.neighbour)] = np.arange(internal[k], internal[k + 1])
@@ -292,7 +259,7 @@ def found_addresses(pieces: Sequence[Piece], team: Team | None = None) -> list[A
         of_patches = [-1 if "neighbProcNo" in p.entries else i for i, p in enumerate(piece.patches)]
         found.append(
             Address(
-                piece.patches, points[k - begin], faces, turned, np.arange(cells[k], cells[k + 1]),
+                piece.patches, points[k], faces, turned, np.arange(cells[k], cells[k + 1]),
                 np.array(of_patches, dtype=np.int64),
             )
         )  # fmt: skip
@@ -304,14 +271,14 @@ def _other(patch: PatchInfo) -> int:
     return int(patch.entries["neighbProcNo"]) if patch.type == "processor" else -1
 
 
-def _between(outlines: Sequence[_Outline], n: int) -> tuple[dict[tuple[int, int], int], int]:
+def _between(pieces: Sequence[Piece], n: int) -> tuple[dict[tuple[int, int], int], int]:
     """Number the faces of processor patches from n on.
 
     Returns
     -------
     The first face of each pair of pieces, and the number behind the last face.
     """
-    patches = {(k, _other(p)): p for k, outline in enumerate(outlines) for p in outline.patches}
+    patches = {(k, _other(p)): p for k, piece in enumerate(pieces) for p in piece.patches}
     first = {}
     for (own, other), patch in sorted(patches.items()):
         if other < 0:
@@ -319,7 +286,7 @@ def _between(outlines: Sequence[_Outline], n: int) -> tuple[dict[tuple[int, int]
         beyond = patches.get((other, own))
         if beyond is None or beyond.faces != patch.faces:
             raise InputError(
-                f"{outlines[own].boundary_file}: patch {patch.name} has {patch.faces} faces, but the patch "
+                f"{pieces[own].paths[4]}: patch {patch.name} has {patch.faces} faces, but the patch "
                 f"of processor {other} to it has {beyond.faces if beyond else 0}."
             )
         if own < other:
@@ -328,7 +295,7 @@ def _between(outlines: Sequence[_Outline], n: int) -> tuple[dict[tuple[int, int]
     return first, n
 
 
-def _boundary_starts(outlines: Sequence[_Outline], n: int) -> dict[tuple[int, str], int]:
+def _boundary_starts(pieces: Sequence[Piece], n: int) -> dict[tuple[int, str], int]:
     """Number the boundary faces from n on, patch by patch; those of two cyclic patches in the same order.
 
     Returns
@@ -336,13 +303,13 @@ def _boundary_starts(outlines: Sequence[_Outline], n: int) -> dict[tuple[int, st
     The first face of each patch of each piece.
     """
     segments: dict[str, list[tuple[tuple[int, int], int, PatchInfo]]] = {}
-    names = [patch.name for outline in outlines[:1] for patch in outline.patches]
-    for own, outline in enumerate(outlines):
-        for patch in outline.patches:
+    names = [patch.name for piece in pieces[:1] for patch in piece.patches]
+    for own, piece in enumerate(pieces):
+        for patch in piece.patches:
             if patch.type == "processor":
                 continue
             name = patch.entries.get("referPatch", patch.name)
-            whole = next((p for p in outline.patches if p.name == name), patch)
+            whole = next((p for p in piece.patches if p.name == name), patch)
             other = int(patch.entries.get("neighbProcNo", own))
             first = whole.neighbour not in names or names.index(name) < names.index(whole.neighbour)
             segments.setdefault(name, []).append(((own, other) if first else (other, own), own, patch))
@@ -354,20 +321,15 @@ def _boundary_starts(outlines: Sequence[_Outline], n: int) -> dict[tuple[int, st
     return found
 
 
-def _found_points(
-    pieces: Sequence[Piece],
-    outlines: Sequence[_Outline],
-    node_of: Sequence[int],
-    team: Team,
-) -> list[Labels]:
+def _found_points(pieces: Sequence[Piece]) -> list[Labels]:
     """Return the numbers of the points of each piece: those that coincide have one.
 
     Points are numbered by the first piece that has them, in its order.
     """
-    begin, ends = node_of.index(team.rank), starts(np.array([len(piece.points) for piece in pieces]))
+    ends = starts(np.array([len(piece.points) for piece in pieces]))
     rows: dict[tuple[int, int], Index] = {}
     sizes: dict[tuple[int, int], Ints] = {}
-    for k, piece in enumerate(pieces, begin):
+    for k, piece in enumerate(pieces):
         for patch in piece.patches:
             other = _other(patch)
             if other < 0:
@@ -378,37 +340,21 @@ def _found_points(
             if other < k:
                 # There the faces turn the other way.
                 order = -order % np.repeat(np.diff(start), np.diff(start))
-            rows[k, other] = piece.lists[np.repeat(start[:-1], np.diff(start)) + order] + ends[k - begin]
-    nodes = range(team.size)
-    sent = [sorted(pair for pair in rows if node_of[pair[1]] == node) for node in nodes]
-    taken = [sorted(pairs, key=lambda pair: pair[::-1]) for pairs in sent]
-    asked = team.exchange([[sizes[pair] for pair in pairs] for pairs in sent])
-    for pairs, others in zip(taken, asked, strict=True):
-        for pair, other in zip(pairs, others, strict=True):
-            if not np.array_equal(sizes[pair], other):
-                own, beyond = (outlines[k].faces_file for k in pair)
-                raise InputError(f"{own}: the faces of a processor patch differ from those of {beyond}.")
+            rows[k, other] = piece.lists[np.repeat(start[:-1], np.diff(start)) + order] + ends[k]
+    for (own, other), counts in sizes.items():
+        if not np.array_equal(counts, sizes[other, own]):
+            first, second = (pieces[k].paths[1] for k in (other, own))
+            raise InputError(f"{first}: the faces of a processor patch differ from those of {second}.")
     nothing = np.empty(0, dtype=np.intp)
-    out, back = (
-        [np.concatenate([nothing, *(rows[pair] for pair in pairs)]) for pairs in way] for way in (sent, taken)
-    )
-
-    def least(values: Labels) -> Labels:
-        """Return the least of the values of coinciding points."""
-        changed = True
-        while any(team.of_all(changed)):
-            before = values.copy()
-            for own, found in zip(back, team.exchange([values[own] for own in out]), strict=True):
-                np.minimum.at(values, own, found)
-            changed = not np.array_equal(values, before)
-        return values
-
-    first = int(starts(np.array([outline.points for outline in outlines]))[begin])
-    everything = np.arange(first, first + int(ends[-1]), dtype=np.int64)
-    leading = least(everything.copy()) == everything
-    before = sum(team.of_all(int(leading.sum()))[: team.rank])
-    numbers = np.where(leading, before - 1 + np.cumsum(leading), np.iinfo(np.int64).max)
-    return np.split(least(numbers), ends[1:-1])
+    here = np.concatenate([nothing, *(rows[own, other] for own, other in rows)])
+    there = np.concatenate([nothing, *(rows[other, own] for own, other in rows)])
+    numbers = np.arange(ends[-1], dtype=np.int64)
+    before = np.empty(0, dtype=np.int64)
+    while not np.array_equal(before, numbers):
+        before = numbers.copy()
+        np.minimum.at(numbers, here, before[there])
+    leading = numbers == np.arange(len(numbers))
+    return np.split((np.cumsum(leading) - 1)[numbers], ends[1:-1])
 
 
 def whole_patches(case: Path, parts: Sequence[Address]) -> tuple[list[PatchInfo], Labels]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -29,8 +28,6 @@ class FlowTimes(NamedTuple):
     transient: bool = False
     period: float | None = None
     """Duration after which a transient flow repeats itself, s."""
-    known: Sequence[str] = ()
-    """Names of all times of a transient flow whose solver is running; the first ones must be there."""
 
     @property
     def steady(self) -> float | str:

@@ -5,29 +5,24 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from mesh_shapes import (
-    baffle,
     block,
     box_patches,
     cyclic_row,
     folds_at_a_gap,
-    interfaces,
     pipe,
     pipe_patches,
-    rings,
-    wedge,
-    wedge_patches,
 )
 from threads_team import together
 
 from foamprb.compile.link import link
 from foamprb.flow import balance
 from foamprb.flow.fluxes import Conservation
-from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, Transform
-from foamprb.flow.mesh.fragment import CellSearch, Fragment
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.fragment import CellSearch, Fragment, IndivisibleMeshError
 from foamprb.flow.mesh.geometry import faces_of
 from foamprb.flow.mesh.mesh import assemble, build_mesh
 from foamprb.flow.mesh.parting import hold_part
-from foamprb.flow.mesh.submesh import BEYOND, RINGS, Halo, total_of
+from foamprb.flow.mesh.submesh import RINGS, Halo, total_of
 from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.partflow import PartFlow
 from foamprb.flow.planes import walls
@@ -46,23 +41,12 @@ def whole_of(poly):
     )  # fmt: skip
 
 
-AROUND = dict.fromkeys(("before0", "after2"), Transform("rotational", axis=(0.0, 0.0, -2.0)))
-"""Motions of patches that do not coincide."""
-
-
 def poly_of(mesh):
     """Points, faces and patches of a mesh, as they are read from a case."""
     sides = mesh.owner.copy(), mesh.neighbour.copy()
-    points, lists = mesh.points, mesh.face_points.copy()
-    if any(patch.name == "west" for patch in mesh.patches):
-        # The copies at the baffle are behind all points.
-        first, place = np.unique(points, axis=0, return_index=True, return_inverse=True)[1:]
-        points, lists = points[: len(first)], first[place.reshape(-1)][lists].astype(np.int32)
-    faces = faces_of(mesh.face_start, lists, *sides, mesh.n_cells)
-    patches = [
-        PatchSurface(p.name, p.type, None, p.neighbour, AROUND.get(p.name, Transform())) for p in mesh.patches
-    ]
-    return PolyMesh(points, faces, patches, mesh.patch_start.astype(np.intp))
+    faces = faces_of(mesh.face_start, mesh.face_points.copy(), *sides, mesh.n_cells)
+    patches = [PatchSurface(p.name, p.type, None, p.neighbour) for p in mesh.patches]
+    return PolyMesh(mesh.points, faces, patches, mesh.patch_start.astype(np.intp))
 
 
 def part_of(poly, cells, team, layers):
@@ -111,11 +95,6 @@ SHAPES = {
     "polyhedra": lambda: build_mesh(shape := block(8, kind="polyhedra"), box_patches(shape)),
     "tetrahedra": lambda: build_mesh(shape := block(6, kind="tetrahedra"), box_patches(shape)),
     "cyclics": lambda: cyclic_row(30.0, 2, cells=6),
-    "baffle": lambda: baffle(8),
-    "half a baffle": lambda: baffle(8, whole=False),
-    "interfaces": lambda: interfaces(30.0, cuts=(5, 6, 7))[0],
-    "rings": lambda: rings((60, 72)),
-    "wedge": lambda: build_mesh(shape := wedge(24), wedge_patches(shape)),
 }
 
 
@@ -142,7 +121,7 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
     planes = planes_at(flow.arrays(*lists), points[hosts >= 0], hosts[hosts >= 0], 2.0 * reach)
     assert np.isfinite(planes[:, 0]).any()
     place = np.cumsum(hosts >= 0) - 1
-    # Slices, across baffles too, with a cell of another node in one of them.
+    # Slices, with a cell of another node in one of them.
     along = x + 0.3 * y + 0.1 * z
     parts = np.clip((3 * (along - along.min()) / np.ptp(along)).astype(int), 0, 2)
     parts[random.integers(mesh.n_cells)] = 0
@@ -240,50 +219,32 @@ def test_a_node_holds_the_walls_near_its_cells(random):
     np.testing.assert_array_equal(found, expected)
 
 
-def test_a_node_holds_the_boundary_in_the_boxes_of_folded_cells(random):
-    """Also that of another node, to which no face or point leads; a path may end there."""
-    poly = poly_of(folds_at_a_gap(6))
-    mesh = assemble(poly, "mesh")
+def with_baffle(poly):
+    """Give the last boundary face the points of the first one."""
+    faces, n = poly.faces, len(poly.faces.neighbour)
+    first, last = (slice(*faces.start[k : k + 2]) for k in (n, len(faces.start) - 2))
+    faces.points[last] = faces.points[first][::-1]
+    return poly
 
-    def at_rest(mesh):
-        u = np.zeros((mesh.n_points + mesh.n_cells, 3))
-        return u, np.zeros((len(u), 3, 3))
 
-    flow = MeshFlow(mesh, *at_rest(mesh))
-    whole = flow.arrays()
-    points = random.uniform(*flow.bounds, (400, 3))
-    hosts = flow.locate(points)
-    ends = points + random.normal(0.0, 0.2, points.shape)
-    walk = flow.kernels["walk"]
+@pytest.mark.parametrize(
+    ("poly", "reason"),
+    [
+        (with_baffle(poly_of(build_mesh(shape := block(4), box_patches(shape)))), "baffles"),
+        (poly_of(folds_at_a_gap(6)), "folded cells"),
+    ],
+)
+def test_all_nodes_refuse_meshes_that_they_cannot_share(poly, reason):
+    """Also those whose own cells have neither baffles nor folds."""
+    x = assemble(poly, "mesh").centres[:, 0] if reason == "folded cells" else np.arange(4**3)
 
     def work(team):
-        # The first block is cut in two, before its folds.
-        along = mesh.centres @ [np.sqrt(0.5), np.sqrt(0.5), 0.0]
-        sub = part_of(poly, np.digitize(along, [0.5, 1.02]) == team.rank, team, layers=2 + RINGS)
-        part = PartFlow(Halo(sub, team), sub.mesh, *at_rest(sub.mesh))
-        arrays, names = part.arrays(), triangles_in(mesh, sub)
-        np.testing.assert_array_equal(arrays.folds[sub.usable], whole.folds[sub.cells[sub.usable]])
-        far = 0
-        for cell in np.flatnonzero(sub.layer < sub.depth):
-            rim, expected = (
-                a.rim[slice(*a.rim_start[c : c + 2])] for a, c in ((arrays, cell), (whole, sub.cells[cell]))
-            )
-            np.testing.assert_array_equal(names[rim], expected)
-            far += np.count_nonzero(sub.node[part.cell_of(arrays.triangle_tet[rim])] != team.rank)
-        found, numbers, _ = part.locate_own(points)
-        np.testing.assert_array_equal(numbers, hosts[found])
-        for k, host in zip(found, part.own_hosts(numbers)[1], strict=True):
-            here = walk(arrays, host, tuple(points[k]), tuple(ends[k]))
-            there = walk(whole, hosts[k], tuple(points[k]), tuple(ends[k]))
-            if here[2] != BEYOND:
-                assert part.numbers_of(np.array([here[0]])) == there[0]
-                assert here[1:3] == there[1:3]
-        return far, len(sub.cells), len(found)
+        own = (x > np.median(x)) == team.rank
+        with pytest.raises(IndivisibleMeshError, match=reason):
+            part_of(poly, own, team, layers=1 + RINGS)
+        return True
 
-    results = together(3, work)
-    assert results[1][0] > 0
-    assert min(held for _, held, _ in results) < mesh.n_cells
-    assert sum(n for *_, n in results) == np.count_nonzero(hosts >= 0)
+    assert together(2, work) == [True, True]
 
 
 def test_sums_depend_on_no_order(random):

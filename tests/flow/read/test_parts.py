@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +11,7 @@ from foam_writer import decompose, header, write_case
 from threads_team import together
 
 from foamprb.errors import InputError
+from foamprb.flow.mesh.fragment import IndivisibleMeshError
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.openfoam import steady_flow
@@ -36,19 +36,8 @@ def read(case, n, depth=1):
     return together(n, lambda team: steady_flow(PartCase(case, "", team, depth), "1", FlowSource()))
 
 
-@pytest.fixture(scope="module")
-def unaddressed(written, tmp_path_factory):
-    """The same processor folders without files that give places in the whole."""
-    case = tmp_path_factory.mktemp("unaddressed") / "case"
-    shutil.copytree(written, case)
-    for path in case.glob("processor*/constant/polyMesh/*Addressing"):
-        path.unlink()
-    return case
-
-
-@pytest.mark.parametrize("case", ["written", "unaddressed"])
-def test_nodes_read_the_flow_of_the_whole(case, request, random):
-    case = request.getfixturevalue(case)
+def test_nodes_read_the_flow_of_the_whole(written, random):
+    case = written
     flow = steady_flow(DecomposedCase(case), "1", FlowSource())
     points = random.uniform(0.0, 1.0, (500, 3))
     hosts = flow.locate(points)
@@ -96,10 +85,43 @@ def test_nodes_take_folders_by_their_cells(written, tmp_path):
     assert chosen == [range(3), range(3, 4)]
 
 
-def test_without_addressing_nodes_take_folders_by_their_faces(unaddressed):
-    case = DecomposedCase(unaddressed)
-    sizes = [len(file.labels()) for file in case.processors.files(Path("constant/polyMesh/owner"))]
-    assert case.processors.cells(Path("constant/polyMesh")).tolist() == sizes
+def without(name):
+    """Remove addressing files of all processors."""
+    return lambda case: [path.unlink() for path in case.glob(f"processor*/constant/polyMesh/{name}")]
+
+
+def of_type(kind):
+    """Give a patch another type."""
+
+    def change(case):
+        for file in case.glob("processor*/constant/polyMesh/boundary"):
+            file.write_text(re.sub(r"(sides\s*\{\s*type\s+)wall", rf"\1{kind}", file.read_text()))
+
+    return change
+
+
+INDIVISIBLE = {
+    "all": (without("*Addressing"), r"the processor folders have no files \*ProcAddressing"),
+    "some": (without("pointProcAddressing"), r"the processor folders have no files \*ProcAddressing"),
+    **{
+        kind: (of_type(kind), f"the mesh has patches of type {kind}")
+        for kind in ("cyclicAMI", "nonConformalCyclic", "wedge")
+    },
+}
+
+
+@pytest.mark.parametrize("name", INDIVISIBLE)
+def test_all_nodes_refuse_cases_that_they_cannot_share(name, written, tmp_path):
+    change, message = INDIVISIBLE[name]
+    case = shutil.copytree(written, tmp_path / "case")
+    change(case)
+
+    def work(team):
+        with pytest.raises(IndivisibleMeshError, match=message):
+            PartCase(case, "", team, 1).mesh("1")
+        return True
+
+    assert together(2, work) == [True, True]
 
 
 FAULTS = {
