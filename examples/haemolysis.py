@@ -30,7 +30,7 @@ models = {
     stress: Haemolysis(constants="Giersiepen", stress=stress)
     for stress in ("fluid", "KelvinVoigt", "morphology")
 }
-functions = CloudFunctions(models, ObservedCloud(cloud, ("cells",), ()))
+functions = CloudFunctions(models, ObservedCloud(cloud, {"injector": ("cells",)}))
 with tempfile.TemporaryDirectory() as folder:
     for step in range(1, 1001):
         cloud.advance(1)

@@ -35,7 +35,9 @@ def pipe_cloud(n=40, medium=AIR, length=0.03, integrator="stokes", walls=None, r
 
 
 def observed(cloud):
-    return ObservedCloud(cloud, ("one", "two"), tuple(patch.name for patch in cloud.flow.patches))
+    return ObservedCloud(
+        cloud, {"injector": ("one", "two"), "patch": tuple(patch.name for patch in cloud.flow.patches)}
+    )
 
 
 def observe(cloud, function, folder, writes=(200, 400, 700)):

@@ -8,17 +8,20 @@ to the run, so that a checkpoint can save it. A new function is one file with su
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
+from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud import contact
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Value, parts_of
-from foamprb.cloud.contact import Rebounds, passages
+from foamprb.cloud.contact import Rebounds
 from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts, fields_at
 from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.state import Particles, Status
@@ -33,19 +36,35 @@ __all__ = [
     "STATUS_NAMES",
     "CloudFunction",
     "CloudShare",
+    "ContactObserver",
+    "Kind",
     "Memory",
     "ObservedCloud",
     "Rows",
     "SampleInterval",
     "SampledFunction",
+    "StepObserver",
     "add_up",
+    "appearing",
     "append",
     "columns",
+    "events_of",
+    "fields_at_release",
+    "fields_of",
+    "has_ended",
     "in_time",
     "masses",
     "memory_of",
     "names_of",
+    "names_of_kind",
+    "passages",
+    "per_cell",
+    "per_event",
+    "per_particle",
+    "rows_of_particles",
     "store",
+    "sums_of_cells",
+    "table",
     "taylor_of",
 ]
 
@@ -53,9 +72,24 @@ Rows: TypeAlias = NDArray[np.int64]
 """Row numbers of particles in their cloud."""
 Memory: TypeAlias = dict[str, NDArray[Any]]
 CELLS = 1 << 18
-"""Cells in a part of :meth:`ObservedCloud.of_cells`."""
+"""Cells in a part of :func:`sums_of_cells`."""
 SampleInterval = Annotated[int, AtLeastOne, Meaning("steps between two samples")]
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
+
+
+class Kind(Enum):
+    """Kind of an array of a cloud function: meaning of its rows."""
+
+    per_particle = "a row for each particle, which goes with the particle to the process that advances it"
+    per_event = "a row for each event: number of the particle, time, and others; in the order of time"
+    per_cell = (
+        "a row for each cell of the mesh, to which the events of each sample are added and then removed: "
+        "number of the particle, a number that orders its events, cell, and the columns of the array"
+    )
+    table = "rows that only begin and write use"
+
+
+per_particle, per_event, per_cell, table = Kind
 
 
 class CloudShare(NamedTuple):
@@ -70,172 +104,84 @@ class CloudShare(NamedTuple):
 
 @dataclass(frozen=True)
 class ObservedCloud:
-    """The cloud of a run as an argument of its functions, with the names of injection models and patches."""
+    """The cloud of a run, as an argument of its functions."""
 
     cloud: Cloud
-    injectors: tuple[str, ...]
-    patches: tuple[str, ...]
+    names: Mapping[str, Sequence[str]]
+    """Names of the injection models and patches, by ``injector`` and ``patch``."""
     tables: str = "csv"
     """Kind of the tables of functions, and suffix of their files."""
-    seen: Particles | None = None
-    """Particles that are observed; None for all."""
-    name: str = ""
-    """Name of the function that observes."""
+    _seen: Particles | None = None
+    """Observed particles; None for all."""
+    _name: str = ""
+    """Name of the observing function."""
 
-    @property
+    @cached_property
     def particles(self) -> Particles:
-        """The observed particles, pending ones included; their rows are those of the other methods."""
-        return self.cloud.whole() if self.seen is None else self.seen
-
-    def seeing(self, p: Particles) -> ObservedCloud:
-        """Return the same cloud with other observed particles."""
-        return replace(self, seen=p)
-
-    def of(self, numbers: Rows) -> ObservedCloud:
-        """Return the same cloud with the particles of some numbers, in their order."""
-        return self.seeing(self.cloud.of(numbers))
-
-    def observe(self, numbers: Rows, function: Callable[..., Value], *arguments: Any) -> list[Value]:
-        """Return what a function finds of some particles, where they move.
-
-        Parameters
-        ----------
-        numbers
-            The particles; rising.
-        function
-            Called with the cloud that has only those of them that a process moves, and the ``arguments``;
-            other processes import it.
-        """
-        if self.cloud.homes is None:
-            return [function(self.of(numbers), *arguments)]
-        return self.cloud.homes.observe(numbers, function, self.time, *arguments)
-
-    def at_homes(self, remembered: Memory, function: Callable[..., Value], *arguments: Any) -> list[Value]:
-        """Return what a function finds of the particles of each process.
-
-        Parameters
-        ----------
-        remembered
-            Arrays of the function that observes with a row for each particle, see
-            :meth:`CloudFunction.of_particles`.
-        function
-            Called with particles in any order, the arrays of these particles, and the ``arguments``; other
-            processes import it.
-        """
-        if self.cloud.homes is None:
-            return [function(self.cloud.particles, remembered, *arguments)]
-        return self.cloud.homes.at_homes(function, *arguments, of=self.name)
-
-    def in_order(
-        self, remembered: Memory, function: Callable[..., Value], *arguments: Any
-    ) -> Iterator[Value]:
-        """Yield what a function finds of all particles, part by part in the order of their numbers.
-
-        See :meth:`at_homes`. A cloud without particles has one part.
-        """
-        if self.cloud.homes is not None:
-            return self.cloud.homes.in_order(function, *arguments, of=self.name)
-        p = self.cloud.particles
-        return (
-            function(p.take(part), {key: array[part] for key, array in remembered.items()}, *arguments)
-            for part in parts_of(p.size)
-        )
+        """The observed particles, pending ones included; in a run on several processes collected here."""
+        return self.cloud.whole() if self._seen is None else self._seen
 
     @property
     def time(self) -> float:
         """Time of the cloud, s."""
         return self.cloud.time
 
-    def has_ended(self, rows: Rows | slice) -> NDArray[np.bool_]:
-        """Return whether particles have ended: those that may move again have not."""
-        return np.isin(self.particles.status[rows], self.cloud.tracker.movable, invert=True)
+    def of(self, some: Rows | Particles) -> ObservedCloud:
+        """Return the same cloud with other observed particles, given by their numbers or themselves."""
+        return replace(self, _seen=some if isinstance(some, Particles) else self.cloud.of(some))
 
-    def passages(self, rows: NDArray[np.float64]) -> Iterator[tuple[Rebounds, Rebounds]]:
-        """Yield the passages of coupled patches among records, see :func:`foamprb.cloud.contact.passages`."""
-        return passages(rows, [k for k, i in enumerate(self.cloud.interactions) if i.code == CYCLIC])
+    def measure(self, rows: Rows, *values: str | Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
+        """Return values of particles of any status, as if they moved.
 
-    def contexts(self, rows: Rows) -> Iterator[Context]:
-        """Yield the arguments of the measures for particles of any status.
-
-        See :func:`foamprb.cloud.measures.contexts`; they come in parts.
+        Parameters
+        ----------
+        rows
+            Rows of the particles.
+        values
+            Names of :data:`foamprb.cloud.measures.MEASURES`, or functions of a
+            :class:`~foamprb.cloud.measures.Context`.
         """
-        p = self.particles
+        functions = [MEASURES[value].value if isinstance(value, str) else value for value in values]
+        parts = []
         for start in range(0, max(len(rows), 1), PER_CONTEXT):
-            yield from self._contexts_of(p.take(as_slice(rows[start : start + PER_CONTEXT])))
+            p = self.particles.take(as_slice(rows[start : start + PER_CONTEXT]))
+            p = p._replace(status=np.full_like(p.status, Status.ACTIVE))
+            for c in contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time):
+                parts.append([np.array(function(c)) for function in functions])
+        return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
 
-    def collect_of(self, p: Particles, *values: Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
-        """Return values of particles that may differ from the cloud's present state."""
-        return _collect(self._contexts_of(p), values)
+    def map(self, memory: Memory, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+        """Apply a function to blocks of particles, sorted by number; once to a cloud without particles.
 
-    def _contexts_of(self, p: Particles) -> Iterator[Context]:
-        p = p._replace(status=np.full_like(p.status, Status.ACTIVE))
-        return contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time)
-
-    def of_cells(self, sums: NDArray[np.float64], n: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
-        """Yield parts of n cells in their order, and the sums of each; see :attr:`CloudFunction.sums`."""
-        homes = self.cloud.homes
-        for first in range(0, n, CELLS):
-            part = slice(first, min(first + CELLS, n))
-            yield part, sums[part] if homes is None else homes.of_cells(self.name, part)
-
-    def fields(self, rows: Rows) -> Mapping[str, FieldValues]:
-        """Return the sampled fields at particles at their times; NaN at pending ones."""
-        p = self.particles.take(rows)
-        hosts = np.where(p.status == Status.PENDING, np.int32(-1), p.host)
-        return fields_at(self.cloud.flow, p.x, hosts, np.minimum(p.t, self.time))
-
-    def at(self, flow: LoadedFlow, time: float) -> ObservedCloud:
-        """Return the same particles in a flow that is loaded, at a time, s."""
-        cloud = self.cloud
-        share: Any = CloudShare(cloud.interactions, flow, cloud.medium, cloud.tracker, time)
-        return replace(self, cloud=share, seen=self.particles)
-
-    def appearing(self, until: float) -> Rows:
-        """Return the pending particles that appear between the time of the cloud and ``until``, s."""
-        p = self.particles
-        return np.flatnonzero((p.status == Status.PENDING) & (p.t0 >= self.time) & (p.t0 <= until))
-
-    def fields_at_release(self, rows: Rows, hosts: NDArray[np.int32]) -> Mapping[str, FieldValues]:
-        """Return the sampled fields where and when particles were released in their hosts."""
-        p = self.particles
-        return fields_at(self.cloud.flow, p.x0[rows], hosts, p.t0[rows])
-
-    def measure(self, rows: Rows, *names: str) -> list[NDArray[Any]]:
-        """Return some of :data:`foamprb.cloud.measures.MEASURES` of particles of any status."""
-        return _collect(self.contexts(rows), [MEASURES[name].value for name in names])
-
-
-def _collect(
-    found: Iterable[Context], values: Sequence[Callable[[Context], NDArray[Any]]]
-) -> list[NDArray[Any]]:
-    parts = [[np.array(value(c)) for value in values] for c in found]
-    return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
+        Parameters
+        ----------
+        memory
+            Arrays of the observing function with a row for each particle, see :func:`rows_of_particles`.
+        function
+            Called with particles, the arrays of these particles, and the ``arguments``; other processes
+            import it.
+        """
+        if self.cloud.homes is not None:
+            return self.cloud.homes.in_order(function, *arguments, of=self._name)
+        p = self.cloud.particles
+        return (
+            function(p.take(part), {key: array[part] for key, array in memory.items()}, *arguments)
+            for part in parts_of(p.size)
+        )
 
 
 @dataclass(frozen=True)
 class CloudFunction:
     """A function that records data while the cloud moves."""
 
+    arrays: ClassVar[Mapping[str, Kind]] = {}
+    """Kinds of the arrays of its data. With an array ``per_particle`` it samples on each process, with the
+    particles and rows of that process."""
+
     @property
     def interval(self) -> int:
         """Tracking steps between two samples: ``sampleInterval``, or 0 for samples at write times only."""
         return int(getattr(self, "sampleInterval", 0))
-
-    whole: ClassVar[bool] = True
-    """Whether it reads ``particles`` of the whole cloud, which the first process of several then collects for
-    each call. Otherwise it uses :meth:`ObservedCloud.of`, ``observe``, ``at_homes`` and ``in_order``, or has
-    :attr:`rows`."""
-    rows: ClassVar[bool] = False
-    """Whether all its arrays have a row for each particle, but :attr:`events`, :attr:`common` and ``sums``.
-    It can then begin and sample with some particles and their rows, which go with the particles."""
-    events: ClassVar[str] = ""
-    """Name of the array with a row for each event: number of the particle, time, and others."""
-    common: ClassVar[frozenset[str]] = frozenset({"history", "written", "warned"})
-    """Names of arrays that only :meth:`write` needs."""
-    sums: ClassVar[bool] = False
-    """Whether its array ``sums`` has a row for each cell of the mesh, to which the events of each sample are
-    added and then removed. An event has the number of the particle, another one that orders its events, the
-    cell, and what is added. Of a cloud at homes each process has the rows of some cells."""
 
     @property
     def needed_fields(self) -> tuple[str, ...]:
@@ -246,24 +192,8 @@ class CloudFunction:
         """Return the initial data; raise InputError if the cloud lacks a name in the entries."""
         return {}
 
-    def of_particles(self, memory: Memory) -> Memory:
-        """Return the arrays with a row for each particle."""
-        if not self.rows:
-            return {}
-        others = {self.events, *self.common, *(("sums",) if self.sums else ())}
-        return {key: array for key, array in memory.items() if key not in others}
-
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Record a sample of the cloud, every ``interval`` steps and before each writing."""
-
-    def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
-        """Observe particles before the steps of a call of the loop, from the time of the cloud ``until``, s.
-
-        The flow of these steps is loaded. By default no-op.
-        """
-
-    def after_steps(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Observe particles after the steps of a call; see :meth:`before_steps`."""
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the data into the function's own folder, at each write time."""
@@ -276,15 +206,30 @@ class CloudFunction:
         """
         return {}
 
-    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:  # noqa: ARG002
-        """Return whether it needs the records of rebounds or passages, by the interactions of the patches."""
-        return False
+
+class StepObserver:
+    """Cloud function that observes particles around each call of the loop, while its flow is loaded."""
+
+    def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
+        """Observe particles before steps from the time of the cloud ``until``, s."""
+
+    def after_steps(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Observe particles after these steps; by default no-op."""
+
+
+class ContactObserver:
+    """Cloud function that records rebounds, and passages of coupled patches."""
+
+    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
+        """Return whether it records any, by the interactions of the patches; by default, coupled patches."""
+        return any(interaction.code == CYCLIC for interaction in interactions.values())
 
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
-        """Record rebounds and passages, which :meth:`foamprb.cloud.cloud.Cloud.take_rebounds` returned.
+        """Record rebounds and passages, see :meth:`foamprb.cloud.cloud.Cloud.take_rebounds`.
 
         The next sample follows.
         """
+        raise NotImplementedError
 
 
 @dataclass(frozen=True)
@@ -294,8 +239,8 @@ class SampledFunction(CloudFunction):
     Between two samples a particle is not observed, but the last sample is at its exact end.
     """
 
-    whole: ClassVar[bool] = False
-    rows: ClassVar[bool] = True
+    arrays: ClassVar[Mapping[str, Kind]] = {"closed": per_particle, "t": per_particle}
+    """Kinds of its arrays; those of :meth:`observe` and :meth:`initial` are added."""
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return the values of particles that are stored at each sample, by name."""
@@ -325,13 +270,69 @@ class SampledFunction(CloudFunction):
 
     def close(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add the last sample of the particles that have ended since the one before."""
-        self._add(memory, cloud, ~memory["closed"] & cloud.has_ended(slice(None)))
+        self._add(memory, cloud, ~memory["closed"] & has_ended(cloud, slice(None)))
 
     def _add(self, memory: Memory, cloud: ObservedCloud, chosen: NDArray[np.bool_]) -> None:
         p, rows = cloud.particles, np.flatnonzero(chosen)
         now = {**self.observe(cloud, rows), "t": p.t[rows]}
         self.add(memory, cloud, rows, now)
-        store(memory, rows, {**now, "closed": cloud.has_ended(rows)})
+        store(memory, rows, {**now, "closed": has_ended(cloud, rows)})
+
+
+def names_of_kind(function: CloudFunction, kind: Kind) -> list[str]:
+    """Return the names of the arrays of a kind."""
+    return [name for name, own in function.arrays.items() if own is kind]
+
+
+def events_of(function: CloudFunction) -> str:
+    """Return the name of its array ``per_event``; empty for none."""
+    return next(iter(names_of_kind(function, per_event)), "")
+
+
+def rows_of_particles(function: CloudFunction, memory: Memory) -> Memory:
+    """Return the arrays with a row for each particle."""
+    return {key: array for key, array in memory.items() if function.arrays[key] is per_particle}
+
+
+def has_ended(cloud: ObservedCloud, rows: Rows | slice) -> NDArray[np.bool_]:
+    """Return whether particles have ended: those that may move again have not."""
+    return np.isin(cloud.particles.status[rows], cloud.cloud.tracker.movable, invert=True)
+
+
+def passages(cloud: ObservedCloud, rows: NDArray[np.float64]) -> Iterator[tuple[Rebounds, Rebounds]]:
+    """Yield the passages of coupled patches among records, see :func:`foamprb.cloud.contact.passages`."""
+    return contact.passages(rows, [k for k, i in enumerate(cloud.cloud.interactions) if i.code == CYCLIC])
+
+
+def appearing(cloud: ObservedCloud, until: float) -> Rows:
+    """Return the pending particles that appear between the time of the cloud and ``until``, s."""
+    p = cloud.particles
+    return np.flatnonzero((p.status == Status.PENDING) & (p.t0 >= cloud.time) & (p.t0 <= until))
+
+
+def fields_of(cloud: ObservedCloud, rows: Rows) -> Mapping[str, FieldValues]:
+    """Return the sampled fields at particles at their times; NaN at pending ones."""
+    p = cloud.particles.take(rows)
+    hosts = np.where(p.status == Status.PENDING, np.int32(-1), p.host)
+    return fields_at(cloud.cloud.flow, p.x, hosts, np.minimum(p.t, cloud.time))
+
+
+def fields_at_release(
+    cloud: ObservedCloud, rows: Rows, hosts: NDArray[np.int32]
+) -> Mapping[str, FieldValues]:
+    """Return the sampled fields where and when particles were released in their hosts."""
+    p = cloud.particles
+    return fields_at(cloud.cloud.flow, p.x0[rows], hosts, p.t0[rows])
+
+
+def sums_of_cells(
+    cloud: ObservedCloud, sums: NDArray[np.float64], n: int
+) -> Iterator[tuple[slice, NDArray[np.float64]]]:
+    """Yield parts of n cells in their order, and the rows of each of an array ``per_cell``."""
+    homes = cloud.cloud.homes
+    for first in range(0, n, CELLS):
+        part = slice(first, min(first + CELLS, n))
+        yield part, sums[part] if homes is None else homes.of_cells(cloud._name, part)
 
 
 def store(memory: Memory, rows: Rows, values: Memory) -> None:
@@ -362,7 +363,7 @@ def in_time(events: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def add_up(sums: NDArray[np.float64], events: NDArray[np.float64]) -> None:
-    """Add events, (n, 3 + k), in their order to sums, (n_cells, k); see :attr:`CloudFunction.sums`."""
+    """Add events, (n, 3 + k), in their order to an array ``per_cell``, (n_cells, k); see :class:`Kind`."""
     cell = events[:, 2].astype(np.int64)
     for total, values in zip(sums.T, events[:, 3:].T, strict=True):
         np.add.at(total, cell, values)
@@ -371,7 +372,7 @@ def add_up(sums: NDArray[np.float64], events: NDArray[np.float64]) -> None:
 def taylor_of(cloud: ObservedCloud, rows: Rows, F: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return Taylor's D of particles with the deformation gradients F, (n, 9)."""
     p = cloud.particles.take(rows)._replace(F=np.ascontiguousarray(F))
-    return cloud.collect_of(p, MEASURES["taylorDeformation"].value)[0]
+    return cloud.of(p).measure(np.arange(p.size), "taylorDeformation")[0]
 
 
 def masses(p: Particles, rows: Rows) -> NDArray[np.float64]:

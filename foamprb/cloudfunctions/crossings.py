@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.contact import Rebounds
-from foamprb.cloud.patches import CYCLIC, Interaction
-from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows, SampledFunction, store
+from foamprb.cloudfunctions.base import (
+    ContactObserver,
+    Kind,
+    Memory,
+    ObservedCloud,
+    Rows,
+    SampledFunction,
+    passages,
+    per_particle,
+    store,
+)
 
 __all__ = ["Crossings", "PlaneFunction", "crossings"]
 
@@ -34,24 +43,27 @@ class Crossings(NamedTuple):
     """1 along the normal, −1 against it, (n,)."""
 
 
-class PlaneFunction(SampledFunction):
+class PlaneFunction(SampledFunction, ContactObserver):
     """Cloud function that finds the particles that cross a plane.
 
     A passage of a coupled patch is no crossing: the path ends before it and begins anew after it.
     """
+
+    arrays: ClassVar[Mapping[str, Kind]] = {
+        **SampledFunction.arrays,
+        "x": per_particle,
+        "v": per_particle,
+        "F": per_particle,
+    }
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return positions, velocities and shapes."""
         p = cloud.particles
         return {"x": p.x[rows], "v": p.v[rows], "F": p.F[rows]}
 
-    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
-        """Return whether there are coupled patches."""
-        return any(interaction.code == CYCLIC for interaction in interactions.values())
-
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
         """Add a sample before each passage, and store the one after it."""
-        for before, after in cloud.passages(rows):
+        for before, after in passages(cloud, rows):
             self.add(memory, cloud, before.number, _sample(before))
             store(memory, after.number, _sample(after))
 

@@ -19,6 +19,7 @@ from foamprb.cloudfunctions.base import (
     append,
     columns,
     names_of,
+    per_event,
 )
 from foamprb.cloudfunctions.crossings import PlaneFunction, crossings
 from foamprb.dictionary.constraints import Meaning, Vector3
@@ -83,7 +84,7 @@ class DeformabilityCytometry(PlaneFunction):
     view: Annotated[Vector3, Meaning("viewing direction of the camera, of any length", "1")]
     sampleInterval: SampleInterval = 1
 
-    events: ClassVar[str] = "seen"
+    arrays: ClassVar = {**PlaneFunction.arrays, "seen": per_event}
 
     def __post_init__(self) -> None:
         for name in ("normal", "view"):
@@ -119,10 +120,11 @@ class DeformabilityCytometry(PlaneFunction):
         """Write the table of all crossings."""
         seen = memory["seen"]
         rows = seen[:, 0].astype(np.int64)
+        injector = names_of(cloud.names["injector"], cloud.cloud.values_of(rows, "injector"))
         names = ("area", "perimeter", "a", "b", "deformation")
         write_table(
             folder / f"cytometry.{cloud.tables}",
-            {"id": rows, "injector": names_of(cloud.injectors, cloud.cloud.values_of(rows, "injector")),
+            {"id": rows, "injector": injector,
              "t": seen[:, 1], **columns("xyz", seen[:, 2:5]), "direction": seen[:, 5].astype(np.int64),
              **columns(names, seen[:, 6:])},
         )  # fmt: skip

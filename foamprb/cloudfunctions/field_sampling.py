@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -18,7 +18,13 @@ from foamprb.cloudfunctions.base import (
     Rows,
     SampledFunction,
     SampleInterval,
+    StepObserver,
+    appearing,
+    fields_at_release,
+    fields_of,
     names_of,
+    per_particle,
+    rows_of_particles,
 )
 from foamprb.dictionary.constraints import Meaning, Words
 from foamprb.errors import InputError
@@ -31,7 +37,7 @@ __all__ = ["FieldSampling"]
 
 
 @dataclass(frozen=True)
-class FieldSampling(SampledFunction):
+class FieldSampling(SampledFunction, StepObserver):
     """Fields of the case along each path: ``fields.csv``, and in clouds, tracks and ``fates``.
 
     For each particle and field: the value at the last sample, the mean in time and the largest value, that of
@@ -42,6 +48,11 @@ class FieldSampling(SampledFunction):
         Words, Meaning("`(name name)`: scalars, vectors or tensors at all cells, at each time of the flow")
     ]
     sampleInterval: SampleInterval = 1
+
+    arrays: ClassVar = {
+        **SampledFunction.arrays,
+        **dict.fromkeys(("value", "integral", "largest"), per_particle),
+    }
 
     def __post_init__(self) -> None:
         if not self.fields:
@@ -61,12 +72,12 @@ class FieldSampling(SampledFunction):
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return the values of the fields, (n, columns), NaN where the flow is unknown."""
-        return {"value": self._table(cloud.fields(rows))}
+        return {"value": self._table(fields_of(cloud, rows))}
 
     def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
         """Store the values at the release of the particles that appear, while the flow there is loaded."""
-        rows = cloud.appearing(until)
-        memory["value"][rows] = self._table(cloud.fields_at_release(rows, cloud.particles.host[rows]))
+        rows = appearing(cloud, until)
+        memory["value"][rows] = self._table(fields_at_release(cloud, rows, cloud.particles.host[rows]))
 
     def after_steps(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add the values at the end of the particles that have ended, while the flow there is loaded."""
@@ -92,7 +103,8 @@ class FieldSampling(SampledFunction):
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the values of all particles that were released."""
         columns = self._columns(columns_of(cloud.cloud.flow))
-        rows = cloud.in_order(self.of_particles(memory), _values_of, columns, cloud.injectors, cloud.tables)
+        own = rows_of_particles(self, memory)
+        rows = cloud.map(own, _values_of, columns, cloud.names["injector"], cloud.tables)
         write_rows(folder / f"fields.{cloud.tables}", rows)
 
     def fates(self, memory: Memory, fields: Sequence[FieldColumns]) -> Mapping[str, Column]:

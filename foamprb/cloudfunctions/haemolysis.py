@@ -8,17 +8,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.morphology import Rates, morphology_step
-from foamprb.cloud.measures import MEASURES
-from foamprb.cloud.patches import CYCLIC, Interaction
+from foamprb.cloud.patches import Interaction
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
+    ContactObserver,
     Memory,
     ObservedCloud,
     Rows,
@@ -26,6 +26,10 @@ from foamprb.cloudfunctions.base import (
     SampleInterval,
     append,
     names_of,
+    passages,
+    per_particle,
+    rows_of_particles,
+    table,
 )
 from foamprb.dictionary.constraints import Choice, Meaning, Positive
 from foamprb.errors import InputError
@@ -126,7 +130,7 @@ def relaxed(G: Floats, rate0: Floats, rate1: Floats, h: Floats, f1: float) -> Fl
 
 
 @dataclass(frozen=True)
-class Haemolysis(SampledFunction):
+class Haemolysis(SampledFunction, ContactObserver):
     """Damage to red blood cells on each path: ``haemolysis.csv``; means in ``means.csv``.
 
     The stress is τ = μ G, with the shear rate G of the fluid or an effective one of a cell that remembers the
@@ -160,6 +164,13 @@ class Haemolysis(SampledFunction):
     ] = None
     sampleInterval: SampleInterval = 1
 
+    arrays: ClassVar = {
+        **SampledFunction.arrays,
+        **dict.fromkeys(("fluid", "mu", "rate", "l", "dose", "peak", "cell"), per_particle),
+        "history": table,
+        "warned": table,
+    }
+
     def __post_init__(self) -> None:
         given = [name for name in ("A", "alpha", "beta") if getattr(self, name) is not None]
         if self.constants == "own" and len(given) < 3:
@@ -192,10 +203,9 @@ class Haemolysis(SampledFunction):
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return the rate of the dose by the fluid's stress, or what a cell feels of the fluid."""
-        parts = [
-            (MEASURES["shearRate"].value(c), c.mu, np.stack(c.l_f, axis=1)) for c in cloud.contexts(rows)
-        ]
-        gamma, mu, gradient = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+        gamma, mu, gradient = cloud.measure(
+            rows, "shearRate", lambda c: c.mu, lambda c: np.stack(c.l_f, axis=1)
+        )
         found: Memory = {"fluid": gamma, "mu": mu if self.mu is None else np.full(len(rows), self.mu)}
         if self.stress == "fluid":
             return {"rate": self._rate(gamma, found)}
@@ -213,14 +223,13 @@ class Haemolysis(SampledFunction):
 
     def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
         """Return whether there are coupled patches, at which the shape of a cell turns."""
-        coupled = any(interaction.code == CYCLIC for interaction in interactions.values())
-        return self.stress == "morphology" and coupled
+        return self.stress == "morphology" and super().needs_rebounds(interactions)
 
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
         """Turn shapes, and the gradients of the last sample, with the particles at coupled patches."""
         if self.stress != "morphology":
             return
-        for before, after in cloud.passages(rows):
+        for before, after in passages(cloud, rows):
             turn = after.F.reshape(-1, 3, 3) @ np.linalg.inv(before.F.reshape(-1, 3, 3))
             for name in ("cell", "l"):
                 T = memory[name][after.number].reshape(-1, 3, 3)
@@ -282,23 +291,24 @@ class Haemolysis(SampledFunction):
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the damage of all particles that were released, and the means by injection model."""
         found: list[_Damage] = []
+        injectors = cloud.names["injector"]
 
         def rows() -> Iterator[TableRows]:
-            of_particles = self.of_particles(memory)
-            for damage in cloud.in_order(of_particles, self._damage, cloud.injectors, cloud.tables):
+            own = rows_of_particles(self, memory)
+            for damage in cloud.map(own, self._damage, injectors, cloud.tables):
                 found.append(damage._replace(rows=TableRows((), b"")))
                 yield damage.rows
 
         write_rows(folder / f"haemolysis.{cloud.tables}", rows())
         self._warn(memory, found, folder.name)
         lines = []
-        for number in range(len(cloud.injectors)):
+        for number in range(len(injectors)):
             own = np.concatenate([damage.indices[number] for damage in found])
             lines.append([cloud.time, number, len(own), own.mean() if len(own) else np.nan])
         time, injector, n, mean = append(memory, "history", lines).T
         write_table(
             folder / f"means.{cloud.tables}",
-            {"time": time, "injector": names_of(cloud.injectors, injector),
+            {"time": time, "injector": names_of(injectors, injector),
              "parcels": n.astype(np.int64), "haemolysis": mean},
         )  # fmt: skip
 

@@ -17,6 +17,8 @@ from foamprb.cloudfunctions.base import (
     append,
     masses,
     names_of,
+    per_event,
+    table,
     taylor_of,
 )
 from foamprb.cloudfunctions.crossings import PlaneFunction, crossings
@@ -49,7 +51,7 @@ class ParticleCollector(PlaneFunction):
     resetOnWrite: Annotated[bool, Meaning("reset the counts at each write time")] = False
     sampleInterval: SampleInterval = 10
 
-    events: ClassVar[str] = "crossings"
+    arrays: ClassVar = {**PlaneFunction.arrays, "crossings": per_event, "written": table, "history": table}
 
     def __post_init__(self) -> None:
         if not any(self.normal):
@@ -80,7 +82,7 @@ class ParticleCollector(PlaneFunction):
         id_, t, x, y, z, sense, D, mass = crossings.T
         rows = id_.astype(np.int64)
         injector = cloud.cloud.values_of(rows, "injector")
-        names = names_of(cloud.injectors, injector)
+        names = names_of(cloud.names["injector"], injector)
         write_table(
             folder / f"crossings.{cloud.tables}",
             {"id": rows, "injector": names, "t": t, "x": x, "y": y, "z": z,
@@ -91,7 +93,7 @@ class ParticleCollector(PlaneFunction):
         weight = mass * np.where(sense < 0.0, -1.0, 1.0) if self.negateParcelsOppositeNormal else mass
         before = memory["history"][-1, 0] if len(memory["history"]) else cloud.cloud.start
         lines = []
-        for index in range(len(cloud.injectors)):
+        for index in range(len(cloud.names["injector"])):
             own = injector == index
             n = [np.count_nonzero(own & counted & (sense * side > 0.0)) for side in (1.0, -1.0)]
             rate = weight[own & fresh].sum() / max(cloud.time - before, 1e-300)
@@ -100,7 +102,7 @@ class ParticleCollector(PlaneFunction):
         time, index, along, against, total, rate = append(memory, "history", lines).T
         write_table(
             folder / f"collector.{cloud.tables}",
-            {"time": time, "injector": names_of(cloud.injectors, index),
+            {"time": time, "injector": names_of(cloud.names["injector"], index),
              "parcels": along.astype(np.int64), "parcelsOpposite": against.astype(np.int64),
              "mass": total, "massFlowRate": rate},
         )  # fmt: skip

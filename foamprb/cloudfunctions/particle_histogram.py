@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,8 @@ from foamprb.cloudfunctions.base import (
     SampledFunction,
     SampleInterval,
     names_of,
+    per_particle,
+    rows_of_particles,
 )
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
@@ -49,6 +51,11 @@ class ParticleHistogram(SampledFunction):
     nBins: Annotated[int, AtLeastOne, Meaning("bins between the smallest and the largest value")] = 50
     sampleInterval: SampleInterval = 10
 
+    arrays: ClassVar = {
+        **SampledFunction.arrays,
+        **dict.fromkeys(("D", "shearRate", "maxD", "sumD", "sumShearRate"), per_particle),
+    }
+
     def __post_init__(self) -> None:
         for name in self.fields:
             if name not in _EXPOSURES:
@@ -67,7 +74,7 @@ class ParticleHistogram(SampledFunction):
         InputError
             If an injection model has the name of another column of the tables.
         """
-        if taken := {"lower", "upper"} & set(cloud.injectors):
+        if taken := {"lower", "upper"} & set(cloud.names["injector"]):
             raise InputError(f"no injection model may be called {min(taken)}, as a column of the tables is.")
         n = cloud.particles.size
         (D,) = cloud.measure(np.arange(n), "taylorDeformation")
@@ -85,15 +92,16 @@ class ParticleHistogram(SampledFunction):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the tables of all particles that were released; the distributions leave out the failed."""
-        own = self.of_particles(memory)
-        rows = cloud.in_order(own, _exposures_of, cloud.injectors, cloud.tables)
+        own, injectors = rows_of_particles(self, memory), cloud.names["injector"]
+        rows = cloud.map(own, _exposures_of, injectors, cloud.tables)
         write_rows(folder / f"exposure.{cloud.tables}", rows)
         for name in self.fields:
             # The edges follow from the smallest and the largest value.
-            edges = np.histogram_bin_edges(np.concatenate(cloud.at_homes(own, _ends_of, name)), self.nBins)
-            counts = np.sum(cloud.at_homes(own, _numbers_in, name, edges, len(cloud.injectors)), axis=0)
+            ends = np.concatenate([*cloud.map(own, _ends_of, name)])
+            edges = np.histogram_bin_edges(ends, self.nBins)
+            counts = np.sum([*cloud.map(own, _numbers_in, name, edges, len(injectors))], axis=0)
             table: dict[str, Column] = {"lower": edges[:-1], "upper": edges[1:]}
-            table |= dict(zip(cloud.injectors, counts, strict=True))
+            table |= dict(zip(injectors, counts, strict=True))
             write_table(folder / f"{name}.{cloud.tables}", table)
 
 

@@ -13,7 +13,20 @@ from scipy.spatial import cKDTree
 
 from foamprb.cloud.measures import as_slice, shapes
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows, SampledFunction, SampleInterval, append
+from foamprb.cloudfunctions.base import (
+    Memory,
+    ObservedCloud,
+    Rows,
+    SampledFunction,
+    SampleInterval,
+    StepObserver,
+    appearing,
+    append,
+    per_cell,
+    per_event,
+    per_particle,
+    sums_of_cells,
+)
 from foamprb.dictionary.constraints import Meaning
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshSizes
@@ -34,7 +47,7 @@ _DIMENSIONS: dict[str, tuple[int, ...]] = {
 
 
 @dataclass(frozen=True)
-class ParticleStatistics(SampledFunction):
+class ParticleStatistics(SampledFunction, StepObserver):
     """Fields on the mesh, in OpenFOAM's format, in a folder for each write time.
 
     ``concentration``, mean number of particles per volume since the start, 1/m³; ``residenceTime``, the time
@@ -48,8 +61,12 @@ class ParticleStatistics(SampledFunction):
     sampleInterval: SampleInterval = 1
     sigmaParticles: Annotated[bool, Meaning("whether to write the particles' stress and volume, too")] = False
 
-    events: ClassVar[str] = "passed"
-    sums: ClassVar[bool] = True
+    arrays: ClassVar = {
+        **SampledFunction.arrays,
+        **dict.fromkeys(("cell", "D", "S"), per_particle),
+        "passed": per_event,
+        "sums": per_cell,
+    }
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return cells, −1 outside and before the release, and Taylor's D."""
@@ -70,7 +87,7 @@ class ParticleStatistics(SampledFunction):
 
     def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
         """Store the cells of the particles that appear, where their tetrahedra are known."""
-        rows = cloud.appearing(until)
+        rows = appearing(cloud, until)
         memory["cell"][rows] = _cell_of(cloud, cloud.particles.host[rows])
 
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
@@ -91,7 +108,7 @@ class ParticleStatistics(SampledFunction):
         sizes = _flow(cloud).mesh_sizes()
         n, time = len(sizes.volumes), max(cloud.time - cloud.cloud.start, 1e-300)
         beside = np.empty((len(sizes.owner), memory["sums"].shape[1]))
-        for part, sums in cloud.of_cells(memory["sums"], n):
+        for part, sums in sums_of_cells(cloud, memory["sums"], n):
             faces = np.flatnonzero((sizes.owner >= part.start) & (sizes.owner < part.stop))
             beside[faces] = sums[sizes.owner[faces] - part.start]
         on_faces = _fields(beside, sizes.volumes[sizes.owner], time)
@@ -106,7 +123,7 @@ class ParticleStatistics(SampledFunction):
             }
             cells = (
                 _fields(sums, sizes.volumes[part], time)[name]
-                for part, sums in cloud.of_cells(memory["sums"], n)
+                for part, sums in sums_of_cells(cloud, memory["sums"], n)
             )
             write_field(folder / f"{cloud.time:.12g}" / name, _DIMENSIONS[name], cells, n, patches)
 
@@ -145,7 +162,7 @@ def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:
     """Count particles on each boundary face: the face of their patch with the nearest centre."""
     counts = np.zeros(len(sizes.areas))
     trees: dict[int, cKDTree] = {}
-    for x, patch in cloud.cloud.in_order(_stuck):
+    for x, patch in cloud.map({}, _stuck):
         for index in np.unique(patch):
             first, last = sizes.patch_start[index : index + 2].tolist()
             if last > first:
@@ -155,7 +172,7 @@ def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:
     return counts
 
 
-def _stuck(p: Particles) -> tuple[Floats, NDArray[np.int32]]:
+def _stuck(p: Particles, _memory: Memory) -> tuple[Floats, NDArray[np.int32]]:
     """Return places and patches of stuck particles."""
     stuck = (p.status == Status.STUCK) & (p.patch >= 0)
     return p.x[stuck], p.patch[stuck]

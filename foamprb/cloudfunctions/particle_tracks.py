@@ -5,15 +5,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.measures import MEASURES
-from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import STATUS_NAMES, CloudFunction, Memory, ObservedCloud, Rows
+from foamprb.cloudfunctions.base import (
+    STATUS_NAMES,
+    CloudFunction,
+    ContactObserver,
+    Memory,
+    ObservedCloud,
+    Rows,
+    fields_at_release,
+    fields_of,
+    has_ended,
+    passages,
+    table,
+)
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
 from foamprb.flow.fields import FieldValues
 from foamprb.results.vtk import Tracks, write_tracks
@@ -26,7 +37,7 @@ _POINT = ("x", "y", "z", "t", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate",
 
 
 @dataclass(frozen=True)
-class ParticleTracks(CloudFunction):
+class ParticleTracks(CloudFunction, ContactObserver):
     """Paths of particles, with velocity, semi-axes, D and shear rate at their points: ``tracks.vtp``.
 
     The fields of ``fieldSampling`` are added.
@@ -43,7 +54,7 @@ class ParticleTracks(CloudFunction):
         int, AtLeastOne, Meaning("largest number of paths, evenly spread over the particles")
     ] = 1000
 
-    whole: ClassVar[bool] = False
+    arrays: ClassVar = dict.fromkeys(("row", "host", "closed", "count", "points"), table)
 
     @property
     def interval(self) -> int:
@@ -56,7 +67,7 @@ class ParticleTracks(CloudFunction):
         tracks = min(n, self.maxTracks)
         rows = np.arange(tracks) * n // max(tracks, 1)
         tracked = cloud.of(rows)
-        points = _points(tracked, np.arange(tracks), tracked.fields(np.arange(tracks)))
+        points = _points(tracked, np.arange(tracks), fields_of(tracked, np.arange(tracks)))
         memory = {
             "row": rows,
             "host": tracked.particles.host.copy(),
@@ -67,17 +78,13 @@ class ParticleTracks(CloudFunction):
         self._append(memory, np.arange(tracks), points)
         return memory
 
-    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
-        """Return whether there are coupled patches."""
-        return any(interaction.code == CYCLIC for interaction in interactions.values())
-
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
         """Add the points before and after each passage of a coupled patch."""
         tracked = rows[np.isin(rows[:, 0], memory["row"])]
-        for passage in cloud.passages(tracked):
+        for passage in passages(cloud, tracked):
             for met, begins in zip(passage, (0.0, 1.0), strict=True):
                 p = cloud.of(met.number).particles._replace(F=met.F)
-                axes, D = cloud.collect_of(p, *(MEASURES[name].value for name in _TRACKED[:2]))
+                axes, D = cloud.of(p).measure(np.arange(p.size), *_TRACKED[:2])
                 tracks = np.searchsorted(memory["row"], met.number)
                 # The flow may have changed since: shear rate and fields are those of the point before.
                 last = memory["points"][tracks, memory["count"][tracks] - 1]
@@ -88,7 +95,7 @@ class ParticleTracks(CloudFunction):
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add a point to the path of every particle that has moved since."""
         open_ = memory["row"][~memory["closed"]]
-        number, ended, points = map(np.concatenate, zip(*cloud.observe(open_, _released), strict=True))
+        number, ended, points = map(np.concatenate, zip(*_where_they_move(cloud, open_), strict=True))
         tracks = np.searchsorted(memory["row"], number)
         memory["closed"][tracks] = ended
         last = memory["points"][tracks, memory["count"][tracks] - 1, 3]
@@ -97,11 +104,11 @@ class ParticleTracks(CloudFunction):
         first = tracks[memory["count"][tracks] == 1]
         if points.shape[1] > len(_POINT) and len(first):
             found = cloud.of(memory["row"][first])
-            fields = found.fields_at_release(np.arange(len(first)), memory["host"][first])
+            fields = fields_at_release(found, np.arange(len(first)), memory["host"][first])
             memory["points"][first, 0, len(_POINT) :] = _values(fields, len(first))
         if points.shape[1] > len(_POINT) and len(ended):
             found = cloud.of(memory["row"][tracks[ended]])
-            points[ended, len(_POINT) :] = _values(found.fields(np.arange(len(ended))), len(ended))
+            points[ended, len(_POINT) :] = _values(fields_of(found, np.arange(len(ended))), len(ended))
         self._append(memory, tracks, points)
 
     def _append(self, memory: Memory, tracks: Rows, points: NDArray[np.float64]) -> None:
@@ -126,7 +133,7 @@ class ParticleTracks(CloudFunction):
         first = np.cumsum(count) - count
         start = np.union1d(first, np.flatnonzero(points[:, 12])).astype(np.int64)
         rows = tracks[np.searchsorted(first, start, side="right") - 1]
-        fields = cloud.fields(rows[:0])
+        fields = fields_of(cloud, rows[:0])
         ends = len(_POINT) + np.cumsum([f.values.shape[1] for f in fields.values()], dtype=int)
         found = {
             name: FieldValues(points[:, end - f.values.shape[1] : end], f.unit).array
@@ -143,9 +150,16 @@ class ParticleTracks(CloudFunction):
                  "injector": p.injector[rows], "status": p.status[rows], "patch": p.patch[rows]},
                 {"time": "s", "d": "m", "Ca": "1"} | {n: MEASURES[n].unit for n in ("U", *_TRACKED)}
                 | {name: f.unit for name, f in fields.items()},
-                {"status": STATUS_NAMES, "patch": cloud.patches, "injector": cloud.injectors},
+                {"status": STATUS_NAMES, **cloud.names},
             ),
         )  # fmt: skip
+
+
+def _where_they_move(cloud: ObservedCloud, numbers: Rows) -> list[Any]:
+    """Return :func:`_released` of particles, given by rising numbers, on each process."""
+    if cloud.cloud.homes is None:
+        return [_released(cloud.of(numbers))]
+    return cloud.cloud.homes.observe(numbers, _released, cloud.time)
 
 
 def _released(cloud: ObservedCloud) -> tuple[Rows, NDArray[np.bool_], NDArray[np.float64]]:
@@ -154,9 +168,9 @@ def _released(cloud: ObservedCloud) -> tuple[Rows, NDArray[np.bool_], NDArray[np
     The fields are unknown where they have ended: the flow of that time may not be loaded.
     """
     p = cloud.particles
-    rows, ended = np.flatnonzero(p.status != Status.PENDING), cloud.has_ended(slice(None))
-    moving = cloud.seeing(p._replace(host=np.where(ended, -1, p.host).astype(p.host.dtype)))
-    return p.number[rows], ended[rows], _points(cloud, rows, moving.fields(rows))
+    rows, ended = np.flatnonzero(p.status != Status.PENDING), has_ended(cloud, slice(None))
+    moving = cloud.of(p._replace(host=np.where(ended, -1, p.host).astype(p.host.dtype)))
+    return p.number[rows], ended[rows], _points(cloud, rows, fields_of(moving, rows))
 
 
 def _points(cloud: ObservedCloud, rows: Rows, fields: Mapping[str, FieldValues]) -> NDArray[np.float64]:

@@ -12,17 +12,18 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import parts_of
 from foamprb.cloud.contact import Rebounds, in_order, rebounds_of
-from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.patches import REBOUND, Interaction
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
     CloudFunction,
+    ContactObserver,
     Memory,
     ObservedCloud,
     columns,
     masses,
     names_of,
+    table,
 )
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
@@ -36,7 +37,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class PatchPostProcessing(CloudFunction):
+class PatchPostProcessing(CloudFunction, ContactObserver):
     """Time, place, velocity and shape of particles that meet a patch: ``<patch>.csv``.
 
     There is a row for each particle that sticks to the patch or leaves through it, and for each ``rebound``,
@@ -50,7 +51,7 @@ class PatchPostProcessing(CloudFunction):
         int | None, AtLeastOne, Meaning("only the first of each patch", default="all")
     ] = None
 
-    whole: ClassVar[bool] = False
+    arrays: ClassVar = {"rebounds": table}
 
     def begin(self, cloud: ObservedCloud) -> Memory:
         """Check the names of the patches; return an empty table of rebounds if particles bounce off one.
@@ -60,13 +61,14 @@ class PatchPostProcessing(CloudFunction):
         InputError
             If there is no such patch, or the cloud does not record the rebounds from it.
         """
+        names = cloud.names["patch"]
         for name in self.patches:
             if not _patches_named(cloud, name):
-                raise InputError(f"patch {name} is not in the mesh. {suggestion(name, cloud.patches)}")
+                raise InputError(f"patch {name} is not in the mesh. {suggestion(name, names)}")
         bouncing = self._bouncing(cloud)
         if bouncing and not cloud.cloud.models.rebounds:
             raise InputError(
-                f"patch {cloud.patches[bouncing[0]]}: particles bounce off it, which is recorded if the "
+                f"patch {names[bouncing[0]]}: particles bounce off it, which is recorded if the "
                 "models have rebounds=True"
             )
         return {"rebounds": in_order([])} if bouncing else {}
@@ -90,7 +92,7 @@ class PatchPostProcessing(CloudFunction):
             self._drop(memory, bouncing)
         met: Iterator[Rebounds]
         for patch in self._chosen(cloud):
-            path = folder / f"{file_name(cloud.patches[patch])}.{cloud.tables}"
+            path = folder / f"{file_name(cloud.names['patch'][patch])}.{cloud.tables}"
             if patch in bouncing:
                 found = rebounds_of(memory["rebounds"])
                 mine = found.patch == patch
@@ -116,7 +118,7 @@ class PatchPostProcessing(CloudFunction):
 
     def _landings(self, cloud: ObservedCloud, patch: int) -> Iterator[Rebounds]:
         """Yield the ends of particles on a patch in the order of time, in the form of rebounds."""
-        numbers, times = map(np.concatenate, zip(*cloud.cloud.in_order(_landed, patch), strict=True))
+        numbers, times = map(np.concatenate, zip(*cloud.map({}, _landed, patch), strict=True))
         numbers = numbers[np.argsort(times, kind="stable")][: self.maxStoredParcels]
         for part in parts_of(len(numbers)):
             p = cloud.of(numbers[part]).particles
@@ -124,7 +126,7 @@ class PatchPostProcessing(CloudFunction):
             yield Rebounds(p.number, p.patch.astype(np.int64), p.t, p.x, p.v, n, p.F)
 
 
-def _landed(p: Particles, patch: int) -> tuple[NDArray[np.int64], Floats]:
+def _landed(p: Particles, _memory: Memory, patch: int) -> tuple[NDArray[np.int64], Floats]:
     """Return numbers and times of the particles that have ended on a patch."""
     ended = (p.patch == patch) & ((p.status == Status.STUCK) | (p.status == Status.ESCAPED))
     return p.number[ended], p.t[ended]
@@ -134,15 +136,12 @@ def _rows_of(cloud: ObservedCloud, met: Rebounds, bounces: bool) -> Rows:
     """Return the rows of the table of a patch."""
     p = cloud.of(met.number).particles
     p.F[:] = met.F
-    axes, D, longest = cloud.collect_of(
-        p,
-        MEASURES["semiAxes"].value,
-        MEASURES["taylorDeformation"].value,
-        lambda c: np.stack(c.frame[:3], axis=1),
+    axes, D, longest = cloud.of(p).measure(
+        np.arange(p.size), "semiAxes", "taylorDeformation", lambda c: np.stack(c.frame[:3], axis=1)
     )
     return rows_of(
         {
-            "id": met.number, "injector": names_of(cloud.injectors, p.injector),
+            "id": met.number, "injector": names_of(cloud.names["injector"], p.injector),
             "fate": ["rebound"] * p.size if bounces else names_of(STATUS_NAMES, p.status), "t": met.t,
             **columns("xyz", met.x), **columns(("Ux", "Uy", "Uz"), met.v),
             "d": 2.0 * p.R, "mass": masses(p, np.arange(p.size)), "Ca": p.Ca,
@@ -154,7 +153,7 @@ def _rows_of(cloud: ObservedCloud, met: Rebounds, bounces: bool) -> Rows:
 
 
 def _patches_named(cloud: ObservedCloud, word: str) -> list[int]:
-    pairs = zip(cloud.cloud.flow.patches, cloud.patches, strict=True)
+    pairs = zip(cloud.cloud.flow.patches, cloud.names["patch"], strict=True)
     return patches_named([patch._replace(name=name) for patch, name in pairs], word)
 
 

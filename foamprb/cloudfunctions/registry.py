@@ -15,12 +15,20 @@ from foamprb.cloud.cloud import Value
 from foamprb.cloud.state import Particles, empty
 from foamprb.cloudfunctions.base import (
     CloudFunction,
+    CloudShare,
+    ContactObserver,
     Memory,
     ObservedCloud,
+    StepObserver,
     add_up,
     append,
+    events_of,
     in_time,
     memory_of,
+    names_of_kind,
+    per_cell,
+    per_particle,
+    rows_of_particles,
 )
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.field_sampling import FieldSampling
@@ -82,21 +90,25 @@ class CloudFunctions:
     def _begin(self, name: str, function: CloudFunction) -> None:
         """Let a function return its initial data."""
         cloud, homes = self._seen_by(name), self.cloud.cloud.homes
-        if homes is None or not function.rows:
+        if homes is None or name not in self.travelling:
             self._memory[name] = function.begin(cloud)
             return
-        self._memory[name] = memory = function.begin(cloud.seeing(empty(0)))
-        homes.remember({f"{name}/{key}": array for key, array in function.of_particles(memory).items()})
-        if function.sums:
-            homes.share_sums(name, memory["sums"].shape)
-            memory["sums"] = memory["sums"][:0].copy()
-        homes.begin(name, lambda p: function.of_particles(function.begin(cloud.seeing(p))))
+        self._memory[name] = memory = function.begin(cloud.of(empty(0)))
+        homes.remember(self.with_particles([name]))
+        for sums in names_of_kind(function, per_cell):
+            homes.share_sums(name, memory[sums].shape)
+            memory[sums] = memory[sums][:0].copy()
+        homes.begin(name, lambda p: rows_of_particles(function, function.begin(cloud.of(p))))
 
     def _seen_by(self, name: str) -> ObservedCloud:
         """Return the cloud as a function observes it."""
-        cloud = replace(self.cloud, name=name)
-        collects = cloud.cloud.homes is not None and self.functions[name].whole
-        return cloud.seeing(cloud.cloud.whole()) if collects else cloud
+        return replace(self.cloud, _name=name)
+
+    def _in(self, flow: LoadedFlow, time: float) -> ObservedCloud:
+        """Return the cloud in a flow that is loaded, at a time, s."""
+        cloud = self.cloud.cloud
+        share: Any = CloudShare(cloud.interactions, flow, cloud.medium, cloud.tracker, time)
+        return replace(self.cloud, cloud=share, _seen=cloud.whole())
 
     def next_sample(self, last: int) -> int:
         """Return the step of the next sample, at most ``last``."""
@@ -112,24 +124,26 @@ class CloudFunctions:
     @property
     def travelling(self) -> list[str]:
         """Names of the functions whose data go with the particles."""
-        return [name for name, function in self.functions.items() if function.rows]
+        return [name for name, function in self.functions.items() if names_of_kind(function, per_particle)]
 
     @property
     def summing(self) -> list[str]:
         """Names of the functions that have sums of cells."""
-        return [name for name, function in self.functions.items() if function.sums]
+        return [name for name, function in self.functions.items() if names_of_kind(function, per_cell)]
 
     def before_steps(self, flow: LoadedFlow, start: float, until: float) -> None:
         """Let the functions observe the particles before a call of the loop, while its flow is loaded."""
-        cloud = self.cloud.at(flow, start)
+        cloud = self._in(flow, start)
         for name, function in self.functions.items():
-            function.before_steps(self._memory[name], cloud, until)
+            if isinstance(function, StepObserver):
+                function.before_steps(self._memory[name], cloud, until)
 
     def after_steps(self, flow: LoadedFlow, until: float) -> None:
         """Let the functions observe the particles after a call of the loop."""
-        cloud = self.cloud.at(flow, until)
+        cloud = self._in(flow, until)
         for name, function in self.functions.items():
-            function.after_steps(self._memory[name], cloud)
+            if isinstance(function, StepObserver):
+                function.after_steps(self._memory[name], cloud)
 
     def sample(self, names: Collection[str]) -> None:
         """Let some functions record a sample."""
@@ -137,13 +151,14 @@ class CloudFunctions:
         for name in names:
             function, memory = self.functions[name], self._memory[name]
             self._observe(name, function.sample)
-            if function.sums:
-                add_up(memory["sums"], memory[function.events])
-                memory[function.events] = memory[function.events][:0].copy()
+            for sums in names_of_kind(function, per_cell):
+                events = events_of(self.functions[name])
+                add_up(memory[sums], memory[events])
+                memory[events] = memory[events][:0].copy()
 
     def _observe(self, name: str, observe: Callable[[Memory, ObservedCloud], None]) -> None:
         """Let a function observe particles, and add its events in their order."""
-        memory, events = self._memory[name], self.functions[name].events
+        memory, events = self._memory[name], events_of(self.functions[name])
         before = memory.get(events)
         if before is not None:
             memory[events] = before[:0]
@@ -154,9 +169,9 @@ class CloudFunctions:
     def write(self, folder: Path) -> None:
         """Let every function write into a folder of its name."""
         for name, function in self.functions.items():
-            if function.events:
+            if events := events_of(self.functions[name]):
                 # Those of rebounds and of samples were recorded one after the other.
-                self._memory[name][function.events] = in_time(self._memory[name][function.events])
+                self._memory[name][events] = in_time(self._memory[name][events])
             function.write(self._memory[name], self._seen_by(name), folder / name)
 
     def with_particles(self, names: Iterable[str]) -> Memory:
@@ -164,28 +179,28 @@ class CloudFunctions:
         return {
             f"{name}/{key}": array
             for name in names
-            for key, array in self.functions[name].of_particles(self._memory[name]).items()
+            for key, array in rows_of_particles(self.functions[name], self._memory[name]).items()
         }
 
     def new_events(self, names: Iterable[str]) -> Memory:
         """Return empty tables of the events of some functions, by their names."""
-        tables = {name: self.functions[name].events for name in names}
+        tables = {name: events_of(self.functions[name]) for name in names}
         return {name: self._memory[name][table][:0] for name, table in tables.items() if table}
 
     def add_events(self, found: Sequence[Memory]) -> None:
         """Add tables of events, which were recorded apart, in the order of their times."""
         for name in found[0]:
             new = np.concatenate([tables[name] for tables in found])
-            append(self._memory[name], self.functions[name].events, in_time(new))
+            append(self._memory[name], events_of(self.functions[name]), in_time(new))
 
     def with_fates(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
         """Yield what a function finds of all particles and of the columns that are added to ``fates``.
 
-        See :meth:`ObservedCloud.in_order`. The columns are those of the same particles, by name.
+        See :meth:`ObservedCloud.map`. The columns are those of the same particles, by name.
         """
         fields = tuple(columns_of(self.cloud.cloud.flow))
         given = function, self.functions, fields, *arguments
-        return self.cloud.in_order(self.with_particles(self.functions), _with_fates, *given)
+        return self.cloud.map(self.with_particles(self.functions), _with_fates, *given)
 
     def state(self) -> Memory:
         """Return the data of all functions, by ``function/array``; of particles elsewhere, no rows."""
@@ -200,7 +215,7 @@ class CloudFunctions:
         """Let some functions record rebounds and passages; for these see :meth:`Cloud.take_rebounds`."""
         for name in names if len(rows) else ():
             function = self.functions[name]
-            if type(function).record_rebounds is not CloudFunction.record_rebounds:
+            if isinstance(function, ContactObserver):
                 self._observe(name, partial(function.record_rebounds, rows=rows))
 
     def restore(self, stored: Collection[str], read: Callable[[str], NDArray[Any]]) -> None:

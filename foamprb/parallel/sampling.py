@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -12,11 +12,18 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.patches import Interaction
 from foamprb.cloud.state import Particles
 from foamprb.cloud.tracker import Tracker
-from foamprb.cloudfunctions.base import CloudFunction, CloudShare, Memory, ObservedCloud, memory_of
+from foamprb.cloudfunctions.base import (
+    CloudFunction,
+    CloudShare,
+    Memory,
+    ObservedCloud,
+    events_of,
+    memory_of,
+)
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.flow.loaded import LoadedFlow
 
-Observe: TypeAlias = Callable[[CloudFunction, Memory, ObservedCloud], None]
+Observe: TypeAlias = Callable[[Any, Memory, ObservedCloud], None]
 """Lets a function observe particles: its data of them changes."""
 
 
@@ -29,8 +36,7 @@ class Sampling:
     """Empty tables of events by the names of their functions."""
     interactions: tuple[Interaction, ...]
     medium: Medium
-    injectors: tuple[str, ...]
-    patches: tuple[str, ...]
+    cloud_names: Mapping[str, Sequence[str]]
 
     @classmethod
     def of(cls, functions: CloudFunctions, medium: Medium) -> Sampling:
@@ -42,14 +48,17 @@ class Sampling:
             functions.new_events(names),
             tuple(cloud.cloud.interactions),
             medium,
-            cloud.injectors,
-            cloud.patches,
+            cloud.names,
         )
+
+    def names_of(self, kind: type) -> list[str]:
+        """Return the names of the functions of a class."""
+        return [name for name, function in self.functions.items() if isinstance(function, kind)]
 
     def cloud(self, p: Particles, flow: LoadedFlow, tracker: Tracker, time: float) -> ObservedCloud:
         """Return the cloud with some of its particles as functions observe it; see :meth:`observe`."""
         share: Any = CloudShare(self.interactions, flow, self.medium, tracker, time)
-        return ObservedCloud(share, self.injectors, self.patches, seen=p)
+        return ObservedCloud(share, self.cloud_names, _seen=p)
 
     def observe(
         self,
@@ -80,9 +89,10 @@ class Sampling:
         cloud, found = self.cloud(p, flow, tracker, time), {}
         for name in names:
             function, known = self.functions[name], memory_of(memory, name)
-            if function.events:
-                known[function.events] = events.get(name, self.events[name])
+            table = events_of(function)
+            if table:
+                known[table] = events.get(name, self.events[name])
             observe(function, known, cloud)
-            if function.events:
-                found[name] = known[function.events]
+            if table:
+                found[name] = known[table]
         return found

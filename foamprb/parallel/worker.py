@@ -21,7 +21,7 @@ from foamprb.cloud.report import report
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings.wall_lift import wall_distances
 from foamprb.cloud.tracker import Outcome, Tracker
-from foamprb.cloudfunctions.base import Memory, add_up, in_time, memory_of
+from foamprb.cloudfunctions.base import ContactObserver, Memory, StepObserver, add_up, in_time, memory_of
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats
 from foamprb.flow.fields import Fields
@@ -379,7 +379,7 @@ class Worker:
     ) -> ShareState:
         """Advance the particles by some steps; ``stop`` or a signal ends them early."""
         stop, tracker = stop or (lambda: bool(self.signals)), self._tracker
-        functions = self._sampling.functions
+        functions = self._sampling.names_of(StepObserver)
         start, until = (tracker.start + n * tracker.dt for n in (step, step + steps))
         self._observe(functions, start, lambda f, memory, cloud: f.before_steps(memory, cloud, until))
         outcome = tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
@@ -432,7 +432,7 @@ class Worker:
         at = np.minimum(np.searchsorted(ids, numbers), max(len(ids) - 1, 0))
         here = ids[at] == numbers if len(ids) else np.zeros(len(numbers), dtype=bool)
         own = np.column_stack([order[at[here]], rebounds[here, 1:]])
-        functions = self._sampling.functions
+        functions = self._sampling.names_of(ContactObserver)
         self._observe(functions, time, lambda f, memory, cloud: f.record_rebounds(memory, cloud, own))
 
     def _observe(self, names: Iterable[str], time: float, observe: Observe) -> None:

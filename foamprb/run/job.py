@@ -33,7 +33,7 @@ from foamprb.cloud.state import concatenate
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
 from foamprb.cloud.viscosity import viscosity_at_rate
-from foamprb.cloudfunctions.base import ObservedCloud
+from foamprb.cloudfunctions.base import ContactObserver, ObservedCloud
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
@@ -80,7 +80,8 @@ class Job:
     @property
     def observed(self) -> ObservedCloud:
         """Cloud with the names of its injection models and patches."""
-        return ObservedCloud(self.cloud, self.injector_names, self.patch_names, self.tables)
+        names = {"patch": self.patch_names, "injector": self.injector_names}
+        return ObservedCloud(self.cloud, names, self.tables)
 
     @property
     def folder(self) -> ResultsFolder:
@@ -391,8 +392,8 @@ def assemble(
     solution = settings.solution
     models = _models(settings, solution.integrationSchemes.shape, bool(getattr(flow, "rotating", ())))
     by_name = {patch.name: i for patch, i in zip(flow.patches, interactions, strict=True)}
-    needed = any(function.needs_rebounds(by_name) for function in settings.functions.values())
-    models = replace(models, rebounds=needed)
+    observers = (f for f in settings.functions.values() if isinstance(f, ContactObserver))
+    models = replace(models, rebounds=any(f.needs_rebounds(by_name) for f in observers))
     try:
         cloud = Cloud(
             particles,
@@ -410,9 +411,9 @@ def assemble(
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
     injectors = tuple(injection.name for injection in settings.injections)
-    observed = ObservedCloud(cloud, injectors, tuple(patch.name for patch in flow.patches), tables)
+    names = {"patch": tuple(patch.name for patch in flow.patches), "injector": injectors}
     try:
-        functions = CloudFunctions(settings.functions, observed)
+        functions = CloudFunctions(settings.functions, ObservedCloud(cloud, names, tables))
     except InputError as error:
         raise InputError(f"{settings.file}: {error}") from error
     return Job(settings, cloud, functions, tables=tables)

@@ -71,6 +71,6 @@ def test_an_unknown_field():
 
 
 def test_an_injection_model_called_as_a_column_is_refused():
-    cloud = ObservedCloud(pipe_cloud(2), ("lower", "two"), ("wall", "inlet", "outlet"))
+    cloud = ObservedCloud(pipe_cloud(2), {"injector": ("lower", "two"), "patch": ()})
     with pytest.raises(InputError, match="cloudFunctions/f: no injection model may be called lower"):
         CloudFunctions({"f": ParticleHistogram()}, cloud)

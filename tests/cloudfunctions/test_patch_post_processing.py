@@ -66,7 +66,8 @@ def test_a_patch_with_any_name_stays_in_the_folder(tmp_path):
     """The mesh may call a patch anything."""
     cloud = pipe_cloud()
     names = ("../../../wall", "..", "out let")
-    functions = CloudFunctions({"f": PatchPostProcessing(names)}, ObservedCloud(cloud, ("one", "two"), names))
+    seen = ObservedCloud(cloud, {"injector": ("one", "two"), "patch": names})
+    functions = CloudFunctions({"f": PatchPostProcessing(names)}, seen)
     cloud.advance(700)
     (tmp_path / "a/b/c").mkdir(parents=True)
     functions.sample(functions.functions)

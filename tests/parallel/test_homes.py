@@ -17,6 +17,7 @@ from foamprb.cloud.cloud import Cloud, Stepper, regrouped, same
 from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import Particles, concatenate, empty, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloudfunctions.base import StepObserver
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.haemolysis import Haemolysis
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
@@ -72,7 +73,7 @@ class Processes:
 
     def before_steps(self, start: float, until: float) -> None:
         for worker in self.workers:
-            functions = worker._sampling.functions
+            functions = worker._sampling.names_of(StepObserver)
             worker._observe(functions, start, lambda f, memory, cloud: f.before_steps(memory, cloud, until))
 
     def take(self, p: Particles) -> None:
