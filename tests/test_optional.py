@@ -51,7 +51,7 @@ def test_commands_without_pictures_need_no_extra(case):
 
 
 def test_pages_and_pictures_name_their_extra(case):
-    commands = ["view", "-noBrowser"], ["view", "-png", "a.png"], ["view", "-window"], ["report"]
+    commands = ["view", "-noBrowser"], ["view", "-png", "a.png"], ["report"]
     done = without_extras(*([*words, "-case", case] for words in commands))
     assert done.returncode == len(commands)
     expected = "need pyvista: pip install 'foamprb[view]', or in a clone pip install '.[view]'"

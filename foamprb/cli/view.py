@@ -28,7 +28,6 @@ def declare(parser: argparse.ArgumentParser) -> None:
     kind = parser.add_mutually_exclusive_group()
     kind.add_argument("--png", type=Path, metavar="FILE", help="write a picture, not the page")
     kind.add_argument("--film", type=Path, metavar="FILE", help="write a film, .mp4 or .gif, not the page")
-    kind.add_argument("--window", action="store_true", help="open a window of VTK, write no file")
     add("--time", type=float, metavar="TIME", help="first time shown [the time with most bodies]")
     add("--colour", "--color", default="taylorDeformation", metavar="ARRAY",
         help="array, or array:component, to colour by [taylorDeformation]")  # fmt: skip
@@ -47,13 +46,14 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--maxSize", type=float, default=30.0, metavar="MB",
         help="largest page; arrays and times that do not fit are left out [30]")  # fmt: skip
     add("--size", default="1600x900", metavar="WxH",
-        help="size of a picture, film or window, pixels [1600x900]")  # fmt: skip
-    add("--dark", action="store_true", help="dark background of a picture, film or window")
+        help="size of a picture or film, pixels [1600x900]")  # fmt: skip
+    add("--dark", action="store_true", help="dark background of a picture or film")
 
 
 def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
     """Execute the command; return the exit status."""
-    from foamprb.view.show import Request, open_in_browser, picture_of, write_page
+    from foamprb.view.colours import DARK, LIGHT
+    from foamprb.view.show import Request, film_of, open_in_browser, picture_of, write_page
 
     request = Request(
         arguments.case,
@@ -69,8 +69,9 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
         tuple(arguments.percentiles),
         arguments.results,
     )
-    if arguments.png or arguments.film or arguments.window:
-        picture_of(request, arguments.png, arguments.film, read_size(arguments.size), arguments.dark)
+    if path := arguments.png or arguments.film:
+        write = picture_of if arguments.png else film_of
+        write(request, path, read_size(arguments.size), DARK if arguments.dark else LIGHT)
         return 0
     path = write_page(request, arguments.output, arguments.maxSize, version("foamprb"))
     if not arguments.noBrowser and sys.stdout.isatty():

@@ -286,38 +286,6 @@ class Page:
         return _rounded((point - self._middle) / self._size)
 
 
-def twins(title: str, pages: Sequence[tuple[str, str]], version: str) -> Iterator[str]:
-    """Yield the text of a page that shows two pages side by side, with one camera, clock and legend.
-
-    Parameters
-    ----------
-    title
-        Title of the page.
-    pages
-        Names and texts of the pages.
-    version
-        Version of foamprb.
-    """
-    script, style = _text("twins.js"), _text("twins.css")
-    texts = {
-        "policy": _policy([script, _text("bundle.js")], [style, _text("page.css")]),
-        "version": version,
-        "title": html.escape(title),
-        "style": style,
-        "script": script,
-        "frames": None,
-    }
-    for piece in _filled("twins.html", texts):
-        if piece is not None:
-            yield piece
-            continue
-        for (name, text), words in zip(pages, ("bare&twin", "bare&twin&second"), strict=True):
-            # Only these two characters have a meaning in the attribute.
-            inner = text.replace("&", "&amp;").replace('"', "&quot;")
-            label = html.escape(name)
-            yield f'<iframe title="{label}" name="foamprb {html.escape(words)}" srcdoc="{inner}"></iframe>\n'
-
-
 def _filled(template: str, texts: Mapping[str, str | None]) -> Iterator[str | None]:
     """Yield the pieces of a template, with texts instead of their names in double braces."""
     for number, piece in enumerate(re.split(r"\{\{(\w+)\}\}", _text(template))):

@@ -1,4 +1,4 @@
-"""Scene drawn by VTK: a picture, a film or a window. Only the window needs a display."""
+"""Scene drawn by VTK: a picture or a film, without a display."""
 
 from __future__ import annotations
 
@@ -371,7 +371,7 @@ def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, texts
     if path.suffix.lower() != ".png":
         raise InputError(f"-png {path}: the name must end in .png.")
     with vtk_messages():
-        drawing = _drawing(scene, size, style, texts, off_screen=True)
+        drawing = _drawing(scene, size, style, texts)
         drawing.show(scene.first)
         image = drawing.plotter.screenshot(return_img=True)
         drawing.plotter.close()
@@ -403,7 +403,7 @@ def film(scene: Scene, path: Path, size: tuple[int, int], style: Style) -> None:
     writer: Any
     try:
         with vtk_messages(), get_writer(temporary, **options) as writer:
-            drawing = _drawing(scene, even, style, texts=True, off_screen=True)
+            drawing = _drawing(scene, even, style, texts=True)
             for frame in range(m):
                 drawing.show(frame)
                 drawing.plotter.render()
@@ -441,27 +441,7 @@ def require_graphics() -> None:
     raise InputError("no display and no libEGL: VTK cannot draw. On Debian: apt-get install libegl1.")
 
 
-def window(scene: Scene, size: tuple[int, int], style: Style) -> None:
-    """Show the scene in a window, with a slider for the time, until the user closes it."""
-    drawing = _drawing(scene, size, style, texts=True, off_screen=False)
-    drawing.show(scene.first)
-    last = len(scene.bodies.times) - 1
-
-    def on_slide(value: float) -> None:
-        drawing.show(round(value))
-        drawing.plotter.render()
-
-    if last > 0:
-        drawing.plotter.add_slider_widget(
-            on_slide, (0, last), value=scene.first, title="", fmt=" ", color=style.ink, style="modern",
-            pointa=(0.42, 0.05), pointb=(0.76, 0.05), slider_width=0.025, tube_width=0.006,
-        )  # fmt: skip
-    # The user turns and moves the camera.
-    drawing.plotter.renderer.AddObserver("StartEvent", lambda *_: drawing.compass())
-    drawing.plotter.show()
-
-
-def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool, off_screen: bool) -> Drawing:
+def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool) -> Drawing:
     """Return the scene without its bodies.
 
     Raises
@@ -473,7 +453,7 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool, off
     points = len(sphere_for(number).points) + (len(mark().points) if number <= _MOST_MARKED else 0)
     announce("bodies drawn", number, _POINT * points)
     require(_GRAPHICS + _POINT * points * number)
-    plotter = pyvista.Plotter(off_screen=off_screen or None, window_size=list(size), lighting=None)
+    plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting=None)
     plotter.set_background(style.paper)
     plotter.enable_anti_aliasing("msaa", multi_samples=8)
     light = vtkLight()

@@ -1,4 +1,4 @@
-"""From the folder of a case to its page, picture, film or window."""
+"""From the folder of a case to its page, picture or film."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ from foamprb.results.atomic import atomic_write, refuse_other_kind
 from foamprb.results.vtk import Tracks
 from foamprb.settings.fluid import read_gravity
 from foamprb.view.bodies import Bodies, fates_of, fields_of_fates, gather, require_array, survey
-from foamprb.view.colours import DARK, LIGHT
+from foamprb.view.colours import Style
 from foamprb.view.flowfield import FlowField, field_of
 from foamprb.view.geometry import Geometry, boundary
-from foamprb.view.page import Page, twins
+from foamprb.view.page import Page
 from foamprb.view.painting import Painting, painting_of
 from foamprb.view.paraview import write_state
-from foamprb.view.picture import film, has_display, picture, require_graphics, window
+from foamprb.view.picture import film, has_display, picture, require_graphics
 from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import (
     MOST_TRAILS,
@@ -62,8 +62,6 @@ MOST_DRAWN = 100_000
 """Largest number of bodies in a page or a picture, unless -bodies requests more."""
 MOST_CELLS = 250_000
 """Largest number of cells of a mesh whose flow is read for streamlines."""
-_TWIN, _MOST_TWIN = 15.0, 5000
-"""Largest size of each of two scenes on one page, MB, and its largest number of bodies."""
 _SAMPLE, _ESTIMATES = 500, 2
 """Bodies in an estimate of the size of a page, and the number of estimates."""
 _MOST_TRAILING = 16
@@ -172,34 +170,6 @@ def _packed(request: Request, megabytes: float, version: str) -> tuple[Page, Run
         log.warning("%s: left out, there is no room in %g MB. -maxSize allows more.",
                     ", ".join(page.left_out), megabytes)  # fmt: skip
     return page, run
-
-
-def write_twins(requests: dict[str, Request], path: Path, version: str) -> Path:
-    """Write a page with the scenes of two runs, by name, that have one camera, clock and legend.
-
-    Parameters
-    ----------
-    requests
-        Options of the scenes.
-    path
-        The file.
-    version
-        Version of foamprb.
-
-    Raises
-    ------
-    InputError, OSError
-        See :func:`write_page`.
-    """
-    refuse_other_kind(path, PAGE_BEGINS)
-    pages = []
-    for name, request in requests.items():
-        page, _ = _packed(replace(request, bodies=_MOST_TWIN), _TWIN, version)
-        pages.append((name, "".join(page.parts())))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8") as file:
-        file.writelines(twins(" and ".join(requests), pages, version))
-    return path
 
 
 def spread(count: int, most: int) -> list[int]:
@@ -428,42 +398,40 @@ def _surroundings(request: Request, run: Run, *, drawn: bool) -> tuple[Geometry 
     return geometry, None if flow is None else field_of(flow, request.slice, drawn=drawn)
 
 
-def picture_of(
-    request: Request, png: Path | None, movie: Path | None, size: tuple[int, int], dark: bool
-) -> None:
-    """Write a picture or a film; without either, show a window.
+def picture_of(request: Request, path: Path, size: tuple[int, int], style: Style) -> None:
+    """Write a picture of one time.
 
     Raises
     ------
     InputError
-        See :func:`make_scene` and the functions of :mod:`foamprb.view.picture`.
+        See :func:`make_still` and :func:`~foamprb.view.picture.picture`.
     OSError
         If the file cannot be written.
     """
-    style = DARK if dark else LIGHT
-    if png is not None:
-        refuse_other_kind(png, b"\x89PNG")
-    if movie is not None:
-        refuse_other_kind(movie, b"GIF8", b"\0\0\0")
-    if png is None and movie is None and not has_display():
-        raise InputError(
-            "-window needs a display. Without one: -png FILE, -film FILE, or the page that view writes."
-        )
+    refuse_other_kind(path, b"\x89PNG")
+    require_graphics()
+    scene = make_still(request, _run_of(request))
+    picture(scene, path, size, style)
+    log.info("%d bodies: %s", len(scene.bodies.ids), path)
+
+
+def film_of(request: Request, path: Path, size: tuple[int, int], style: Style) -> None:
+    """Write a film of all times.
+
+    Raises
+    ------
+    InputError
+        See :func:`make_scene` and :func:`~foamprb.view.picture.film`.
+    OSError
+        If the file cannot be written.
+    """
+    refuse_other_kind(path, b"GIF8", b"\0\0\0")
     require_graphics()
     run = _run_of(request)
-    if png is not None:
-        scene = make_still(request, run)
-        picture(scene, png, size, style)
-        log.info("%d bodies: %s", len(scene.bodies.ids), png)
-        return
     request = replace(request, bodies=request.bodies or MOST_DRAWN)
     scene = make_scene(request, run, range(len(run.entries)), drawn=True)
-    if movie is not None:
-        film(scene, movie, size, style)
-    else:
-        window(scene, size, style)
-        return
-    log.info("%d bodies: %s", len(scene.bodies.ids), movie)
+    film(scene, path, size, style)
+    log.info("%d bodies: %s", len(scene.bodies.ids), path)
 
 
 def start_paraview(case: Path, cloud: str | None, region: str, results: Path | None = None) -> int:

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from PIL import Image
 from view_run import Motion, motion, write_run
 
-from foamprb.cli import main
 from foamprb.view.colours import LIGHT, colour_map, colour_of_name, rgb
 from foamprb.view.picture import picture
 from foamprb.view.results import open_run
@@ -709,32 +708,6 @@ def test_nothing_overlaps_and_nothing_is_cut(browser, address, size, scheme):
             assert apart, (a, b)
     assert opened.messages == []
     opened.page.close()
-
-
-def test_two_runs_have_one_camera_clock_and_legend(browser, request_, tmp_path):
-    """The page that foamprb compare writes beside its tables."""
-    for name in ("one", "two"):
-        shutil.copytree(request_.case, tmp_path / name)
-    output = tmp_path / "both.html"
-    assert main(["compare", *(str(tmp_path / name) for name in ("one", "two")), "-output", str(output)]) == 0
-    assert 'href="bothScenes.html"' in output.read_text()
-    page = browser.new_page(viewport={"width": WIDTH, "height": 500})
-    messages = []
-    page.on("console", lambda message: messages.append(message.text))
-    page.on("pageerror", lambda error: messages.append(str(error)))
-    page.goto((tmp_path / "bothScenes.html").as_uri())
-    page.locator("html[data-ready]").wait_for()
-    first, second = page.frames[1:]
-    first.evaluate("() => foamprb.eye.turn(0.3, 0.1)")
-    page.locator("#time").fill("2")
-    page.select_option("#colour", "U:x")
-    page.wait_for_timeout(200)
-    state = "() => (({ eye, state }) => [eye.yaw, eye.pitch, eye.distance, state.t, state.high])(foamprb)"
-    assert first.evaluate(state) == pytest.approx(second.evaluate(state))
-    assert first.evaluate(state)[3] == 2
-    assert [frame.locator(".legend").first.is_visible() for frame in (first, second)] == [True, False]
-    assert messages == []
-    page.close()
 
 
 def test_missing_WebGL_is_reported(browser, address):

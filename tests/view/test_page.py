@@ -279,7 +279,7 @@ class TestCommand:
             (["-film", "a.avi"], "the name must end in .mp4 or .gif"),
             (["-cloud", "hard"], "no results of a cloud 'hard'"),
             (["-flowTime", "3"], "no time 3"),
-            (["-png", "a.png", "-window"], "not allowed with argument"),
+            (["-png", "a.png", "-film", "a.gif"], "not allowed with argument"),
         ],
     )
     def test_mistakes_end_in_one_message(self, case, capsys, options, said, monkeypatch):
@@ -288,12 +288,6 @@ class TestCommand:
         err = capsys.readouterr().err
         assert said in err
         assert len(err.strip().splitlines()) == 1
-
-    def test_a_window_needs_a_display(self, case, capsys, monkeypatch):
-        for name in ("DISPLAY", "WAYLAND_DISPLAY"):
-            monkeypatch.delenv(name, raising=False)
-        assert main(["view", "-case", str(case), "-window"]) == 1
-        assert "-window needs a display" in capsys.readouterr().err
 
     def test_a_time_that_was_not_written_is_reported(self, case, capsys):
         assert main(["view", "-case", str(case), "-time", "0.33"]) == 0

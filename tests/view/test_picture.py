@@ -8,13 +8,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-import pyvista
 from PIL import Image
 from view_run import motion, write_run
 
 from foamprb.cli import main
 from foamprb.view.colours import DARK, LIGHT, rgb
-from foamprb.view.picture import _drawing, draw, mark, sphere_for, trails, window
+from foamprb.view.picture import _drawing, draw, mark, sphere_for, trails
 from foamprb.view.results import open_run
 from foamprb.view.show import Request, make_scene, make_still
 
@@ -143,27 +142,9 @@ class TestPictures:
             )
         assert (image(paths[0]) != image(paths[1])).any()
 
-    def test_a_window_has_a_slider_for_the_time(self, case, monkeypatch):
-        """The window is replaced by an off-screen plotter."""
-        scene = make_scene(Request(case), open_run(case), range(5))
-        found = {}
-
-        def add_slider(_, callback, limits, **more):
-            found["limits"] = limits
-            callback(1.2)
-
-        monkeypatch.setattr(pyvista, "OFF_SCREEN", True)
-        monkeypatch.setattr(pyvista.Plotter, "add_slider_widget", add_slider)
-        monkeypatch.setattr(pyvista.Plotter, "show", lambda plotter: found.update(names=list(plotter.actors)))
-        window(scene, (300, 200), LIGHT)
-        assert found["limits"] == (0, 4)
-        assert {"bodies", "mark", "clock", "caption", "title", "legend", "scale", "axis x"} <= set(
-            found["names"]
-        )
-
     def test_the_scale_bar_has_a_round_length_in_the_plane_of_the_focus(self, case):
         scene = replace(make_scene(Request(case), open_run(case), range(5)), flow=np.array([0.6, 0.8, 0.0]))
-        drawing = _drawing(scene, (900, 900), LIGHT, texts=True, off_screen=True)
+        drawing = _drawing(scene, (900, 900), LIGHT, texts=True)
         actors, eye = drawing.plotter.actors, drawing.plotter.camera
         assert "direction flow" in actors
         assert actors["scale"].input == "200 mm"

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from urllib.parse import quote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +27,7 @@ _MOST_TIMES = 24
 _BLOCKS = "▁▂▃▄▅▆▇█"
 
 
-def write_comparison(runs: Runs, target: Path, scenes: str | None = None) -> Path:
+def write_comparison(runs: Runs, target: Path) -> Path:
     """Write a page about several runs that have ended, in one step: a row for each, and their distributions.
 
     Parameters
@@ -38,8 +36,6 @@ def write_comparison(runs: Runs, target: Path, scenes: str | None = None) -> Pat
         The runs.
     target
         The page.
-    scenes
-        Name of a page beside it with the scenes of the runs, which it links.
 
     Returns
     -------
@@ -59,10 +55,8 @@ def write_comparison(runs: Runs, target: Path, scenes: str | None = None) -> Pat
     missing = [name for name in runs if name not in ended]
     own = {name: _released(fates) for name, fates in ended.items()}
     labels = _labels(runs, own)
-    link = "Both scenes</a>, with one camera, clock and legend."
-    link = f'<p><a href="{html.escape(quote(scenes))}">{link}</p>' if scenes else ""
     sections = [
-        PageSection("runs", "Runs", link + _rows(runs, own)),
+        PageSection("runs", "Runs", _rows(runs, own)),
         PageSection("fates", "Places", _places(labels, own)),
         PageSection("distributions", "Distributions", _distributions(labels, own)),
     ]

@@ -14,7 +14,6 @@ import { Painting } from "./painting.js";
 import { Link } from "./link.js";
 import { CURVES, TimePlot, curveKey, quantiles, through } from "./plot.js";
 import { Deposits, Walls } from "./surroundings.js";
-import { Twin } from "./twin.js";
 import { Trails, frameBefore } from "./trails.js";
 
 const $ = (id) => document.getElementById(id);
@@ -45,7 +44,7 @@ const keys = [
   ["H", "this list", () => $("about").showModal()],
 ];
 
-let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, painting, plot, gallery, link, twin;
+let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, painting, plot, gallery, link;
 const scene = new Scene(), haze = { value: new Vector4(1, 1, 1, 1) };
 const state = {
   t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
@@ -56,7 +55,7 @@ let legends = {}, dirty = false, stale = false, textures = {};
 async function start() {
   if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it needs WebGL 2, which this browser or computer does not provide");
   if (typeof DecompressionStream === "undefined") throw new Error("it needs a browser of 2023 or newer");
-  for (const word of ["bare", "naked", "second"]) document.documentElement.classList.toggle(word, words.has(word));
+  for (const word of ["bare", "naked"]) document.documentElement.classList.toggle(word, words.has(word));
   if (words.has("naked")) document.documentElement.classList.add("bare");
   data = await load();
   const { scene: spec } = data;
@@ -72,10 +71,7 @@ async function start() {
   ownTrail = new Trails(data, 4, haze);
   scene.add(bodies.mesh, walls.group, trails.mesh, ownTrail.mesh, deposits.points);
   if (data.flow) scene.add((plane = new FlowPlane(data, walls)).group, (streams = streamlines(data.flow, haze)));
-  eye = new Eye(canvas, spec.home, insets(), () => {
-    dirty = true;
-    twin?.post({ eye: eyeInMetres() });
-  }, tap);
+  eye = new Eye(canvas, spec.home, insets(), () => { dirty = true; }, tap);
   for (const [name, digits] of Object.entries({ ...spec.maps, ...spec.planeMaps })) textures[name] = { bytes: table(digits), texture: null };
 
   gallery = new Gallery(data);
@@ -97,7 +93,6 @@ async function start() {
   new ResizeObserver(resize).observe($("stage"));
   link = new Link(words, view, restore);
   restore(words);
-  if (words.has("twin")) twin = new Twin({ ready: twinned(), take });
   show(state.t);
   requestAnimationFrame(loop);
 }
@@ -106,26 +101,6 @@ async function start() {
 function view() {
   const { yaw, pitch, distance, fit, target } = eye, found = { t: [data.times[state.t]], colour: `${state.name}:${state.part}`, eye: [yaw, pitch, distance / fit, target.x, target.y, target.z] };
   return state.chosen < 0 ? found : { ...found, body: [data.ids[state.chosen]] };
-}
-
-function eyeInMetres() {
-  const { yaw, pitch, distance, target } = eye, { middle, size } = data.scene.frame;
-  return [yaw, pitch, size * distance, ...target.toArray().map((c, k) => middle[k] + size * c)];
-}
-
-function twinned() {
-  const arrays = {};
-  for (const field of Object.values(data.fields)) for (const part of field.parts) arrays[`${field.name}:${part}`] = { label: nameOf(field, part), range: field.ranges[part].usual };
-  for (const codes of Object.values(data.codes)) arrays[`${codes.name}:`] = { label: codes.label, range: null };
-  return { times: data.times, t: data.times[state.t], colour: `${state.name}:${state.part}`, enlargement: state.enlargement, eye: eyeInMetres(), arrays };
-}
-
-function take({ t, eye: seen, colour, range, enlargement }) {
-  const { middle, size } = data.scene.frame;
-  if (enlargement) setEnlargement(enlargement);
-  if (colour) setColour(...colour.split(":"), range);
-  if (t !== undefined) show(nearestFrame(t));
-  if (seen) eye.look(seen[0], seen[1], seen[2] / size / eye.fit, ...seen.slice(3).map((c, k) => (c - middle[k]) / size));
 }
 
 function restore(from) {
@@ -210,8 +185,6 @@ function insets() {
   if (words.has("naked")) return [0, 0];
   const [above, below] = data.scene.home.insets, card = $("card");
   const covers = !card.hidden && getComputedStyle(card).position === "fixed";
-  // Two pages side by side have the same middle, whatever stands below.
-  if (words.has("twin")) return [above, below];
   return [above, covers ? card.offsetHeight - $("transport").offsetHeight : Math.max(below, $("bottom").offsetHeight + 12)];
 }
 
@@ -459,7 +432,7 @@ function fill(spec) {
   $("deposits-row").hidden = !fate.meanings.some((word) => word.startsWith("stuck"));
   $("trails").value = data.m > 1 && spec.trail > 0 && data.n <= spec.mostTrails ? "fading" : "none";
   if (painting) option($("deposits"), "painted", "painted on the walls");
-  $("deposits").value = painting && !words.has("twin") ? "painted" : "marked";
+  $("deposits").value = painting ? "painted" : "marked";
   $("walls").hidden = data.surfaces.length === 0;
   walls.patches.forEach((patch, k) => {
     const label = check(`${patch.name}`, patch.visible, (on) => { patch.visible = on; paint(); });
