@@ -6,8 +6,7 @@ import ctypes
 import errno
 import os
 import resource
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 
 __all__ = [
@@ -18,7 +17,6 @@ __all__ = [
     "ran_out",
     "require",
     "require_start",
-    "returned_at_once",
     "size_text",
     "spread_over",
 ]
@@ -149,32 +147,6 @@ def _is_memory_error(error: BaseException) -> bool:
     return (isinstance(error, ImportError | OSError) and "failed to map segment" in text) or (
         isinstance(error, RuntimeError) and "can't start new thread" in text
     )
-
-
-_TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
-"""Parameters of ``mallopt`` in the C library."""
-_LARGE, _USUAL = 1 << 20, 32 << 20
-
-
-@contextmanager
-def returned_at_once() -> Iterator[None]:
-    """Let the C library return the memory of large arrays to the system as soon as they are freed.
-
-    By itself it keeps freed memory of up to 32 MiB an array, as the first arrays of this size are freed.
-    """
-
-    def set_threshold(size: int) -> None:
-        with suppress(OSError, AttributeError):
-            library = ctypes.CDLL(None)
-            library.mallopt(_MMAP_THRESHOLD, size)
-            library.mallopt(_TRIM_THRESHOLD, 2 * size)
-
-    set_threshold(_LARGE)
-    try:
-        yield
-    finally:
-        set_threshold(_USUAL)
-        trim()
 
 
 def trim() -> None:

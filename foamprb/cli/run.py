@@ -37,9 +37,6 @@ def declare(parser: argparse.ArgumentParser) -> None:
         "--parallel", action="store_true", help="distribute the particles over the processes of mpirun"
     )
     parser.add_argument(
-        "--tables", choices=("csv", "parquet"), default="csv", help="kind of tables: text or Parquet [csv]"
-    )
-    parser.add_argument(
         "--outsideLibs", action="store_true", help="run also Python files of libs outside the case"
     )
     parser.add_argument(
@@ -75,7 +72,6 @@ def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         arguments.threads or (ranks.threads if ranks else None),
         source_of(arguments),
         precompile=ranks is None and not arguments.dry_run,
-        tables=arguments.tables,
         outside_libs=arguments.outsideLibs,
         output=arguments.output,
         ranks=ranks,

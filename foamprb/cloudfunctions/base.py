@@ -109,8 +109,6 @@ class ObservedCloud:
     cloud: Cloud
     names: Mapping[str, Sequence[str]]
     """Names of the injection models and patches, by ``injector`` and ``patch``."""
-    tables: str = "csv"
-    """Kind of the tables of functions, and suffix of their files."""
     _seen: Particles | None = None
     """Observed particles; None for all."""
     _name: str = ""

@@ -123,7 +123,7 @@ class DeformabilityCytometry(PlaneFunction):
         injector = names_of(cloud.names["injector"], cloud.cloud.values_of(rows, "injector"))
         names = ("area", "perimeter", "a", "b", "deformation")
         write_table(
-            folder / f"cytometry.{cloud.tables}",
+            folder / "cytometry.csv",
             {"id": rows, "injector": injector,
              "t": seen[:, 1], **columns("xyz", seen[:, 2:5]), "direction": seen[:, 5].astype(np.int64),
              **columns(names, seen[:, 6:])},

@@ -104,8 +104,8 @@ class FieldSampling(SampledFunction, StepObserver):
         """Write the values of all particles that were released."""
         columns = self._columns(columns_of(cloud.cloud.flow))
         own = rows_of_particles(self, memory)
-        rows = cloud.map(own, _values_of, columns, cloud.names["injector"], cloud.tables)
-        write_rows(folder / f"fields.{cloud.tables}", rows)
+        rows = cloud.map(own, _values_of, columns, cloud.names["injector"])
+        write_rows(folder / "fields.csv", rows)
 
     def fates(self, memory: Memory, fields: Sequence[FieldColumns]) -> Mapping[str, Column]:
         """Return the last values."""
@@ -125,7 +125,7 @@ class FieldSampling(SampledFunction, StepObserver):
 
 
 def _values_of(
-    p: Particles, memory: Memory, fields: Sequence[tuple[str, slice]], injectors: Sequence[str], tables: str
+    p: Particles, memory: Memory, fields: Sequence[tuple[str, slice]], injectors: Sequence[str]
 ) -> TableRows:
     """Return the rows of the particles that were released."""
     rows = np.flatnonzero(p.status != Status.PENDING)
@@ -141,7 +141,7 @@ def _values_of(
     for k, (name, own) in enumerate(fields):
         table |= _named(name, "", last[:, own]) | _named(name, "Mean", mean[:, own])
         table[f"{name}Max"] = memory["largest"][rows, k]
-    return rows_of(table, tables)
+    return rows_of(table)
 
 
 _COMPONENTS = {

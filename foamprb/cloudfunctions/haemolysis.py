@@ -295,11 +295,11 @@ class Haemolysis(SampledFunction, ContactObserver):
 
         def rows() -> Iterator[TableRows]:
             own = rows_of_particles(self, memory)
-            for damage in cloud.map(own, self._damage, injectors, cloud.tables):
+            for damage in cloud.map(own, self._damage, injectors):
                 found.append(damage._replace(rows=TableRows((), b"")))
                 yield damage.rows
 
-        write_rows(folder / f"haemolysis.{cloud.tables}", rows())
+        write_rows(folder / "haemolysis.csv", rows())
         self._warn(memory, found, folder.name)
         lines = []
         for number in range(len(injectors)):
@@ -307,12 +307,12 @@ class Haemolysis(SampledFunction, ContactObserver):
             lines.append([cloud.time, number, len(own), own.mean() if len(own) else np.nan])
         time, injector, n, mean = append(memory, "history", lines).T
         write_table(
-            folder / f"means.{cloud.tables}",
+            folder / "means.csv",
             {"time": time, "injector": names_of(injectors, injector),
              "parcels": n.astype(np.int64), "haemolysis": mean},
         )  # fmt: skip
 
-    def _damage(self, p: Particles, memory: Memory, injectors: Sequence[str], tables: str) -> _Damage:
+    def _damage(self, p: Particles, memory: Memory, injectors: Sequence[str]) -> _Damage:
         """Return the damage of some particles."""
         rows = np.flatnonzero(p.status != Status.PENDING)
         # The laws exceed 100 % beyond the stresses of their fits.
@@ -323,8 +323,7 @@ class Haemolysis(SampledFunction, ContactObserver):
             rows_of(
                 {"id": p.number[rows], "injector": names_of(injectors, injector),
                  "fate": names_of(STATUS_NAMES, p.status[rows]), "residenceTime": times,
-                 "haemolysis": index},
-                tables,
+                 "haemolysis": index}
             ),
             [index[sound & (injector == number)] for number in range(len(injectors))],
             len(rows),

@@ -84,7 +84,7 @@ class ParticleCollector(PlaneFunction):
         injector = cloud.cloud.values_of(rows, "injector")
         names = names_of(cloud.names["injector"], injector)
         write_table(
-            folder / f"crossings.{cloud.tables}",
+            folder / "crossings.csv",
             {"id": rows, "injector": names, "t": t, "x": x, "y": y, "z": z,
              "direction": sense.astype(np.int64), "D": D, "mass": mass},
         )  # fmt: skip
@@ -101,7 +101,7 @@ class ParticleCollector(PlaneFunction):
         memory["written"][0] = len(crossings)
         time, index, along, against, total, rate = append(memory, "history", lines).T
         write_table(
-            folder / f"collector.{cloud.tables}",
+            folder / "collector.csv",
             {"time": time, "injector": names_of(cloud.names["injector"], index),
              "parcels": along.astype(np.int64), "parcelsOpposite": against.astype(np.int64),
              "mass": total, "massFlowRate": rate},

@@ -93,8 +93,8 @@ class ParticleHistogram(SampledFunction):
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the tables of all particles that were released; the distributions leave out the failed."""
         own, injectors = rows_of_particles(self, memory), cloud.names["injector"]
-        rows = cloud.map(own, _exposures_of, injectors, cloud.tables)
-        write_rows(folder / f"exposure.{cloud.tables}", rows)
+        rows = cloud.map(own, _exposures_of, injectors)
+        write_rows(folder / "exposure.csv", rows)
         for name in self.fields:
             # The edges follow from the smallest and the largest value.
             ends = np.concatenate([*cloud.map(own, _ends_of, name)])
@@ -102,17 +102,16 @@ class ParticleHistogram(SampledFunction):
             counts = np.sum([*cloud.map(own, _numbers_in, name, edges, len(injectors))], axis=0)
             table: dict[str, Column] = {"lower": edges[:-1], "upper": edges[1:]}
             table |= dict(zip(injectors, counts, strict=True))
-            write_table(folder / f"{name}.{cloud.tables}", table)
+            write_table(folder / f"{name}.csv", table)
 
 
-def _exposures_of(p: Particles, memory: Memory, injectors: Sequence[str], tables: str) -> TableRows:
+def _exposures_of(p: Particles, memory: Memory, injectors: Sequence[str]) -> TableRows:
     """Return the rows of the particles that were released."""
     rows = np.flatnonzero(p.status != Status.PENDING)
     return rows_of(
         {"id": p.number[rows], "injector": names_of(injectors, p.injector[rows]),
          "fate": names_of(STATUS_NAMES, p.status[rows]),
-         **{name: exposure(memory, p)[rows] for name, exposure in _EXPOSURES.items()}},
-        tables,
+         **{name: exposure(memory, p)[rows] for name, exposure in _EXPOSURES.items()}}
     )  # fmt: skip
 
 

@@ -92,7 +92,7 @@ class PatchPostProcessing(CloudFunction, ContactObserver):
             self._drop(memory, bouncing)
         met: Iterator[Rebounds]
         for patch in self._chosen(cloud):
-            path = folder / f"{file_name(cloud.names['patch'][patch])}.{cloud.tables}"
+            path = folder / f"{file_name(cloud.names['patch'][patch])}.csv"
             if patch in bouncing:
                 found = rebounds_of(memory["rebounds"])
                 mine = found.patch == patch
@@ -147,8 +147,7 @@ def _rows_of(cloud: ObservedCloud, met: Rebounds, bounces: bool) -> Rows:
             "d": 2.0 * p.R, "mass": masses(p, np.arange(p.size)), "Ca": p.Ca,
             **columns("abc", axes), "D": D,
             "impactAngle": _angle(met.v, -met.n), "axisAngle": _axis_angle(longest, met.n),
-        },
-        cloud.tables,
+        }
     )  # fmt: skip
 
 

@@ -44,7 +44,7 @@ class SuspensionStress(CloudFunction):
         time, index, n, *values = append(memory, "history", lines).T
         names = ("volume", "Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz", "intrinsicViscosity")
         write_table(
-            folder / f"suspensionStress.{cloud.tables}",
+            folder / "suspensionStress.csv",
             {
                 "time": time,
                 "injector": names_of(cloud.names["injector"], index),

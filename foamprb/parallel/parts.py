@@ -21,7 +21,6 @@ from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.rotating import RotatingArrays, RotatingZone
 from foamprb.flow.series import SeriesArrays
-from foamprb.memory import returned_at_once
 from foamprb.parallel.shared_memory import Publisher, Windows, wait_for_all
 
 T = TypeVar("T")
@@ -259,7 +258,7 @@ class Part:
             self._follow()
             return None
         try:
-            with self._team.united(), returned_at_once():
+            with self._team.united():
                 found = work(self._team)
         except Exception as error:
             if not self.torn:

@@ -18,7 +18,6 @@ from foamprb.errors import InputError, suggestion
 __all__ = [
     "FAILURES",
     "FATES",
-    "KINDS",
     "MANIFEST",
     "RECORD_FORMAT",
     "ResultsFolder",
@@ -30,8 +29,6 @@ __all__ = [
 DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES = "fates", "failed"
 """Tables of a run: a row per particle, and a row per failed particle."""
-KINDS = ("csv", "parquet")
-"""The kinds of tables, which are the endings of their files."""
 MANIFEST, RECORD, CHECKPOINTS, LINKS = "manifest.json", "run.json", "checkpoint", "flow"
 RECORD_FORMAT = 2
 """Version of the entries of the record."""
@@ -162,17 +159,12 @@ class ResultsFolder:
     @property
     def tables(self) -> tuple[str, ...]:
         """Names of the tables on disk, without endings: ``fates``, ``exposure/exposure``, …."""
-        patterns = [f"{folder}*.{kind}" for folder in ("", "*/") for kind in KINDS]
-        found = {file.relative_to(self.path) for pattern in patterns for file in self.path.glob(pattern)}
-        return tuple(sorted({file.with_suffix("").as_posix() for file in found}))
+        files = (*self.path.glob("*.csv"), *self.path.glob("*/*.csv"))
+        return tuple(sorted(file.relative_to(self.path).with_suffix("").as_posix() for file in files))
 
-    def table(self, name: str, kind: str = "csv") -> Path:
+    def table(self, name: str) -> Path:
         """Return the file of a table, whether it exists or not."""
-        return self.path / f"{name}.{kind}"
-
-    def find_table(self, name: str) -> Path | None:
-        """Return the file of a table of any kind; None without one."""
-        return next((file for kind in KINDS if (file := self.table(name, kind)).exists()), None)
+        return self.path / f"{name}.csv"
 
     def snapshot(self, index: int) -> Path:
         """Return the file of the snapshot with an index, without its ending."""
@@ -182,7 +174,7 @@ class ResultsFolder:
 def fault_of_function(name: str, cloud: str) -> str:
     """Return why a cloud function cannot have a name, which names its folder too; empty if it can."""
     series = re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
-    tables = {f"{table}.{kind}" for table in (FATES, FAILURES) for kind in KINDS}
+    tables = {f"{table}.csv" for table in (FATES, FAILURES)}
     if name in {CHECKPOINTS, LINKS, MANIFEST, RECORD, "manifest", *tables} or series.fullmatch(name):
         return "the results have a file of that name"
     return fault_of_word(name)

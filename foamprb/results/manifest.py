@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path, PurePosixPath
@@ -83,24 +83,9 @@ class Manifest:
         self.files -= {file for file in self._expected if not file.exists()}
         self._expected = files
         self.files |= self._expected
-        self._write({})
-
-    def _write(self, sums: Mapping[str, Checksum]) -> None:
         names = sorted(_name(file, self.folder) for file in self.files)
-        content = {"format": FORMAT, "files": names, "sha256": _digest(names), "sums": sums}
+        content = {"format": FORMAT, "files": names, "sha256": _digest(names)}
         write_text(self.path, f"{json.dumps(content, indent=1)}\n")
-
-    def seal(self, contents: Mapping[Path, Path]) -> None:
-        """Store the checksums of files that no longer change, until the next :meth:`expect`.
-
-        ``contents`` gives, for each file, the file that has its contents now.
-
-        Raises
-        ------
-        OSError
-            If a file cannot be read, or the manifest cannot be written.
-        """
-        self._write({_name(file, self.folder): checksum(contents[file]) for file in sorted(contents)})
 
     def remove(self, files: Iterable[Path]) -> None:
         """Remove listed files, in order, and the folders that become empty.
@@ -130,15 +115,6 @@ def checksum(path: Path) -> Checksum:
         while chunk := file.read(1 << 22):
             size, code = size + len(chunk), zlib.crc32(chunk, code)
     return [size, code]
-
-
-def has_changed(path: Path, folder: Path) -> bool:
-    """Return whether a file in a run's folder differs from the file that the run left there at its end."""
-    try:
-        sum_then = json.loads((folder / MANIFEST).read_bytes())["sums"][path.relative_to(folder).as_posix()]
-        return bool(checksum(path) != sum_then)
-    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
-        return False
 
 
 def _refuse_links(folder: Path, files: Iterable[Path]) -> None:

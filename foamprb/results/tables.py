@@ -1,61 +1,47 @@
-"""Tables: comma-separated text, or Parquet's binary columns."""
+"""Tables of comma-separated text."""
 
 from __future__ import annotations
 
 import csv
-import importlib
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from itertools import chain, islice
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 import numpy as np
 import orjson
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.optional import load
 from foamprb.results.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
-Columns: TypeAlias = dict[str, NDArray[Any]]
 
 # Rows that are converted to text or from it together; their cells fit into the processor's cache.
 _CHUNK = 2048
 _AT_ONCE = 1 << 14
 """Rows of a table whose text is in memory together."""
-_GROUP = 1 << 16
-"""Rows of a row group of Parquet, which are in memory together."""
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 _QUOTE = '"'
 _SPECIAL = re.compile(r'[,"\r\n]')
 _FORMULA, _QUOTED = re.compile(r"'*[=+\-@\t]"), re.compile(r"''*[=+\-@\t]")
 
 
-def require_kind(kind: str) -> None:
-    """Raise InputError if the library for a kind of tables is missing."""
-    if kind == "parquet":
-        _parquet("tables of Parquet")
-
-
 class Rows(NamedTuple):
-    """Rows of a table of some kind."""
+    """Names of the columns of a table, and some of its rows as text."""
 
     names: tuple[str, ...]
-    values: bytes | Columns
-    """Text, or columns."""
+    text: bytes
 
 
-def rows_of(columns: Mapping[str, Column], kind: str) -> Rows:
+def rows_of(columns: Mapping[str, Column]) -> Rows:
     """Return rows of a table as :func:`write_rows` takes them.
 
     Parameters
     ----------
     columns
         See :func:`write_table`.
-    kind
-        Ending of the file: ``csv`` or ``parquet``.
 
     Raises
     ------
@@ -66,8 +52,6 @@ def rows_of(columns: Mapping[str, Column], kind: str) -> Rows:
     lengths = {name: len(array) for name, array in arrays.items()}
     if len(set(lengths.values())) > 1:
         raise ValueError(f"Columns of a table differ in length: {lengths}.")
-    if kind == "parquet":
-        return Rows(tuple(arrays), {name: _plain(array) for name, array in arrays.items()})
     text = []
     for start in range(0, max(lengths.values(), default=0), _CHUNK):
         cells = (_texts(array[start : start + _CHUNK]) for array in arrays.values())
@@ -75,61 +59,54 @@ def rows_of(columns: Mapping[str, Column], kind: str) -> Rows:
     return Rows(tuple(arrays), b"".join(text))
 
 
-def write_rows(path: Path, parts: Iterable[Rows], before: Callable[[Path], object] = lambda _: None) -> None:
+def write_rows(path: Path, parts: Iterable[Rows], before: Callable[[], object] = lambda: None) -> None:
     """Write a table from its rows part by part; see :func:`write_table`.
 
     Parameters
     ----------
     parts
-        From :func:`rows_of` for the kind of the file, at least one.
+        From :func:`rows_of`, at least one.
     path, before
         See :func:`write_table`.
     """
-    if path.suffix == ".parquet":
-        _write_parquet(path, parts, before)
-        return
     with atomic_write(path) as temporary:
         with temporary.open("wb") as file:
             for i, part in enumerate(parts):
                 if i == 0:
                     file.write((",".join(map(_cell, part.names)) + "\n").encode())
-                assert isinstance(part.values, bytes)
-                file.write(part.values)
-        before(temporary)
+                file.write(part.text)
+        before()
 
 
 def write_table(
-    path: Path, columns: Mapping[str, Column], before: Callable[[Path], object] = lambda _: None
+    path: Path, columns: Mapping[str, Column], before: Callable[[], object] = lambda: None
 ) -> None:
-    """Write a table, in one step; the ending of the file selects its kind.
+    """Write a table, in one step.
 
-    The text format begins with a line of column names. A floating-point number is written with the fewest
+    The text begins with a line of column names. A floating-point number is written with the fewest
     digits that read back as the same double, or as ``nan``, ``inf`` or ``-inf``. Text with a comma, a quote
     or a line break is quoted.
 
     Parameters
     ----------
     path
-        The file, ``.csv`` or ``.parquet``.
+        The file.
     columns
         Numbers or text of each column, all of the same length n, by name and in order.
     before
-        Called with the temporary file when all is written; if it raises, no file remains.
+        Called when all is written; if it raises, no file remains.
 
     Raises
     ------
     ValueError
         If the columns differ in length, or one has more than one axis.
-    InputError
-        If the kind is Parquet, and pyarrow is not installed.
     OSError
         If the file cannot be written.
     """
     n = max((len(column) for column in columns.values()), default=0)
-    step = max(n, 1) if path.suffix == ".parquet" else _AT_ONCE
     parts = (
-        rows_of({name: column[start : start + step] for name, column in columns.items()}, path.suffix[1:])
-        for start in range(0, max(n, 1), step)
+        rows_of({name: column[start : start + _AT_ONCE] for name, column in columns.items()})
+        for start in range(0, max(n, 1), _AT_ONCE)
     )
     write_rows(path, parts, before)
 
@@ -151,10 +128,8 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
     Raises
     ------
     InputError
-        If the file is missing or is no table; if it is Parquet, and pyarrow is not installed.
+        If the file is missing or is no table.
     """
-    if path.suffix == ".parquet":
-        return _read_parquet(path)
     columns: list[list[NDArray[Any]]] = []
     try:
         with path.open(encoding="utf-8", newline="") as file:
@@ -179,98 +154,6 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
     return {
         name: np.concatenate(parts or [_typed((), name in words)])
         for name, parts in zip(names, columns, strict=True)
-    }
-
-
-def _parquet(what: str) -> tuple[Any, Any]:
-    """Return the modules pyarrow and pyarrow.parquet, which ``what`` needs."""
-    return load("pyarrow", "parquet", f"{what} needs"), importlib.import_module("pyarrow.parquet")
-
-
-def _write_parquet(path: Path, parts: Iterable[Rows], before: Callable[[Path], object]) -> None:
-    """Write Parquet. Its bytes depend on nothing but the columns and the version of pyarrow."""
-    arrow, parquet = _parquet(str(path))
-    groups = _groups(parts)
-    first = next(groups)
-    # Doubles of similar size compress better byte by byte.
-    split = [name for name, array in first.items() if array.dtype.kind == "f"]
-    words = [name for name, array in first.items() if array.dtype.kind == "O"]
-
-    def table_of(columns: Columns) -> Any:
-        return arrow.table({name: arrow.array(array) for name, array in columns.items()})
-
-    with atomic_write(path) as temporary:
-        with (
-            temporary.open("wb") as file,
-            parquet.ParquetWriter(
-                file,
-                table_of(first).schema,
-                compression="zstd",
-                use_dictionary=words,
-                use_byte_stream_split=split,
-            ) as writer,
-        ):
-            for columns in chain([first], groups):
-                writer.write_table(table_of(columns))
-        before(temporary)
-
-
-def _groups(parts: Iterable[Rows]) -> Iterator[Columns]:
-    """Yield columns of ``_GROUP`` rows, the last of which may have fewer, whatever the sizes of the parts.
-
-    There is at least one group; a table without rows has one without rows.
-    """
-    kept: list[Columns] = []
-    empty: Columns | None = None
-    for part in parts:
-        assert isinstance(part.values, dict)
-        if _length(part.values):
-            kept.append(part.values)
-        else:
-            empty = part.values
-        while sum(map(_length, kept)) > _GROUP:
-            names, whole = kept[0], _joined(kept)
-            yield {name: whole[name][:_GROUP] for name in names}
-            kept = [{name: whole[name][_GROUP:] for name in names}]
-    if kept:
-        yield _joined(kept)
-    elif empty is not None:
-        yield empty
-
-
-def _length(columns: Columns) -> int:
-    return max(map(len, columns.values()), default=0)
-
-
-def _joined(parts: Sequence[Columns]) -> Columns:
-    """Return the columns of several parts, of a single one as they are."""
-    if len(parts) == 1:
-        return parts[0]
-    return {name: np.concatenate([columns[name] for columns in parts]) for name in parts[0]}
-
-
-def _plain(array: NDArray[Any]) -> NDArray[Any]:
-    """Return numbers, or else Python strings."""
-    if array.dtype.kind in _WIDE:
-        return array
-    found = array.tolist()
-    if found and all(type(value) in (int, float) for value in found):
-        return np.array(found)
-    return np.array([str(value) for value in found], dtype=object)
-
-
-def _read_parquet(path: Path) -> dict[str, NDArray[Any]]:
-    arrow, parquet = _parquet(str(path))
-    try:
-        # pyarrow would take some file names for folders or addresses.
-        with path.open("rb") as file:
-            table = parquet.read_table(file)
-    except (OSError, arrow.ArrowException) as error:
-        raise InputError(f"{path}: not a readable table ({error}).") from error
-    found = {name: column.to_numpy() for name, column in zip(table.column_names, table.columns, strict=True)}
-    return {
-        name: array.astype(str) if array.dtype.kind == "O" else array.astype(_WIDE[array.dtype.kind])
-        for name, array in found.items()
     }
 
 

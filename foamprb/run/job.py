@@ -44,7 +44,6 @@ from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.parallel.ranks import Ranks
 from foamprb.results.folder import ResultsFolder
-from foamprb.results.tables import require_kind
 from foamprb.run.compilation import Compilation
 from foamprb.run.description import describe
 from foamprb.run.follow import Follow, Following, begin_to_follow
@@ -70,8 +69,6 @@ class Job:
     functions: CloudFunctions
     compilation: Compilation | None = None
     """Second process that compiles the loop, if there is one."""
-    tables: str = "csv"
-    """Kind of the tables, one of :data:`foamprb.results.folder.KINDS`."""
     output: Path | None = None
     """Folder of the results instead of ``postProcessing`` in the case."""
     following: Following | None = None
@@ -81,7 +78,7 @@ class Job:
     def observed(self) -> ObservedCloud:
         """Cloud with the names of its injection models and patches."""
         names = {"patch": self.patch_names, "injector": self.injector_names}
-        return ObservedCloud(self.cloud, names, self.tables)
+        return ObservedCloud(self.cloud, names)
 
     @property
     def folder(self) -> ResultsFolder:
@@ -127,7 +124,6 @@ def prepare(
     threads: int | None = None,
     source: FlowSource | None = None,
     precompile: bool = False,
-    tables: str = "csv",
     outside_libs: bool = False,
     output: Path | str | None = None,
     overrides: Mapping[str, object] | None = None,
@@ -152,8 +148,6 @@ def prepare(
         The mesh file or region to read, and the names of its fields, if they are not the usual ones.
     precompile
         Whether to compile the loop in a second process meanwhile, if it is not in the cache.
-    tables
-        ``"csv"``, or ``"parquet"``, which is smaller and faster and needs pyarrow.
     outside_libs
         Whether Python files of ``libs`` may lie outside the case.
     output
@@ -175,7 +169,6 @@ def prepare(
     RunStopped
         With ``follow``, if the solver has written no time for too long.
     """
-    require_kind(tables)
     case = Path(case)
     source = source or FlowSource()
     check_region(case, source)
@@ -210,7 +203,7 @@ def prepare(
                 log.info("    %s", note)
         if following is not None:
             _wait_for_injections(settings, following)
-        job = assemble(settings, flow, threads, tables, following is not None, ranks)
+        job = assemble(settings, flow, threads, following is not None, ranks)
         return replace(job, compilation=compilation, output=output, following=following)
     except BaseException:
         if following is not None:
@@ -367,7 +360,6 @@ def assemble(
     settings: Settings,
     flow: Flow,
     threads: int | None = None,
-    tables: str = "csv",
     growing: bool = False,
     ranks: Ranks | None = None,
 ) -> Job:
@@ -413,10 +405,10 @@ def assemble(
     injectors = tuple(injection.name for injection in settings.injections)
     names = {"patch": tuple(patch.name for patch in flow.patches), "injector": injectors}
     try:
-        functions = CloudFunctions(settings.functions, ObservedCloud(cloud, names, tables))
+        functions = CloudFunctions(settings.functions, ObservedCloud(cloud, names))
     except InputError as error:
         raise InputError(f"{settings.file}: {error}") from error
-    return Job(settings, cloud, functions, tables=tables)
+    return Job(settings, cloud, functions)
 
 
 def _start(settings: Settings, flow: Flow, growing: bool) -> float:

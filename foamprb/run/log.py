@@ -227,7 +227,7 @@ class RunLog:
             log.warning(
                 "%d particles failed; %s lists them.",
                 counts[Status.FAILED],
-                job.folder.table(FAILURES, job.tables),
+                job.folder.table(FAILURES),
             )
 
 

@@ -148,7 +148,7 @@ def _failing(job: Job, stepper: Stepper) -> str:
         return ""
     return (
         f"{counts[Status.FAILED]} of {injected} particles have failed at t = {job.cloud.time:.12g} s, more "
-        f"than maxFailedFraction {most:g} allows; {job.folder.table(FAILURES, job.tables)} says why."
+        f"than maxFailedFraction {most:g} allows; {job.folder.table(FAILURES)} says why."
     )
 
 

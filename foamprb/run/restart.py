@@ -160,7 +160,7 @@ def checksums(folder: Path, entries: Sequence[SnapshotFile]) -> dict[str, Checks
 def require_choice(folder: ResultsFolder, start_from: StartFrom | None) -> None:
     """Raise InputError if the user must decide whether an unfinished run continues."""
     unfinished = Checkpoints(folder.checkpoints).files()
-    if start_from is None and unfinished and not folder.find_table(FATES):
+    if start_from is None and unfinished and not folder.table(FATES).exists():
         raise InputError(
             f"{folder.path}: an unfinished run has come to t = {max(unfinished):g} s. To continue it: "
             "-resume, or startFrom latestTime; to start over in its place: -overwrite, or startFrom "

@@ -35,7 +35,7 @@ from foamprb.parallel.ranks import RankStepper
 from foamprb.results.atomic import only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import PARTICLES, Checkpoints, StoredCheckpoint, part_file, parts_of
-from foamprb.results.folder import FAILURES, FATES, KINDS
+from foamprb.results.folder import FAILURES, FATES
 from foamprb.results.manifest import Checksum, Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, Rows, rows_of, write_rows
@@ -123,7 +123,7 @@ class Results:
         """Whether the run had ended before."""
         self._sums: dict[str, Checksum] = {}
         self._manifest = Manifest(job.folder.path)
-        self._fates, self._failures = (job.folder.table(name, job.tables) for name in (FATES, FAILURES))
+        self._fates, self._failures = (job.folder.table(name) for name in (FATES, FAILURES))
         self._snapshot: Snapshot | None = None
         self._around: Sequence[Sums] = ()
 
@@ -250,20 +250,14 @@ class Results:
         cloud = self._job.cloud
         failed = stepper.counts()[Status.FAILED] > 0
 
-        def finish(fates: Path) -> None:
+        def finish() -> None:
             self._writer.finish()
             self._manifest.expect([self._fates, self._failures] if failed else [self._fates])
             if failed:
-                write_rows(
-                    self._failures,
-                    cloud.in_order(_failures_of, cloud.models, cloud.limits, self._job.tables),
-                )
-            others = {file for file in self._manifest.files - {self._fates} if file.suffix[1:] in KINDS}
-            others |= {self._job.folder.record, self._job.folder.pvd}
-            self._manifest.seal({file: file for file in others if file.is_file()} | {self._fates: fates})
+                write_rows(self._failures, cloud.in_order(_failures_of, cloud.models, cloud.limits))
 
-        names, kind, functions = self._job.patch_names, self._job.tables, self._job.functions
-        write_rows(self._fates, functions.with_fates(_fates_of, names, kind), finish)
+        rows = self._job.functions.with_fates(_fates_of, self._job.patch_names)
+        write_rows(self._fates, rows, finish)
 
     def _sample(self, stepper: Stepper, names: list[str]) -> None:
         """Let some cloud functions record a sample."""
@@ -347,14 +341,6 @@ class Results:
         self._job.functions.write(self._job.folder.path)
         return [file for file, time in _times_of_change(folders).items() if before.get(file) != time]
 
-    def _last_tables(self) -> list[Path]:
-        """Return the tables that a run writes at its end, of every kind."""
-        return [self._job.folder.table(name, kind) for name in (FATES, FAILURES) for kind in KINDS]
-
-    def _other_kinds(self) -> set[str]:
-        """Return the endings of tables that this run does not write."""
-        return {f".{kind}" for kind in KINDS if kind != self._job.tables}
-
     def _function_folders(self) -> list[Path]:
         return [self._job.folder.path / name for name in self._job.functions.functions]
 
@@ -374,11 +360,13 @@ class Results:
                 read_pvd(self._job.folder.pvd)
             except InputError as error:
                 log.warning("%s It is replaced.", error)
-        remove_unfinished({*manifest.files, manifest.path, *self._last_tables()})
+        remove_unfinished({*manifest.files, manifest.path, self._fates, self._failures})
         # Checkpoints first: after an interrupted removal they would resemble an unfinished run.
         files = sorted(manifest.files)
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
-        lists = [file for file in (self._job.folder.pvd, *self._last_tables()) if file in manifest.files]
+        lists = [
+            file for file in (self._job.folder.pvd, self._fates, self._failures) if file in manifest.files
+        ]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
         if self._job.following is None:
             remove_links(self._job.folder.links)
@@ -421,17 +409,13 @@ class Results:
         except InputError as error:
             log.warning("%s It is rebuilt; files of later times may remain.", error)
             manifest = Manifest(job.folder.path)
-        remove_unfinished({*manifest.files, manifest.path, *self._last_tables()})
-        manifest.remove(file for file in self._last_tables() if file in manifest.files)
+        remove_unfinished({*manifest.files, manifest.path, self._fates, self._failures})
+        manifest.remove(file for file in (self._fates, self._failures) if file in manifest.files)
         self._series.relist(entries)
         renew_record(job.folder.record, job.description)
         snapshots = [file for entry in entries for file in files_of(job.folder.path / entry.file)]
         functions = self._function_folders()
-        tables = [
-            file
-            for file in manifest.files
-            if any(folder in file.parents for folder in functions) and file.suffix not in self._other_kinds()
-        ]
+        tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
         kept = {
             self._job.folder.record,
             self._job.folder.pvd,
@@ -469,7 +453,7 @@ def _due_at(p: Particles, time: float) -> Particles:
     return p.take(np.flatnonzero((p.status != Status.PENDING) | (p.t0 <= time)))
 
 
-def _fates_of(p: Particles, further: Mapping[str, Column], patch_names: Sequence[str], kind: str) -> Rows:
+def _fates_of(p: Particles, further: Mapping[str, Column], patch_names: Sequence[str]) -> Rows:
     """Return rows of ``fates``; ``further`` are columns of cloud functions."""
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last name belongs to the code −1.
@@ -482,12 +466,11 @@ def _fates_of(p: Particles, further: Mapping[str, Column], patch_names: Sequence
             "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
             "fate": fates[p.status], "patch": patches[p.patch],
             "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **further,
-        },
-        kind,
+        }
     )  # fmt: skip
 
 
-def _failures_of(p: Particles, models: Models, limits: Limits, kind: str) -> Rows:
+def _failures_of(p: Particles, models: Models, limits: Limits) -> Rows:
     """Return the rows of ``failed``."""
     p = p.take(np.flatnonzero(p.status == Status.FAILED))
     columns: dict[str, Column] = {
@@ -498,4 +481,4 @@ def _failures_of(p: Particles, models: Models, limits: Limits, kind: str) -> Row
         "z": p.x[:, 2],
         "reason": [explain(r, models, limits) for r in p.reason],
     }
-    return rows_of(columns, kind)
+    return rows_of(columns)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import logging
 from collections.abc import Iterable, Mapping
@@ -23,7 +22,6 @@ from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.vtk_guard import require_survival
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.folder import FATES, HOW, ResultsFolder
-from foamprb.results.manifest import has_changed
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
@@ -44,7 +42,6 @@ Table = dict[str, NDArray[Any]]
 NEEDED = ("origId", "d", "glyph", "status")
 """Point arrays without which a body cannot be drawn."""
 
-_FRAMES = ("pandas", "polars")
 _WORDS = ("fate", "patch")
 """Columns of text, also where every patch has a number for a name."""
 _OF_FATES = {"id": np.int64, "t0": np.float64, "t1": np.float64, "Ca": np.float64, "fate": str, "patch": str}
@@ -106,7 +103,6 @@ class Run:
         file = self.results.record
         if not file.exists():
             return {}
-        self.warn_if_changed(file)
         try:
             found = json.loads(file.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
@@ -114,16 +110,6 @@ class Run:
         if not isinstance(found, dict):
             raise InputError(f"{file} is damaged: it is not the record of a run.")
         return found
-
-    def warn_if_changed(self, file: Path) -> None:
-        """Warn, once, about a file that was changed after the end of the run."""
-        if file not in self._checked and has_changed(file, self.folder):
-            log.warning("%s changed after the end of the run; its present contents are used.", file)
-        self._checked.add(file)
-
-    @cached_property
-    def _checked(self) -> set[Path]:
-        return set()
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -138,10 +124,10 @@ class Run:
         InputError
             If there is no such table.
         """
-        found = self.results.find_table(table)
-        if found is None:
+        file = self.results.table(table)
+        if not file.exists():
             raise InputError(f"{self.folder}: no table '{table}'. {suggestion(table, self.tables)}")
-        return found
+        return file
 
     def table(self, name: str = "fates") -> Table:
         """Return the columns of a table by name, (n,) each; the settings page describes them.
@@ -149,25 +135,24 @@ class Run:
         Raises
         ------
         InputError
-            If there is no such table, or it is damaged; if it is Parquet and pyarrow is not installed.
+            If there is no such table, or it is damaged.
         """
-        self.warn_if_changed(self.file(name))
         return read_table(self.file(name), _WORDS)
 
     def frame(self, name: str = "fates") -> Any:
-        """Return a table as a data frame of pandas or, if pandas is not installed, of polars.
+        """Return a table as a data frame of pandas.
 
         Raises
         ------
         InputError
-            As :meth:`table`; or if neither is installed.
+            As :meth:`table`; or if pandas is not installed.
         """
         return frame_of(self.table(name))
 
     @property
     def has_fates(self) -> bool:
         """Whether the run has ended and written its table ``fates``."""
-        return self.results.find_table(FATES) is not None
+        return self.results.table(FATES).exists()
 
     def fates(self) -> Table | None:
         """Return the table ``fates``; None if the run has not ended.
@@ -319,12 +304,11 @@ class Run:
 
 def frame_of(table: Table) -> Any:
     """Return a table as a data frame; see :meth:`Run.frame`."""
-    for package in _FRAMES:
-        try:
-            return importlib.import_module(package).DataFrame(table)
-        except ImportError:
-            continue
-    raise InputError("a data frame needs pandas or polars: pip install pandas. Without them: table().")
+    try:
+        import pandas
+    except ImportError:
+        raise InputError("a data frame needs pandas: pip install pandas. Without it: table().") from None
+    return pandas.DataFrame(table)
 
 
 def open_run(
@@ -349,9 +333,7 @@ def open_run(
     fields = data.GetFieldData()
     units = dict(text.split(" ", 1) for text in _texts(fields, "units"))
     names = {key: meanings for key in components if (meanings := _texts(fields, f"{key}Names"))}
-    run = Run(folder, entries, units, names, components)
-    run.warn_if_changed(folder.pvd)
-    return run
+    return Run(folder, entries, units, names, components)
 
 
 def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:

@@ -85,12 +85,12 @@ class Runs(Mapping[str, Run]):
         return found
 
     def frame(self, name: str = "fates") -> Any:
-        """Return :meth:`table` as a data frame of pandas or, if pandas is not installed, of polars.
+        """Return :meth:`table` as a data frame of pandas.
 
         Raises
         ------
         InputError
-            As :meth:`table`; or if neither is installed.
+            As :meth:`table`; or if pandas is not installed.
         """
         return frame_of(self.table(name))
 

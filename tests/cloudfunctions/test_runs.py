@@ -16,7 +16,6 @@ from foamprb import execute, open_run, prepare
 from foamprb.cli import main
 from foamprb.errors import RunStopped
 from foamprb.results.folder import fault_of_function
-from foamprb.results.manifest import Manifest
 
 BLOCK = """cloudFunctions
 {
@@ -44,8 +43,7 @@ def cases(tmp_path_factory):
     return cases
 
 
-@pytest.mark.parametrize("kind", ["csv", "parquet"])
-def test_a_stopped_run_goes_on_with_what_its_functions_saw(kind, tmp_path, monkeypatch):
+def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch):
     """Stopped between two looks and between two writings: the same files as of a run never stopped."""
     block = BLOCK.replace("0.02 0 0", "0.001 0 0")
     results = []
@@ -56,18 +54,15 @@ def test_a_stopped_run_goes_on_with_what_its_functions_saw(kind, tmp_path, monke
         edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
         if name == "parts":
             monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 1000)
-            job = prepare(case, threads=1, tables=kind)
+            job = prepare(case, threads=1)
             with pytest.raises(RunStopped):
                 execute(job, stop=lambda job=job: job.cloud.step > 261)
             assert 261 < job.cloud.step < 270
-        assert main(["run", "-case", str(case), "-resume", "-tables", kind]) == 0
+        assert main(["run", "-case", str(case), "-resume"]) == 0
         folder = case / "postProcessing/softCloud"
-        found = [file for file in folder.rglob("*.*") if file.suffix in (".csv", ".parquet", ".vtp")]
+        found = [file for file in folder.rglob("*.*") if file.suffix in (".csv", ".vtp")]
         results.append({str(file.relative_to(folder)): file.read_bytes() for file in found})
-    tables = {file for file in results[0] if not file.endswith(".vtp")}
-    assert {f"plane/crossings.{kind}", f"spread/exposure.{kind}", f"fates.{kind}"} <= tables
-    assert all(file.endswith(kind) for file in tables)
-    assert "tracks/tracks.vtp" in results[0]
+    assert {"plane/crossings.csv", "spread/exposure.csv", "fates.csv", "tracks/tracks.vtp"} <= {*results[0]}
     assert len(open_run(case).table("plane/crossings")["id"]) > 0
     assert results[0] == results[1]
 
@@ -89,20 +84,6 @@ def test_a_stopped_run_goes_on_with_the_rebounds_it_saw(tmp_path, monkeypatch):
         tables.append((case / "postProcessing/softCloud/impacts/wall.csv").read_bytes())
     assert tables[0] == tables[1]
     assert tables[0].count(b"rebound") > 3
-
-
-def test_a_run_that_goes_on_leaves_tables_of_one_kind(tmp_path):
-    case = copy_of_pipe(tmp_path)
-    edit(case, r"cloudFunctions\s*\{\}", BLOCK)
-    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
-    for end, options in (("0.004", ["-tables", "parquet"]), ("0.008", ["-resume"])):
-        edit(case, r"endTime\s+\S+;", f"endTime {end};")
-        assert main(["run", "-case", str(case), *options]) == 0
-    folder = case / "postProcessing/softCloud"
-    assert not list(folder.rglob("*.parquet"))
-    listed = Manifest.read(folder).files
-    assert listed == {file for file in folder.rglob("*") if file.is_file()} - {folder / "manifest.json"}
-    assert folder / "spread/exposure.csv" in listed
 
 
 def test_looking_changes_nothing(cases):

@@ -119,11 +119,10 @@ def assert_same_files(folder: Path, others: Path) -> None:
         assert (folder / file).read_bytes() == (others / file).read_bytes(), file
 
 
-def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, tables: str = "csv") -> None:
+def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path) -> None:
     """Observe a cloud here and elsewhere; all files and all that is remembered are the same."""
     afar, processes = at_homes(cloud, n)
-    ends = [dataclasses.replace(observed(c), tables=tables) for c in (cloud, afar)]
-    here, there = (CloudFunctions(functions, end) for end in ends)
+    here, there = (CloudFunctions(functions, observed(c)) for c in (cloud, afar))
     travelling = there.travelling
     rest = [name for name in functions if name not in travelling]
     processes.set_out(Sampling.of(there, cloud.medium), cloud)
@@ -157,13 +156,11 @@ def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, 
 
 
 @pytest.mark.parametrize("n", [1, 3])
-@pytest.mark.parametrize("tables", ["csv", "parquet"])
-def test_functions_write_the_same_of_particles_elsewhere(n, tables, tmp_path):
-    pytest.importorskip("pyarrow")
+def test_functions_write_the_same_of_particles_elsewhere(n, tmp_path):
     for name in ("here", "there"):
         (tmp_path / name).mkdir()
     cloud = pipe_cloud()
-    observe_both(cloud, FUNCTIONS, n, tmp_path, tables)
+    observe_both(cloud, FUNCTIONS, n, tmp_path)
     assert {*cloud.particles.status.tolist()} >= {1, 2}
 
 

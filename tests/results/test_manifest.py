@@ -8,7 +8,7 @@ import pytest
 
 from foamprb.errors import InputError
 from foamprb.results import atomic
-from foamprb.results.manifest import Manifest, has_changed
+from foamprb.results.manifest import Manifest
 
 
 def files(folder: Path, *names: str) -> list[Path]:
@@ -32,23 +32,6 @@ def test_expected_files_are_listed_by_relative_names(tmp_path: Path) -> None:
     elsewhere.mkdir()
     manifest.path.rename(elsewhere / manifest.path.name)
     assert elsewhere / "a.vtp" in Manifest.read(elsewhere).files
-
-
-def test_a_file_that_changes_after_the_end_is_noticed(tmp_path: Path) -> None:
-    a, b = files(tmp_path, "a.csv", "b.csv")
-    a.write_text("id\n1\n")
-    manifest = Manifest(tmp_path)
-    manifest.expect([a, b])
-    assert not has_changed(a, tmp_path)
-    manifest.seal({a: a})
-    assert not has_changed(a, tmp_path)
-    a.write_text("id\n2\n")
-    b.write_text("not sealed")
-    assert has_changed(a, tmp_path)
-    assert not has_changed(b, tmp_path)
-    # A run that goes on changes its files.
-    Manifest.read(tmp_path).expect([])
-    assert not has_changed(a, tmp_path)
 
 
 def test_without_a_manifest_nothing_is_listed(tmp_path: Path) -> None:

@@ -37,7 +37,7 @@ def record(case):
     return json.loads(text, parse_constant=lambda word: pytest.fail(word))
 
 
-def test_record_describes_a_run_and_its_continuation(case, capsys):
+def test_record_describes_a_run_and_its_continuation(case):
     assert main(["run", "-case", str(case)]) == 0
     first = record(case)
     assert first["settings"]["text"] == (case / "constant/softCloudProperties").read_text()
@@ -55,12 +55,7 @@ def test_record_describes_a_run_and_its_continuation(case, capsys):
     assert second["injections"] == first["injections"]
     # The pipe lies along x.
     assert second["flow"]["direction"] == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
-    file = case / "postProcessing/softCloud/run.json"
-    for then, expected in (("0.003", 0), ("0.004", 1)):
-        file.write_text(file.read_text().replace("0.003", then))
-        capsys.readouterr()
-        assert open_run(case).record["time"]["end"] == float(then)
-        assert capsys.readouterr().out.count("run.json changed after") == expected
+    assert open_run(case).record == second
 
 
 def test_a_record_that_is_damaged_stays_as_it_is(tmp_path):

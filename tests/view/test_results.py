@@ -68,8 +68,8 @@ def test_a_data_frame_where_a_library_for_it_is_installed(case, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", Pandas)
     assert foamprb.open_run(case).frame() == "frame"
     assert len(made["id"]) == 9
-    monkeypatch.setattr("foamprb.view.results._FRAMES", ())
-    with pytest.raises(InputError, match="needs pandas or polars"):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(InputError, match="needs pandas: pip install pandas"):
         foamprb.open_run(case).frame()
 
 
