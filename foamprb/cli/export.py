@@ -12,7 +12,7 @@ from foamprb.cli.options import add_cloud, add_flow, fraction, source_of
 if TYPE_CHECKING:
     from foamprb.parallel.ranks import Ranks
 
-PURPOSE = "write the results for OpenFOAM, for OVITO, or as one VTKHDF file"
+PURPOSE = "write the results for OpenFOAM, or as one VTKHDF file"
 
 log = logging.getLogger("foamprb")
 
@@ -24,7 +24,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add(
         "kind",
-        choices=("openfoam", "vtkhdf", "ovito", "stress"),
+        choices=("openfoam", "vtkhdf", "stress"),
         help="format of the files, or their stress for a solver",
     )
     add("--output", type=Path, metavar="PATH", help="file or folder [postProcessing/CLOUD/...]")

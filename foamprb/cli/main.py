@@ -20,7 +20,7 @@ from foamprb.cli import compare, estimate, export, info, init, paraview, report,
 from foamprb.cli import compile as compile_
 from foamprb.cli import help as help_
 from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
-from foamprb.memory import OutOfMemory, forget, ran_out, require_start
+from foamprb.memory import OutOfMemory, ran_out
 
 if TYPE_CHECKING:
     from foamprb.parallel.ranks import Ranks
@@ -195,9 +195,6 @@ def _do(words: Sequence[str], ranks: Ranks | None) -> int:
     if parsed.command is None:
         _parser().print_help()
         return 1
-    forget()
-    if parsed.command != "help":
-        require_start()
     return COMMANDS[parsed.command].execute(parsed, ranks)
 
 

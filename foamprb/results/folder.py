@@ -29,7 +29,7 @@ __all__ = [
 DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES = "fates", "failed"
 """Tables of a run: a row per particle, and a row per failed particle."""
-MANIFEST, RECORD, CHECKPOINTS, LINKS = "manifest.json", "run.json", "checkpoint", "flow"
+MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
 RECORD_FORMAT = 2
 """Version of the entries of the record."""
 _ROOT = "postProcessing"
@@ -137,11 +137,6 @@ class ResultsFolder:
         return self.path / CHECKPOINTS
 
     @property
-    def links(self) -> Path:
-        """Folder of links to the times of a flow whose solver is running."""
-        return self.path / LINKS
-
-    @property
     def page(self) -> Path:
         """Page of ``foamprb view``."""
         return self.path / f"{self.cloud}.html"
@@ -175,7 +170,7 @@ def fault_of_function(name: str, cloud: str) -> str:
     """Return why a cloud function cannot have a name, which names its folder too; empty if it can."""
     series = re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
     tables = {f"{table}.csv" for table in (FATES, FAILURES)}
-    if name in {CHECKPOINTS, LINKS, MANIFEST, RECORD, "manifest", *tables} or series.fullmatch(name):
+    if name in {CHECKPOINTS, MANIFEST, RECORD, "manifest", *tables} or series.fullmatch(name):
         return "the results have a file of that name"
     return fault_of_word(name)
 

@@ -20,8 +20,6 @@ from foamprb.flow.read.flows import open_case
 from foamprb.flow.read.follow import FollowedCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.series import SeriesFlow
-from foamprb.results.atomic import only_writer
-from foamprb.results.checkpoint import Checkpoints
 from foamprb.results.folder import ResultsFolder
 from foamprb.run.restart import require_choice
 from foamprb.settings.solution import StartFrom
@@ -68,7 +66,7 @@ class Following:
     ) -> None:
         self.flow = flow
         self._case, self._lag, self._patience, self._signal = case, lag, patience, signal
-        self._kept, self._checked = 2, 0
+        self._checked = 0
         self.ended = False
         """Whether the flow has all times that its solver writes."""
         self.reason = ""
@@ -76,7 +74,7 @@ class Following:
         self._extend()
 
     def wait_until(self, t: float, purpose: str) -> None:
-        """Wait until the flow covers a time before the run, and keep the times until then.
+        """Wait until the flow covers a time before the run.
 
         Raises
         ------
@@ -85,7 +83,6 @@ class Following:
         """
         if not self._wait(lambda: self.flow.span[1] >= t, never, f"the flow until {t:.12g} s, {purpose}"):
             raise RunInterrupted(_BEFORE_START, self._signal())
-        self._kept = max(self._kept, len(self.flow.times_until(min(t, self.flow.span[1]))))
 
     def wait(self, cloud: Cloud, stop: Callable[[], bool]) -> bool:
         """Wait until the flow covers the next step of a cloud, or ends.
@@ -110,11 +107,6 @@ class Following:
         self._case.require_unchanged(self._case.times[self._checked :])
         self._checked = max(0, len(self.flow.times_until(t)) - 2)
 
-    def release(self, t: float) -> None:
-        """Remove the links to times that a run does not read when it continues at t, s."""
-        past = self.flow.times_until(t)
-        self._case.release(past[max(0, len(past) - 2)], self._kept)
-
     def report_end(self, end: float) -> None:
         """Warn if the flow ends before the end time of a run, s."""
         last = self.flow.span[1]
@@ -122,10 +114,6 @@ class Following:
             log.warning(
                 "the solver has ended at %.12g s, before endTime, %.12g s: the run ends there.", last, end
             )
-
-    def close(self) -> None:
-        """Stop watching the case."""
-        self._case.close()
 
     def _wait(self, ready: Callable[[], bool], stop: Callable[[], bool], what: str) -> bool:
         def extended() -> bool:
@@ -159,20 +147,20 @@ def begin_to_follow(
     case, source
         The case, and what to read.
     folder
-        Folder of the results, which holds the links to the times.
+        Folder of the results.
     options
         Options of the run.
     selection
         Range of times.
     read
-        Returns the flow of a folder that is a case with the times until now.
+        Returns the flow at the times until now.
     signal
         See :class:`Following`.
 
     Raises
     ------
     InputError
-        The solver ends before its second time; another run writes to the folder; or see
+        The solver ends before its second time; or see
         :class:`FollowedCase` and :func:`foamprb.flow.read.flows.read_transient_flow`.
     RunStopped
         The solver has written no time for too long, or a signal ended the wait.
@@ -180,37 +168,29 @@ def begin_to_follow(
     if source.file is not None:
         raise InputError(f"{source.file}: -follow goes with a case of OpenFOAM, not with a mesh file.")
     require_choice(folder, options.start_from)
-    followed = FollowedCase(case, folder.links, selection, source.region, source.decomposed)
-    try:
-        with only_writer(folder.path):
-            checkpoints = Checkpoints(folder.checkpoints).files()
-            resumed = options.start_from == "latestTime"
-            followed.begin(max(checkpoints, default=-math.inf) if resumed else None)
+    followed = FollowedCase(case, selection, source.region, source.decomposed)
 
-        def wait_for(n: int) -> None:
-            what = "the first times of the flow"
-            ready, stop = (lambda: len(followed.times) >= n), (lambda: signal() > 0)
-            if not wait(followed, ready, stop, options.patience, what):
-                raise RunInterrupted(_BEFORE_START, signal())
+    def wait_for(n: int) -> None:
+        what = "the first times of the flow"
+        ready, stop = (lambda: len(followed.times) >= n), (lambda: signal() > 0)
+        if not wait(followed, ready, stop, options.patience, what):
+            raise RunInterrupted(_BEFORE_START, signal())
 
-        lag = 0
-        wait_for(2)
-        if len(followed.times) > 1:
-            source = replace(source, decomposed=followed.decomposed)
-            opened = open_case(followed.folder, source)
-            lag = int(may_vary(opened.root, opened.region, partial(opened.field, followed.times[-1])))
-            wait_for(2 + lag)
-        if len(followed.times) < 2:
-            raise InputError(
-                f"{case}: the solver has ended (system/controlDict) with {len(followed.times)} time of the "
-                "flow in the selected range. Allowed: two or more."
-            )
-        times = FlowTimes(selection, transient=True)
-        flow: Any = read(followed.folder, times, source)
-        return Following(followed, flow, lag, options.patience, signal)
-    except BaseException:
-        followed.close()
-        raise
+    lag = 0
+    wait_for(2)
+    if len(followed.times) > 1:
+        source = replace(source, decomposed=followed.decomposed)
+        opened = open_case(case, source)
+        lag = int(may_vary(opened.root, opened.region, partial(opened.field, followed.times[-1])))
+        wait_for(2 + lag)
+    if len(followed.times) < 2:
+        raise InputError(
+            f"{case}: the solver has ended (system/controlDict) with {len(followed.times)} time of the "
+            "flow in the selected range. Allowed: two or more."
+        )
+    times = FlowTimes(f"{followed.times[0]}:{followed.times[-1]}", transient=True)
+    flow: Any = read(case, times, source)
+    return Following(followed, flow, lag, options.patience, signal)
 
 
 def wait(

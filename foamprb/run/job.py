@@ -206,8 +206,6 @@ def prepare(
         job = assemble(settings, flow, threads, following is not None, ranks)
         return replace(job, compilation=compilation, output=output, following=following)
     except BaseException:
-        if following is not None:
-            following.close()
         if compilation is not None:
             compilation.stop()
         raise

@@ -7,10 +7,8 @@ import time as clock
 from collections.abc import Callable
 
 from foamprb.cloud.cloud import Stepper
-from foamprb.cloud.injection.models import BYTES
 from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
-from foamprb.memory import announce, require
 from foamprb.parallel.launch import caught_signals
 from foamprb.parallel.ranks import Ranks, stepper_of
 from foamprb.results.folder import FAILURES
@@ -19,9 +17,6 @@ from foamprb.run.job import Job
 from foamprb.run.log import RunLog, progress_bar
 from foamprb.run.results import HOW_TO_GO_ON, Results, open_results
 from foamprb.settings.solution import StartFrom
-
-_COPIES, _BESIDE = 0.5 * BYTES, 1e8
-"""Address space per particle for the copy that is written; and for threads and libraries, bytes."""
 
 
 def execute(
@@ -60,12 +55,8 @@ def execute(
         run writes to the same folder.
     RunStopped
         If ``stop`` returned True, too many particles failed, or results could not be written.
-    OutOfMemory
-        If the address space of this process is limited, and too small.
     """
     cloud = job.cloud
-    announce("particles", cloud.size, BYTES)
-    require(_COPIES * cloud.particles.size + _BESIDE)
     compile_run(cloud, job.compilation, alone=ranks is None)
     with open_results(job) as results:
         results.begin(start_from or job.settings.solution.startFrom)
@@ -103,14 +94,11 @@ def execute(
                 log.write_time(stepper)
                 if cloud.step < job.steps:
                     stepper.regroup()
-                if following is not None:
-                    following.release(results.earliest_restart)
         if following is not None:
             following.report_end(job.settings.solution.endTime)
         results.end(stepper)
         failing = _failing(job, stepper)
         log.end(stepper, finished=not failing)
-        results.remove_links()
     if failing:
         raise RunStopped(f"{failing} The results until then are in {job.folder.path}.")
     return stepper.counts()

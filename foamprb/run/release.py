@@ -17,14 +17,13 @@ from foamprb.body.material import MATERIALS, lame_parameter, modulus_of_capsule
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import find_hosts, parts_of
 from foamprb.cloud.injection.distribution import Distribution, draw
-from foamprb.cloud.injection.models import BYTES, given_shear_modulus, pending, start_of_injection
+from foamprb.cloud.injection.models import given_shear_modulus, pending, start_of_injection
 from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.state import Particles
 from foamprb.cloud.viscosity import medium_at, viscosity_at_rate
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
-from foamprb.memory import announce
 from foamprb.settings.injections import InjectionSettings
 
 __all__ = ["Release"]
@@ -53,7 +52,6 @@ class Release:
     def __init__(self, injections: Sequence[InjectionSettings], flow: Flow, medium: Medium) -> None:
         self._sources = [_Source(i, injection, flow, medium) for i, injection in enumerate(injections)]
         self.size = sum(source.size for source in self._sources)
-        announce("particles", self.size, BYTES)
 
     def parts(self, most: int = sys.maxsize) -> Iterator[Particles]:
         """Yield the particles in the order of their numbers, at most so many together.

@@ -29,7 +29,6 @@ from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Sampled
-from foamprb.flow.read.follow import remove_links
 from foamprb.memory import OutOfMemory, ran_out
 from foamprb.parallel.ranks import RankStepper
 from foamprb.results.atomic import only_writer, remove_unfinished
@@ -66,8 +65,6 @@ _ELSEWHERE = "The option -output DIR writes the results into another folder."
 def open_results(job: Job) -> Iterator[Results]:
     """Lock the folder of a run against other runs; on leaving, wait for unfinished writes.
 
-    A flow whose solver is running is no longer watched then.
-
     Raises
     ------
     InputError
@@ -89,9 +86,6 @@ def open_results(job: Job) -> Iterator[Results]:
         if isinstance(reason, OSError) and reason.errno in (errno.EACCES, errno.EROFS):
             how += f" {_ELSEWHERE}"
         raise RunStopped(f"{str(reason).rstrip('.')}.{how}") from error
-    finally:
-        if job.following is not None:
-            job.following.close()
 
 
 class Results:
@@ -190,11 +184,6 @@ class Results:
     def next_observation(self, last: int) -> int:
         """Return the step, at most ``last``, at which a cloud function samples next."""
         return self._job.functions.next_sample(last)
-
-    @property
-    def earliest_restart(self) -> float:
-        """Time of the oldest checkpoint, s; the start of the run without one."""
-        return min(self._checkpoints.files(), default=self._job.cloud.start)
 
     def observe(self, stepper: Stepper) -> None:
         """Let the cloud functions observe the cloud that sample at this step."""
@@ -368,8 +357,6 @@ class Results:
             file for file in (self._job.folder.pvd, self._fates, self._failures) if file in manifest.files
         ]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
-        if self._job.following is None:
-            remove_links(self._job.folder.links)
         self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
 
@@ -382,12 +369,6 @@ class Results:
         )
         return ended and self._fates.exists()
 
-    def remove_links(self) -> None:
-        """Remove the links to the times of a flow whose solver is running, which is not read again."""
-        if self._job.following is not None:
-            self._job.following.close()
-        remove_links(self._job.folder.links)
-
     def _resume(self, checkpoint: StoredCheckpoint) -> None:
         """Restore a checkpoint, and remove the files of later times."""
         job = self._job
@@ -397,7 +378,6 @@ class Results:
         entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
         restore(job.cloud, job.functions, checkpoint, where)
         if self.finished:
-            self.remove_links()
             log.info("The run has ended at t = %.12g s: there is nothing to continue.", job.cloud.time)
             return
         self._sums = checkpoint.header["sums"]

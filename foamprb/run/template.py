@@ -35,12 +35,10 @@ from foamprb.flow.read.fluid import (
     phases_of,
     read_density,
     read_viscosity,
-    surface_tension,
 )
 from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
-from foamprb.run.case_cloud import CaseCloud, braces, read_case_cloud
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.patches import needs_entry
 from foamprb.settings.reference import meaning, plain
@@ -58,12 +56,8 @@ _CAPILLARY, _MOST_CAPILLARY = 0.1, 0.4
 
 Extension may tear softer bodies apart.
 """
-_RIGID = 1e-6
-"""Capillary number of a body that is as good as rigid."""
 _PATHS, _MOVES, _MOVE = 200, 400, 0.5
 """Number of paths, of moves along each, and length of a move in cells."""
-_BLOOD_DENSITY, _BLOOD_VISCOSITY = (1020.0, 1100.0), (2.5e-3, 0.06)
-"""Ranges of whole blood, kg/m³ and Pa s."""
 _TEMPERATURE, _PRESSURE = 300.0, 1e5
 """Temperature of a fluid, K, and its pressure, Pa, if they matter and the case does not have them."""
 
@@ -137,20 +131,15 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     """Return the text of a dictionary for the flow of a case."""
     scales = scales_of(flow)
     rho, nu, fluid = _fluid(case, source, scales.shear)
-    own = None if source.file else read_case_cloud(case, source.region, flow, times(scales)[2])
-    rho0 = (own and own.rho0) or (1050.0 if rho > 500.0 else 1000.0)
+    rho0 = 1050.0 if rho > 500.0 else 1000.0
     rotating = _rotating(case, flow, source)
     d = diameter(scales, nu, rho0 / rho if len(rotating) > 1 else 0.0)
-    if own and own.diameters:
-        d = float(np.mean(own.diameters.limits))
     settling = _settling_time(case, source.region, flow, rho0 / rho, d, nu)
     step, interval, end = times(scales, settling)
-    if own:
-        end += interval * math.ceil(own.last / interval)
     text = f"""\
 // Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{source.options}.
 // Explain an entry: foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
-{_lines(_left_out(own), 0)}FoamFile
+FoamFile
 {{
     version     2.0;
     format      ascii;
@@ -172,7 +161,7 @@ constantProperties
     solid
     {{
         type neoHooke; // all types: foamprb help solid
-{_lines(_stiffness(flow, scales, rho * nu, own) + _drops(case, source, scales.shear), 8)}    }}
+{_lines(_stiffness(flow, scales, rho * nu), 8)}    }}
 }}
 
 subModels
@@ -180,14 +169,14 @@ subModels
     particleForces
     {{
         ellipsoidDrag;
-        {_gravity(case, source.region, wanted=own is None or own.gravity)}
-{_lines(own.forces if own else (), 8)}    }}
+        {_gravity(case, source.region)}
+    }}
 
-{_lines(_dispersion(case, flow, source, own))}    injectionModels
+{_lines(_dispersion(case, flow, source))}    injectionModels
     {{
-{_lines(own.injections if own and own.injections else _injection(scales, end, d), 8)}    }}
+{_lines(_injection(scales, end, d), 8)}    }}
 
-{_lines(_interaction(flow.patches, own))}}}
+{_lines(_interaction(flow.patches))}}}
 
 cloudFunctions
 {{
@@ -199,7 +188,7 @@ cloudFunctions
         maxTracks 200;
     }}
     // exposure {{ type particleHistogram; }} // of each particle to shear; slow with more than 1e5 particles
-{_lines(_blood(rho, rho * nu))}{_lines(own.functions if own else ())}}}
+}}
 """
     return re.sub(r"^( *)(\w+)(?: ([^{}\n]*?))?;(?: // (.*))?$", _aligned, text, flags=re.MULTILINE)
 
@@ -463,24 +452,6 @@ def _known_phases(case: Path, source: FlowSource, rate: float) -> list[tuple[str
     return sorted(known, key=lambda phase: phase[0] != own)
 
 
-def _drops(case: Path, source: FlowSource, rate: float) -> list[str]:
-    """Return comments with the entries of drops of the second of two liquid or gaseous phases."""
-    sigma, known = surface_tension(case, source.region), _known_phases(case, source, rate)
-    if sigma is None or len(known) != 2:
-        return []
-    name, nu, rho = known[1]
-    return [f"// type drop; surfaceTension {sigma:g}; viscosity {nu * rho:.4g}; // instead: drops of {name}"]
-
-
-def _blood(rho: float, mu: float) -> list[str]:
-    """Return a comment with the damage to red cells if a fluid, kg/m³ and Pa s, is like blood."""
-    ranges = (_BLOOD_DENSITY, rho), (_BLOOD_VISCOSITY, mu)
-    if not all(low <= value <= high for (low, high), value in ranges):
-        return []
-    function = "damage { type haemolysis; constants Giersiepen; stress KelvinVoigt; }"
-    return [f"// {function} // the fluid is like blood"]
-
-
 def _viscosity_of_model(file: Path, case: Path, rate: float, T: float) -> tuple[float, str]:
     """Return the viscosity of the selected model, m²/s, at a rate (1/s) and a temperature, and its source."""
     try:
@@ -531,37 +502,18 @@ def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     ]
 
 
-def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float, own: CaseCloud | None) -> list[str]:
-    """Return the entries of the stiffness, of the case's cloud or by the rates on paths of the fluid."""
+def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float) -> list[str]:
+    """Return the entries of the stiffness by the rates on paths of the fluid."""
     largest = rates_on_paths(flow, scales)
     rate = float(np.median(largest)) or 1.0
     where = "the largest on half of the paths" if largest.any() else "as the fluid is at rest"
     at = f"{rate:.2g} 1/s, {where}"
     modulus = _rounded(mu * max(rate / _CAPILLARY, np.quantile(largest, 0.9) / _MOST_CAPILLARY))
     said = f"Pa; Ca = {mu * rate / modulus:.2g} at {at}"
-    if own and own.moduli:
-        E, poisson = own.moduli.values()
-        Ca, comment = 2.0 * mu * rate * (1.0 + poisson) / E, ""
-        if Ca < _RIGID:
-            comment = f", as good as rigid; the case has youngsModulus {E:g}"
-            Ca, E = _RIGID, _rounded(E * Ca / _RIGID)
-        return [
-            f"youngsModulus {E:g}; // Pa; Ca = {Ca:.2g}{comment}",
-            f"poissonsRatio {poisson:g};",
-            f"// shearModulus {modulus:g}; // {said}",
-        ]
     return ["poissonsRatio 0.499; // nearly incompressible", f"shearModulus {modulus:g}; // {said}"]
 
 
-def _left_out(own: CaseCloud | None) -> list[str]:
-    """Return comments about the case's own cloud."""
-    if own is None:
-        return []
-    without = [f"//   {sentence}" for sentence in own.left_out]
-    return [f"// Made from {own.file}{', without:' if without else '.'}", *without]
-
-
-def _dispersion(case: Path, flow: MeshFlow, source: FlowSource, own: CaseCloud | None) -> list[str]:
+def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     """Return the entry of a dispersion model if the case has the fields of a mean turbulent flow."""
     if source.file is not None:
         return []
@@ -570,8 +522,6 @@ def _dispersion(case: Path, flow: MeshFlow, source: FlowSource, own: CaseCloud |
     fields = turbulence_fields(folder / flow.at_nodes()[0] / source.region)
     if not fields:
         return []
-    if own and own.dispersion:
-        return [f"dispersionModel {own.dispersion};", ""]
     return [f"dispersionModel none; // or stochasticDispersionRAS: {' and '.join(fields)} are available", ""]
 
 
@@ -607,8 +557,8 @@ def _injection(scales: FlowScales, end: float, d: float) -> list[str]:
     return braces("particles", [*lines, "", *braces("sizeDistribution", law)])
 
 
-def _gravity(case: Path, region: str, *, wanted: bool) -> str:
-    """Return the entry of gravity, or a comment if the case has no gravity or its cloud does not feel it."""
+def _gravity(case: Path, region: str) -> str:
+    """Return the entry of gravity, or a comment if the case has no gravity."""
     file = of_region(case, region, "g")
     try:
         g: Vector3 = read_gravity(case, region)
@@ -616,28 +566,18 @@ def _gravity(case: Path, region: str, *, wanted: bool) -> str:
         return "// gravity;            // the case has no constant/g"
     if not any(g):
         return f"// gravity;            // {file} is zero"
-    text = f"gravity; // less buoyancy; {file}: ({g[0]:g} {g[1]:g} {g[2]:g}) m/s2"
-    return text if wanted else f"// {text}"
+    return f"gravity; // less buoyancy; {file}: ({g[0]:g} {g[1]:g} {g[2]:g}) m/s2"
 
 
-def _interaction(patches: Sequence[Patch], own: CaseCloud | None) -> list[str]:
+def _interaction(patches: Sequence[Patch]) -> list[str]:
     """Return the patch interaction model with its coefficients."""
-    model = (own and own.interaction) or "localInteraction"
-    lines = own.coefficients if own else []
-    if model == "localInteraction":
-        rest = [patch for patch in patches if own is None or patch.name not in own.ruled]
-        lines = [
-            "patches",
-            "(",
-            *(f"    {line}" for line in (*lines, *_patches(rest, own.wall if own else "stick"))),
-            ");",
-        ]
-    return [f"patchInteractionModel {model};", "", *braces(f"{model}Coeffs", lines)]
+    rules = ["patches", "(", *(f"    {line}" for line in _patches(patches)), ");"]
+    return ["patchInteractionModel localInteraction;", "", *braces("localInteractionCoeffs", rules)]
 
 
-def _patches(patches: Sequence[Patch], wall: str = "stick") -> list[str]:
-    """Return the rules of patches; ``wall`` is the interaction of walls."""
-    choice = "or stick, rebound, escape".replace(f" {wall},", "")
+def _patches(patches: Sequence[Patch]) -> list[str]:
+    """Return the rules of patches."""
+    choice = "or rebound, escape"
     lines, walls = [], [patch for patch in patches if patch.type in WALLS]
     named = [patch for patch in patches if needs_entry(patch) and patch not in walls]
     for patch in named:
@@ -646,14 +586,19 @@ def _patches(patches: Sequence[Patch], wall: str = "stick") -> list[str]:
             start, why = "// ", f" // particles cannot pass a {patch.type}"
         lines.append(f"{start}{_word(patch.name):20s}{{ type escape; }}{why}")
     if len(walls) > 6:
-        lines.append(f"{'wall':20s}{{ type {wall}; }} // all {len(walls)} walls; {choice}")
+        lines.append(f"{'wall':20s}{{ type stick; }} // all {len(walls)} walls; {choice}")
     else:
-        lines += [f"{_word(patch.name):20s}{{ type {wall}; }} // wall; {choice}" for patch in walls]
+        lines += [f"{_word(patch.name):20s}{{ type stick; }} // wall; {choice}" for patch in walls]
     others = [f"{patch.name} ({patch.type})" for patch in patches if not needs_entry(patch)]
     if others:
         more = ", …" if len(others) > 4 else ""
         lines.append(f"// without entry: {', '.join(others[:4])}{more}")
     return lines
+
+
+def braces(key: str, lines: Sequence[str]) -> list[str]:
+    """Return the lines of a dictionary."""
+    return [key, "{", *(f"    {line}" if line else "" for line in lines), "}"]
 
 
 def _said(section: str, entry: str, more: str = "", model: str = "") -> str:

@@ -16,16 +16,14 @@ from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import refuse_other_kind
 from foamprb.results.foam import remove_lagrangian, write_lagrangian
-from foamprb.results.ovito import write_dump
 from foamprb.results.vtk import write_vtkhdf
 from foamprb.view.results import Run, open_run
 from foamprb.view.stress import write_stress
 
 __all__ = ["export"]
 
-_TARGETS = {"openfoam": "openfoam", "vtkhdf": "{}.vtkhdf", "ovito": "{}.dump", "stress": "sigma"}
+_TARGETS = {"openfoam": "openfoam", "vtkhdf": "{}.vtkhdf", "stress": "sigma"}
 """Default file or folder of each kind, beside the results."""
-_BEGINNINGS = {"vtkhdf": b"\x89HDF", "ovito": b"ITEM: TIMESTEP"}
 
 
 def export(
@@ -43,7 +41,7 @@ def export(
     Parameters
     ----------
     kind
-        ``openfoam``, ``vtkhdf``, ``ovito`` or ``stress``.
+        ``openfoam``, ``vtkhdf`` or ``stress``.
     case, cloud, results
         See :func:`foamprb.view.results.open_run`.
     source, time
@@ -67,12 +65,9 @@ def export(
     run = open_run(case, cloud, source.region, results)
     source = run.source(source)
     target = output or run.folder / _TARGETS[kind].format(run.name)
-    if kind in _BEGINNINGS:
-        refuse_other_kind(target, _BEGINNINGS[kind])
     if kind == "vtkhdf":
+        refuse_other_kind(target, b"\x89HDF")
         write_vtkhdf(target, [entry.time for entry in run.entries], run.cloud)
-    elif kind == "ovito":
-        write_dump(target, map(run.cloud, range(len(run.entries))))
     else:
         flow = read_flow(case, time, source)
         if kind == "stress":

@@ -6,7 +6,6 @@ import base64
 import hashlib
 import html
 import json
-import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
@@ -22,7 +21,6 @@ from foamprb.view.colours import DARK, LIGHT, MAPS, colour_map
 from foamprb.view.encode import Column, Grid
 from foamprb.view.flowfield import QUANTITIES, STREAM_OPACITY, FlowField
 from foamprb.view.geometry import Surface
-from foamprb.view.painting import PER_WIDTH, REACH, Painting
 from foamprb.view.scene import (
     INSETS,
     MARGIN,
@@ -74,7 +72,6 @@ class Page:
         shown = [geometry.points] if geometry is not None else []
         shown += [bodies.x[bodies.present], scene.edges]
         shown += [scene.paths.points] if scene.paths is not None else []
-        shown += [scene.painting.places] if scene.painting is not None else []
         low, high = encode.bounds(*shown)
         # The coordinates of the page: the origin is the middle of the box, the unit its longest side.
         self._middle, self._size = 0.5 * (low + high), float((high - low).max()) or 1.0
@@ -191,7 +188,6 @@ class Page:
             "edges": self._add(encode.pack_points(scene.edges.reshape(-1, 3), grid)),
             "flow": None if scene.flowfield is None else self._flow(scene.flowfield, grid),
             "paths": self._paths(grid),
-            "painting": None if scene.painting is None else self._painting(scene.painting, grid),
         }
 
     def _surface(self, surface: Surface, grid: Grid) -> dict[str, Any]:
@@ -227,20 +223,6 @@ class Page:
             "high": self._inside(volume.high),
             "values": values,
             "plane": None if plane is None else [self._inside(plane[0]), _rounded(plane[1])],
-        }
-
-    def _painting(self, painting: Painting, grid: Grid) -> dict[str, Any]:
-        unit, factor = painting.unit
-        return {
-            "places": self._add(encode.pack_points(painting.places, grid)),
-            "times": self._add(encode.pack_values(painting.times)),
-            "width": painting.width / self._size,
-            "cell": painting.width / PER_WIDTH / self._size,
-            "reach": REACH,
-            "unit": unit,
-            "most": factor * painting.most,
-            # Density in the middle of the kernel.
-            "peak": factor * painting.each / (2.0 * math.pi * painting.width**2),
         }
 
     def _paths(self, grid: Grid) -> dict[str, Any] | None:

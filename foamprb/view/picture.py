@@ -7,7 +7,7 @@ import math
 import os
 import sys
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,7 +19,6 @@ from foamprb import optional
 from foamprb.errors import InputError
 from foamprb.flow.base import WALLS
 from foamprb.flow.read.vtk_reader import vtk_messages
-from foamprb.memory import announce, require
 from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
 from foamprb.view.colours import (
@@ -28,7 +27,6 @@ from foamprb.view.colours import (
     colour_map,
     colour_of_name,
     number,
-    ramp,
     readable,
     rgb,
     round_down,
@@ -38,7 +36,6 @@ from foamprb.view.colours import (
 from foamprb.view.flowfield import PLANE, QUANTITIES, STREAM_OPACITY, FlowField
 from foamprb.view.geometry import FLAT_TYPES, Geometry
 from foamprb.view.libraries import load
-from foamprb.view.painting import Painting
 from foamprb.view.scene import (
     INSETS,
     MOST_TRAILS,
@@ -66,10 +63,6 @@ _UNKNOWN = 153
 _TRAIL_OPACITY = 0.85
 _HAZE, _HAZE_LENGTH = 0.3, 0.6
 """Largest share of the paper in colours, and how far behind the focus it is reached, in its distances."""
-_MOST_PAINTED = 200_000
-"""Triangles of a painted wall, about."""
-_GRAPHICS, _POINT = 0.7e9, 205.0
-"""Address space of the graphics library, and of each point of a body, bytes."""
 _LATER: dict[str, Any] = {"render": False, "reset_camera": False}
 """Options of the plotter: the picture is rendered once, by the camera of the scene."""
 
@@ -93,8 +86,6 @@ class Drawing:
     style: Style
     scale: float
     """Pixels of the picture per pixel of the page."""
-    painted: list[Any] = field(default_factory=list)
-    """Walls on which deposits are painted."""
 
     def show(self, frame: int) -> None:
         """Draw the bodies and the texts of a time."""
@@ -161,10 +152,6 @@ class Drawing:
                 scale.beyond,
                 scale.extremes,
             )
-        if (painting := scene.painting) is not None:
-            unit, factor = painting.unit
-            colours = ramp(self.style.glass, self.style.deposit)
-            left = self._bar("paint", "deposits", unit, (0.0, factor * painting.most), colours, left)
         name, part = scene.colour
         if name in scene.bodies.fields:
             field = scene.bodies.fields[name]
@@ -336,13 +323,7 @@ class Drawing:
         return actor
 
     def _show_deposits(self, frame: int) -> None:
-        """Paint the deposits on the walls or, if there are few, mark them in front of everything."""
-        if (painting := self.scene.painting) is not None:
-            for wall in self.painted:
-                share = painting.density(wall.points, self.scene.bodies.times[frame]) / painting.most
-                paint = ramp(self.style.glass, self.style.deposit)
-                wall.point_data["colour"] = paint[np.clip(255.0 * share, 0, 255).astype(np.uint8)]
-            return
+        """Mark the deposits in front of everything."""
         bodies = self.scene.bodies
         stuck = [k for k, word in enumerate(bodies.status.meanings) if word == "stuck"]
         codes = bodies.status.codes
@@ -442,17 +423,7 @@ def require_graphics() -> None:
 
 
 def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool) -> Drawing:
-    """Return the scene without its bodies.
-
-    Raises
-    ------
-    OutOfMemory
-        If memory is too small for the bodies; VTK would end the process.
-    """
-    number = int(scene.bodies.shown.sum(axis=1).max(initial=0))
-    points = len(sphere_for(number).points) + (len(mark().points) if number <= _MOST_MARKED else 0)
-    announce("bodies drawn", number, _POINT * points)
-    require(_GRAPHICS + _POINT * points * number)
+    """Return the scene without its bodies."""
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting=None)
     plotter.set_background(style.paper)
     plotter.enable_anti_aliasing("msaa", multi_samples=8)
@@ -463,7 +434,7 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool) -> 
     scale = size[1] / PAGE_HEIGHT
     drawing = Drawing(plotter, scene, texts, style, scale)
     if scene.geometry is not None:
-        drawing.painted = draw_geometry(plotter, scene.geometry, style, scene.painting)
+        draw_geometry(plotter, scene.geometry, style)
     if len(scene.edges):
         lines = pyvista.line_segments_from_points(scene.edges.reshape(-1, 3))
         plotter.add_mesh(lines, color=style.edge, line_width=1.0, lighting=False, **_LATER)
@@ -509,16 +480,8 @@ def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: lis
     plotter.camera_set = True
 
 
-def draw_geometry(
-    plotter: Any, geometry: Geometry, style: Style, painting: Painting | None = None
-) -> list[Any]:
-    """Draw the far side of walls, and the near side and other patches almost transparent.
-
-    Returns
-    -------
-    The walls on which deposits are painted; their colours are an array of their points.
-    """
-    painted = []
+def draw_geometry(plotter: Any, geometry: Geometry, style: Style) -> None:
+    """Draw the far side of walls, and the near side and other patches almost transparent."""
     for surface in geometry.surfaces:
         if surface.type in FLAT_TYPES:
             continue
@@ -527,52 +490,9 @@ def draw_geometry(
         if surface.type in WALLS:
             more["color"] = style.glass
             plotter.add_mesh(mesh, culling="back", opacity=0.1, ambient=0.6, diffuse=0.4, **more)
-            if painting is not None:
-                normals = mesh.compute_normals(cell_normals=False, consistent_normals=False)["Normals"]
-                points, triangles = refined(np.hstack([surface.points, normals]), surface.triangles, painting)
-                mesh = pyvista.PolyData.from_regular_faces(points[:, :3], triangles)
-                mesh.point_data["Normals"] = points[:, 3:]
-                mesh.point_data.active_normals_name = "Normals"
-                mesh.point_data["colour"] = np.zeros((len(points), 3), dtype=np.uint8)
-                painted.append(mesh)
-                more = {"scalars": "colour", "rgb": True, "show_scalar_bar": False} | _LATER
             plotter.add_mesh(mesh, culling="front", ambient=0.8, diffuse=0.22, specular=0.0, **more)
         else:
             plotter.add_mesh(mesh, color=style.accent, opacity=0.07, ambient=1.0, diffuse=0.0, **more)
-    return painted
-
-
-def refined(points: Floats, triangles: Ints, painting: Painting) -> tuple[Floats, Ints]:
-    """Divide triangles until their sides are about as long as the kernel of a painting is wide.
-
-    Parameters
-    ----------
-    points, triangles
-        Places, m, and further values, (v, 3 + k), which are interpolated; and (t, 3).
-
-    Returns
-    -------
-    Points (w, 3 + k) and triangles (u, 3).
-    """
-    corners = points[triangles]
-    sides = np.linalg.norm(corners[:, :, :3] - np.roll(corners[:, :, :3], 1, axis=1), axis=2).max(axis=1)
-    wanted = np.maximum(1.0, sides / painting.width)
-    # All sides longer for a mesh that would become too fine.
-    wanted *= min(1.0, math.sqrt(_MOST_PAINTED / float((wanted**2).sum())))
-    number = np.maximum(1, np.rint(wanted)).astype(np.int64)
-    all_points, all_triangles, first = [], [], 0
-    for n in np.unique(number).tolist():
-        rows = [(i, j) for i in range(n + 1) for j in range(n + 1 - i)]
-        at = {row: k for k, row in enumerate(rows)}
-        weights = np.array([(n - i - j, i, j) for i, j in rows]) / n
-        upright = [(at[i, j], at[i + 1, j], at[i, j + 1]) for i, j in rows if i + j < n]
-        turned = [(at[i + 1, j], at[i + 1, j + 1], at[i, j + 1]) for i, j in rows if i + j < n - 1]
-        own = np.einsum("sv,tvc->tsc", weights, corners[number == n])
-        offsets = first + len(rows) * np.arange(len(own))
-        all_points.append(own.reshape(-1, points.shape[1]))
-        all_triangles.append((np.array(upright + turned) + offsets[:, None, None]).reshape(-1, 3))
-        first += len(all_points[-1])
-    return np.concatenate(all_points), np.concatenate(all_triangles)
 
 
 def draw_flow(plotter: Any, field: FlowField, style: Style) -> None:

@@ -16,7 +16,6 @@ from foamprb.view.bodies import MAGNITUDE, Bodies, Codes
 from foamprb.view.colours import MAPS, round_down, round_limits
 from foamprb.view.flowfield import FlowField
 from foamprb.view.geometry import Geometry, Surface
-from foamprb.view.painting import Painting
 
 Floats = NDArray[np.float64]
 
@@ -120,8 +119,6 @@ class Scene:
         Unit vector; zero without gravity.
     groups
         Dimensionless groups and the fluid, as text.
-    painting
-        Density of deposits on the walls, if there are many.
     known_extremes
         Least and largest value of the chosen array at all times, if the bodies have some times only.
     """
@@ -142,7 +139,6 @@ class Scene:
     flow: Floats = field(default_factory=lambda: np.zeros(3))
     gravity: Floats = field(default_factory=lambda: np.zeros(3))
     groups: str = ""
-    painting: Painting | None = None
     known_extremes: tuple[float, float] | None = None
 
     @cached_property

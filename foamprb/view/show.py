@@ -30,7 +30,6 @@ from foamprb.view.colours import Style
 from foamprb.view.flowfield import FlowField, field_of
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.page import Page
-from foamprb.view.painting import Painting, painting_of
 from foamprb.view.paraview import write_state
 from foamprb.view.picture import film, has_display, picture, require_graphics
 from foamprb.view.results import Run, Table, open_run
@@ -193,7 +192,6 @@ class _Background:
     flow: Floats
     gravity: Floats
     groups: str
-    painting: Painting | None
 
     def scene(self, bodies: Bodies) -> Scene:
         """Return the scene of some bodies."""
@@ -223,7 +221,6 @@ class _Background:
             flow=self.flow,
             gravity=g / (float(np.linalg.norm(g)) or 1.0),
             groups=self.groups,
-            painting=self.painting,
         )
 
 
@@ -331,7 +328,6 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
         direction,
         g,
         groups_of(record),
-        painting_of(fates, geometry),
     )
 
 

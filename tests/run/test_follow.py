@@ -39,8 +39,8 @@ def written(tmp_path_factory):
 class Solver:
     """Writes half a time or the rest of it, whenever a run waits."""
 
-    def __init__(self, source, case, monkeypatch, purge=False):
-        self.source, self.case, self.purge = source, case, purge
+    def __init__(self, source, case, monkeypatch):
+        self.source, self.case = source, case
         self.steps = iter([(name, part) for name in list(SCALE)[1:] for part in (1, 2)])
         self.waits = 0
         self.now = 0.0
@@ -62,8 +62,6 @@ class Solver:
             (folder / "U").write_text(text if part == 2 else text[: len(text) // 2])
             if part == 2:
                 shutil.copy(self.source / name / "p", folder / "p")
-        elif self.purge:
-            shutil.rmtree(self.case / "0.5", ignore_errors=True)
 
 
 @pytest.fixture
@@ -76,7 +74,6 @@ def case(written, tmp_path):
 
 def files(case):
     folder = case / "postProcessing/softCloud"
-    assert not (folder / "flow").exists()
     return {
         path.name: path.read_bytes() for path in folder.iterdir() if path.suffix in (".csv", ".vtp", ".pvd")
     }
@@ -122,33 +119,16 @@ def test_run_ends_with_its_solver(written, case, monkeypatch, caplog):
     assert found == files(whole)
 
 
-def test_stopped_run_continues_with_the_links_it_left(written, case, monkeypatch):
-    control = case / "system/controlDict"
-    control.write_text(control.read_text() + "purgeWrite 2;")
-    solver = Solver(written[0], case, monkeypatch, purge=True)
+def test_stopped_run_continues(written, case, monkeypatch):
+    solver = Solver(written[0], case, monkeypatch)
     job = prepare(case, follow=Follow())
     with pytest.raises(RunStopped, match=r"stopped at t = 0\.5 s\. To continue"):
         # The solver has only 1.5 to complete.
         execute(job, stop=lambda: job.cloud.step == 10)
-    assert (case / "postProcessing/softCloud/flow/0.5/U").exists()
     for _ in range(3):
         solver.write()
-    assert not (case / "0.5").exists()
     assert main(["run", "-case", str(case), "-follow", "-resume"]) == 0
     assert files(case) == files(written[1])
-
-
-def test_run_killed_before_its_first_checkpoint_continues_with_the_links_it_left(written, case, monkeypatch):
-    Solver(written[0], case, monkeypatch)
-    control = case / "system/controlDict"
-    control.write_text(control.read_text() + "purgeWrite 2;")
-    for time in ("0", "0.5"):
-        shutil.copytree(written[0] / time, case / "postProcessing/softCloud/flow" / time)
-    shutil.copytree(written[0] / "1.5", case / "1.5")
-    following = prepare(case, follow=Follow("latestTime")).following
-    assert following is not None
-    following.close()
-    assert following.flow.times == (0.0, 0.5, 1.5)
 
 
 def test_impatient_run_stops_with_a_checkpoint(written, case, monkeypatch):

@@ -171,26 +171,6 @@ def test_both_phases_of_a_case_are_written(case):
     assert re.search(r"// nu 1.48e-05; +// m2/s, of air", text)
     fluid = read_settings(case).fluid
     assert (fluid.nu, fluid.rho) == (1e-6, 1000.0)
-    assert "// type drop; surfaceTension 0.07; viscosity 1.48e-05; // instead: drops of air" in text
-
-
-@pytest.mark.parametrize(
-    ("fluid", "offered"),
-    [
-        ("BirdCarreau; BirdCarreauCoeffs { nu0 5.28e-5; nuInf 3.25e-6; k 3.313; n 0.3568; } rho 1060;", True),
-        ("Newtonian; nu 3.3e-6; rho 1060;", True),
-        ("Newtonian; nu 1e-6; rho 1000;", False),
-    ],
-)
-def test_haemolysis_is_offered_for_blood(case, fluid, offered):
-    (case / "constant/transportProperties").write_text(f"transportModel {fluid}")
-    text = write_template(case).read_text()
-    (line,) = re.findall(r"// (damage \{ type haemolysis; .*\}) // the fluid", text) or [""]
-    assert bool(line) is offered
-    if offered:
-        edit = text.replace(f"// {line}", line)
-        (case / "constant/softCloudProperties").write_text(edit)
-        assert "damage" in read_settings(case).functions
 
 
 def test_the_phases_of_a_list_are_written(case):

@@ -52,14 +52,6 @@ def request_(tmp_path_factory, moved) -> Request:
     return Request(case, slice="z=0.02", enlargement=1.5)
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _few_deposits() -> Iterator[None]:
-    """Paint even a single deposit."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("foamprb.view.painting.FEW", 1)
-        yield
-
-
 @pytest.fixture(scope="module")
 def address(request_) -> str:
     return write_page(request_, None, 30.0, "1.2.3").as_uri()
@@ -538,20 +530,8 @@ class TestControls:
         assert "escaped through lid" in tab.page.locator("#legends").inner_text()
         assert not tab.page.is_visible("#range-row")
 
-    def test_trails_and_deposits(self, tab, scene):
+    def test_trails_and_deposits(self, tab):
         tab.run("foamprb.show(7)")
-        # Painted: the same density as in a picture of VTK, here where the body sticks and beside it.
-        beside = np.array([[0.0, 0.0, 0.0], [0.05, 0.0, 0.0], [0.1, 0.05, 0.0]])
-        points = scene.painting.places + beside
-        frame = tab.run("foamprb.data.scene.frame")
-        inside = (points - frame["middle"]) / frame["size"]
-        found = [tab.run(f"foamprb.painting.at({x}, {y}, {z})") for x, y, z in inside.tolist()]
-        assert found == pytest.approx(scene.painting.density(points, 0.7).tolist(), rel=0.4)
-        assert max(found) == pytest.approx(scene.painting.density(points, 0.7).max(), rel=0.05)
-        tab.run("foamprb.show(6)")
-        assert tab.run("foamprb.painting.count") == 0
-        tab.run("foamprb.show(7)")
-        tab.page.select_option("#deposits", "marked")
         assert tab.page.input_value("#trails") == "fading"
         fading = tab.pixels()
         tab.page.select_option("#trails", "none")

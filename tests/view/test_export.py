@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import pyvista
-from view_run import clouds, motion, with_orientation, write_run
+from view_run import motion, write_run
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 import foamprb
 from foamprb import read_case
 from foamprb.cli import main
-from foamprb.results.ovito import write_dump
 from foamprb.results.tables import write_table
 
 
@@ -45,37 +43,6 @@ def test_one_file_has_every_array_of_every_time(case):
             np.testing.assert_array_equal(found.point_data[name], expected.point_data[name])
     # Bodies that are released later are missing at first.
     assert run.snapshot(0.0).n_points < run.snapshot().n_points
-
-
-def test_a_dump_has_ellipsoids_with_their_axes(tmp_path):
-    given = [with_orientation(cloud) for cloud in clouds(motion(9, 5))]
-    empty = {name: array[:0] for name, array in given[0].arrays.items()}
-    write_dump(tmp_path / "own.dump", [replace(given[0], points=given[0].points[:0], arrays=empty), *given])
-    frames = (tmp_path / "own.dump").read_text().split("ITEM: UNITS\nmicro\n")[1:]
-    assert len(frames) == 6
-    assert len(frames[0].splitlines()) == 11
-    for frame, cloud in zip(frames[1:], given, strict=True):
-        lines, cloud_of = frame.splitlines(), cloud.arrays
-        assert float(lines[1]) == cloud.time
-        assert int(lines[5]) == len(cloud.points)
-        names = lines[10].split()[2:]
-        rows = np.array([line.split() for line in lines[11:]], dtype=float)
-        column = dict(zip(names, rows.T, strict=True))
-        np.testing.assert_array_equal(column["id"], cloud_of["origId"] + 1)
-        np.testing.assert_allclose(rows[:, 2:5], 1e6 * cloud.points, rtol=1e-8)
-        # R U Rᵀ by shape and quaternion is the square root of G Gᵀ.
-        w, x, y, z = (column[f"quat{c}"] for c in "wijk")
-        R = np.array(
-            [
-                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-            ]
-        ).transpose(2, 0, 1)
-        radii = 0.5e-6 * np.stack([column[f"shape{c}"] for c in "xyz"], axis=1)
-        G = cloud_of["glyph"].reshape(-1, 3, 3).transpose(0, 2, 1)
-        found = R @ (radii[:, :, None] ** 2 * R.transpose(0, 2, 1))
-        np.testing.assert_allclose(found, G @ G.transpose(0, 2, 1), rtol=1e-5, atol=1e-9)
 
 
 def numbers(path: Path) -> np.ndarray:
@@ -116,7 +83,7 @@ def test_a_foreign_cloud_of_the_same_name_is_kept(case, capsys):
     assert not list(case.glob("0.[0-3]/lagrangian"))
 
 
-@pytest.mark.parametrize("command", [["view"], ["report"], ["view", "-png"], ["export", "ovito"]])
+@pytest.mark.parametrize("command", [["view"], ["report"], ["view", "-png"], ["export", "vtkhdf"]])
 def test_an_output_replaces_no_file_of_another_kind(command, case, capsys):
     file = case / "constant/softCloudProperties"
     file.write_text("solution { }")

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from view_run import PATCHES, motion, write_run
 
-from foamprb import memory
 from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.results.tables import write_table
@@ -194,29 +193,6 @@ def test_a_floor_stays_in_its_plane_and_its_particles_where_they_are():
     i, j = np.unravel_index(np.nanargmax(found.density), found.density.shape)
     assert (found.edges[0][i], found.edges[1][j]) == pytest.approx((0.9, 0.4), abs=0.5)
     assert found.triangles.max() >= 0.0
-
-
-def test_a_wall_of_a_flat_case_is_straightened_in_its_plane():
-    """Left side, floor and right side of a square of a thin slab: the length along the wall is 3 m."""
-    line = np.array([[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
-    points = np.array([[x, y, z] for x, y in line for z in (0.0, 0.1)])
-    quads = np.array([[0, 1, 3, 2], [2, 3, 5, 4], [4, 5, 7, 6]])
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    wall = Surface("sides", "wall", points, triangles)
-    x = np.repeat([[0.0, 0.75, 0.05], [0.5, 0.0, 0.02], [1.0, 0.5, 0.09]], [40, 80, 40], axis=0)
-    found = deposits(wall, x, np.array([0.0, 0.0, 1.0]))
-    assert found.density.shape == (20, 1)
-    assert found.edges[0][[0, -1]] == pytest.approx([0.0, 3.0], abs=0.02)
-    assert sorted(np.unique(found.points[:, 0].round(2))) == pytest.approx([0.25, 1.5, 2.5], abs=0.01)
-    assert np.nansum(found.density[:, 0] * np.diff(found.edges[0])) * 0.1 == pytest.approx(160, rel=0.02)
-    assert "length along sides" in plots.unrolled(found).svg
-
-
-def test_where_memory_is_short_the_report_has_no_picture(case, tmp_path, monkeypatch):
-    """VTK would end the process without a word of ours."""
-    monkeypatch.setattr(memory, "_limit", lambda _: 1e6)
-    text = write_report(case, tmp_path / "report.html").read_text(encoding="utf-8")
-    assert re.search(r"No picture: not enough memory for .*60 bodies drawn; needs", text)
 
 
 @pytest.mark.parametrize("record", ['{"warnings": 3}', '{"versions": 1}'])

@@ -19,8 +19,6 @@ from foamprb.view.bodies import Bodies, Codes, Quantity, gather
 from foamprb.view.colours import colour_of_name, readable, rgb, round_down, round_limits, ticks, written
 from foamprb.view.flowfield import cut, read_plane
 from foamprb.view.geometry import Geometry, Surface, boundary, flat_normal
-from foamprb.view.painting import painting_of
-from foamprb.view.picture import refined
 from foamprb.view.results import open_run
 from foamprb.view.scene import (
     ALL,
@@ -367,22 +365,3 @@ def test_the_caption_has_the_groups_and_the_fluid():
     }
     assert groups_of(record) == "Ca 0.02 to 2, Re 1e-5, fluid 0.018 mPa s, 1.21 kg/m³"
     assert groups_of({}) == groups_of({"injections": 3}) == ""
-
-
-def test_the_density_of_deposits_adds_up_to_their_number(flow, random):
-    """Over the cube's walls, whose edges the kernels of these places do not reach."""
-    geometry = boundary(flow.mesh)
-    n = 400
-    x = np.column_stack([random.uniform(0.35, 0.65, (n, 2)), np.zeros(n)])
-    fates = {"fate": np.full(n, "stuck"), "patch": np.full(n, "floor"), "t1": np.arange(n) / n}
-    fates |= {f"{'xyz'[c]}1": x[:, c] for c in range(3)}
-    painting = painting_of(fates, geometry)
-    floor = next(surface for surface in geometry.surfaces if surface.name == "floor")
-    points, triangles = refined(floor.points, floor.triangles, painting)
-    a, b, c = points[triangles].transpose(1, 0, 2)
-    areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    assert areas.sum() == pytest.approx(1.0, rel=1e-6)
-    for time, expected in ((1.0, n), (0.5, n / 2), (-1.0, 0)):
-        density = painting.density(points, time)
-        assert density[triangles].mean(axis=1) @ areas == pytest.approx(expected, rel=0.03, abs=1e-9)
-    assert painting_of({name: values[:99] for name, values in fates.items()}, geometry) is None

@@ -31,11 +31,8 @@ from foamprb.flow.mesh.geometry import (
     rotate_faces,
 )
 from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32, share
-from foamprb.memory import announce
 
 _MOST_TURNS = 5
-CELL_BYTES = 3000.0
-"""Approximate memory per cell while a flow is read; a third of it is kept."""
 
 
 @dataclass(eq=False)
@@ -136,7 +133,6 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         Cells of another type; a face of three cells; an open cell; boundary faces in no patch or in two
         patches; patch faces that are not on the boundary.
     """
-    announce("cells", grid.GetNumberOfCells(), CELL_BYTES)
     return assemble(poly_of_grid(grid, surfaces, source), source)
 
 
@@ -156,7 +152,6 @@ def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) 
         A cell is open, or its faces cannot be oriented; or coupled patches do not fit.
     """
     points, faces, *_ = poly
-    announce("cells", len(faces.first) - 1, CELL_BYTES)
     cell_start, cell_points = points_of_cells(faces, len(points))
     points, faces, cell_points = part_points(points, faces, cell_start, cell_points)
     poly = poly._replace(points=points, faces=faces)

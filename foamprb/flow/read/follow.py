@@ -1,4 +1,4 @@
-"""Times of a case whose solver is running: links to those that are written completely.
+"""Times of a case whose solver is running: those that are written completely.
 
 OpenFOAM makes the folder of a time first and then writes one field after another. A time is therefore
 complete when the folder of the next one exists. The last time of the solver is complete when its files no
@@ -9,13 +9,9 @@ from __future__ import annotations
 
 import gzip
 import math
-import os
-import re
-import shutil
-import threading
 import time as clock
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -27,7 +23,7 @@ from foamprb.flow.read.case import available_times, is_only_decomposed, processo
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.times import names_in
 
-__all__ = ["FollowedCase", "remove_links"]
+__all__ = ["FollowedCase"]
 
 _CONTROL = Path("system/controlDict")
 _QUIET, _CERTAIN = 2.0, 60.0
@@ -41,25 +37,15 @@ _ROUNDED = 1e-9
 """Relative error of a time in ``controlDict`` or in the name of a folder."""
 _CLOSE = 1e-6
 """Share of a write interval by which a time may lie before a multiple of it."""
-_BETWEEN_LOOKS = 0.1
-_GAP = 1.5
-"""Largest interval between two times in write intervals; a longer one lacks a time."""
-_TEMPORARY = ".unfinished"
-_LINKS = re.compile(r"constant|system|processors?\d+(_\d+-\d+)?|\d[\d.eE+-]*(\.unfinished)?")
 
 
 class FollowedCase:
-    """Folder that is a case with the complete times of another case, whose solver is running.
-
-    It links the mesh, the dictionaries and the times. With ``purgeWrite`` the files of a time are hard links.
-    They remain when the solver removes its own, until :meth:`release`.
+    """Complete times of a case whose solver is running.
 
     Parameters
     ----------
     case
         The case of the solver.
-    folder
-        The folder of links.
     selection
         Range of times ``a:b``, ``a:`` or ``:b``; None for all.
     region
@@ -70,18 +56,13 @@ class FollowedCase:
     Raises
     ------
     InputError
-        ``selection`` is not a range; ``system/controlDict`` is missing, or its ``purgeWrite`` is 1.
+        ``selection`` is not a range; ``system/controlDict`` is missing, or its ``purgeWrite`` is not 0.
     """
 
     def __init__(
-        self,
-        case: Path,
-        folder: Path,
-        selection: str | None = None,
-        region: str = "",
-        decomposed: bool = False,
+        self, case: Path, selection: str | None = None, region: str = "", decomposed: bool = False
     ) -> None:
-        self.case, self.folder = Path(os.path.abspath(case)), folder  # noqa: PTH100
+        self.case = case
         self.times: list[str] = []
         """Names of the complete times that are selected."""
         self.ended = False
@@ -93,68 +74,18 @@ class FollowedCase:
         self._selection, self._region = selection, region
         names_in(case, ("0",), selection)
         self._control_time = -1
-        self._intervals: dict[bool, float] = {}
-        """Largest write interval until now, s, and with True in steps."""
         self._control = self._read_control()
-        purge = _number(self._control, "purgeWrite", 0.0)
-        if purge == 1.0:
+        if _number(self._control, "purgeWrite", 0.0) > 0.0:
             raise self._control.entries["purgeWrite"].mistake(
-                "is 1: the solver removes a time as soon as the next is written. Allowed with -follow: 0, "
-                "or at least 2."
+                "lets the solver remove times that the run has yet to read. Allowed with -follow: 0."
             )
-        self._purged = purge > 0.0
         self._roots: list[Path] = []
-        self._released = 0
-        self._since = -math.inf
         self._listed: set[str] = set()
         """All times of earlier looks."""
         self._stamps: dict[str, int | None] = {}
         """When each complete time was written, ns; None if it is not known."""
         self._seen: tuple[object, float] = (), 0.0
         self._checked: list[tuple[str, bool]] | None = None
-        self._lock, self._closed = threading.Lock(), threading.Event()
-        self._thread = threading.Thread(target=self._watch, name="foamprb-follow", daemon=True)
-        self._error: Exception | None = None
-
-    def begin(self, since: float | None = None) -> None:
-        """Make the folder, and watch the times in a thread if the solver removes them.
-
-        Parameters
-        ----------
-        since
-            Time from which a run continues, s. The hard links of its earlier process stay, and times before
-            it may be missing.
-        """
-        if since is None:
-            remove_links(self.folder)
-        else:
-            self._since = since
-        self.folder.mkdir(parents=True, exist_ok=True)
-        for name in ("constant", "system"):
-            _link(self.case / name, self.folder / name)
-        if self._purged:
-            self._thread.start()
-
-    def close(self) -> None:
-        """End the thread that watches the times."""
-        self._closed.set()
-        if self._thread.is_alive():
-            self._thread.join()
-
-    def look(self) -> None:
-        """Link the times that are complete by now.
-
-        Raises
-        ------
-        InputError
-            A time was removed before it was linked, or the solver has gone back to an earlier time.
-        OSError
-            A link cannot be made.
-        """
-        with self._lock:
-            if self._error is not None:
-                raise self._error
-            self._look()
 
     def require_unchanged(self, names: Iterable[str]) -> None:
         """Raise InputError if the solver has written complete times again."""
@@ -163,35 +94,17 @@ class FollowedCase:
             if now is not None and then is not None and now != then:
                 raise InputError(self._returned(f"the time {name} was written again"))
 
-    def release(self, before: float, first: int) -> None:
-        """Remove the hard links of times before a time, s, except the ``first`` ones."""
-        self._released = max(self._released, first)
-        while (
-            self._purged and self._released < len(self.times) and float(self.times[self._released]) < before
-        ):
-            for root in self._roots:
-                shutil.rmtree(self._place(root) / self.times[self._released], ignore_errors=True)
-            self._released += 1
+    def look(self) -> None:
+        """Find the times that are complete by now.
 
-    def _watch(self) -> None:
-        while not self._closed.wait(_BETWEEN_LOOKS):
-            try:
-                self.look()
-            except Exception as error:
-                # The next look of the run raises it.
-                self._error = error
-                return
-
-    def _look(self) -> None:
+        Raises
+        ------
+        InputError
+            The solver has gone back to an earlier time.
+        """
+        self._roots = self._roots or self._find_roots()
         if not self._roots:
-            self._roots = self._find_roots()
-            if not self._roots:
-                return
-            for root in self._roots if self.decomposed else ():
-                self._place(root).mkdir(exist_ok=True)
-                _link(root / "constant", self._place(root) / "constant")
-            self.times += self._selected(_common_times(map(self._place, self._roots)))
-            self._stamps = {name: _stamp(self._place(self._roots[0]) / name) for name in self.times}
+            return
         self.unfinished = ""
         written = _common_times(self._roots)
         selected = self._selected(written)
@@ -207,10 +120,7 @@ class FollowedCase:
                 complete = not self._roots[0].name.startswith("processors") or self._is_settled(name, 0.0)
             if not complete:
                 break
-            if self.times:
-                self._refuse_gap(self.times[-1], name)
-            self._hold(name)
-            self._stamps[name] = _stamp(self._place(self._roots[0]) / name)
+            self._stamps[name] = _stamp(self._roots[0] / name)
             self.times.append(name)
         _, _, end = (self._selection or "").partition(":")
         past = bool(written) and not names_in(self.case, written[-1:], f":{end}")
@@ -230,27 +140,6 @@ class FollowedCase:
     def _selected(self, names: Sequence[str]) -> tuple[str, ...]:
         return names_in(self.case, names, self._selection)
 
-    def _place(self, root: Path) -> Path:
-        """Return the folder of links to the times in a folder."""
-        return self.folder / root.relative_to(self.case)
-
-    def _hold(self, name: str) -> None:
-        """Link a time."""
-        for root in self._roots:
-            target = self._place(root) / name
-            if not self._purged:
-                _link(root / name, target)
-                continue
-            temporary = target.with_name(name + _TEMPORARY)
-            shutil.rmtree(temporary, ignore_errors=True)
-            try:
-                shutil.copytree(root / name, temporary, copy_function=_hard_link)
-            except (FileNotFoundError, shutil.Error) as error:
-                if (root / name).is_dir():
-                    raise
-                raise InputError(self._missed(f"files of {root / name} were removed", "a")) from error
-            temporary.rename(target)
-
     def _refuse_return(self, selected: Sequence[str]) -> None:
         """Raise InputError if the solver has gone back to an earlier time since the last look."""
         self.require_unchanged(self.times[-1:])
@@ -265,27 +154,6 @@ class FollowedCase:
             f"{self.case}: {what}. The solver has gone back to an earlier time, and the run may have used "
             "later ones. Remove times that the solver does not write again. Then continue with -resume, "
             "which compares the flow at the last checkpoint, or start over: -overwrite."
-        )
-
-    def _refuse_gap(self, before: str, name: str) -> None:
-        """Raise InputError if the solver has removed a time between two times."""
-        if not self._purged or float(name) <= self._since:
-            return
-        _, by_index = self._interval()
-        # Times may have been written before the interval became shorter, or the solver has not yet read it.
-        interval = self._intervals[by_index]
-        if by_index:
-            first, last = self._index(before), self._index(name)
-            gap = first is not None and last is not None and last - first > _GAP * interval
-        else:
-            gap = float(name) - float(before) > _GAP * interval
-        if gap:
-            raise InputError(self._missed(f"the times between {before} and {name} were removed", name))
-
-    def _missed(self, what: str, name: str) -> str:
-        return (
-            f"{self.case}: {what} before foamprb could link them (purgeWrite). Allowed: a larger purgeWrite; "
-            f"foamprb started before the solver; or to begin at a time that is there, -time {name}:."
         )
 
     def _has_ended(self, written: Sequence[str], root: Path) -> bool:
@@ -318,14 +186,6 @@ class FollowedCase:
             return interval * _number(control, "deltaT", math.inf), False
         return (interval if kind in ("runTime", "adjustable", "adjustableRunTime") else math.inf), False
 
-    def _index(self, name: str) -> int | None:
-        """Return the number of steps that the solver had taken at a time; None if it is not known."""
-        for root in (self._roots[0], self._place(self._roots[0])):
-            with suppress(InputError):
-                written = read_dictionary(root / name / "uniform/time", self.case)
-                return int(read_entry(written, "index", int))
-        return 0 if float(name) == 0.0 else None
-
     def _is_settled(self, name: str, least: float) -> bool:
         """Return whether the files of a time have not changed for ``least`` seconds, and are whole."""
         folders = [root / name / self._region for root in self._roots]
@@ -349,7 +209,7 @@ class FollowedCase:
         """Return a file that a time must have but has not, or not whole; and whether others are in doubt."""
         files = _files(root / name / self._region)
         # The fields of a time that the solver did not write are others.
-        known = [self._place(root) / time for time in self.times[-2:]]
+        known = [root / time for time in self.times[-2:]]
         before = [_files(time / self._region) for time in known if (time / "uniform/time").exists()]
         unfinished = {field for field, path in files.items() if not _is_whole(path)}
         for field in sorted(set.intersection(*map(set, before))) if before else ():
@@ -364,8 +224,6 @@ class FollowedCase:
             changed = path.stat().st_mtime_ns
             if changed != self._control_time:
                 self._control, self._control_time = read_dictionary(path, self.case), changed
-                interval, by_index = self._interval()
-                self._intervals[by_index] = max(interval, self._intervals.get(by_index, 0.0))
         except (OSError, InputError):
             if self._control_time < 0:
                 raise InputError(f"{path}: -follow needs this file, which cannot be read.") from None
@@ -384,42 +242,6 @@ def _stamp(folder: Path) -> int | None:
         return (folder / "uniform/time").stat().st_mtime_ns
     except OSError:
         return None
-
-
-def remove_links(folder: Path) -> None:
-    """Remove a folder of links, and nothing that a :class:`FollowedCase` did not make."""
-    for path in _links_in(folder):
-        if path.is_symlink():
-            path.unlink()
-        elif path.name.startswith("processor"):
-            remove_links(path)
-        else:
-            shutil.rmtree(path, ignore_errors=True)
-    with suppress(OSError):
-        folder.rmdir()
-
-
-def _links_in(folder: Path) -> Iterator[Path]:
-    if folder.is_dir() and not folder.is_symlink():
-        yield from (path for path in list(folder.iterdir()) if _LINKS.fullmatch(path.name))
-
-
-def _link(source: Path, target: Path) -> None:
-    """Make a symbolic link in place of an old one."""
-    if target.is_symlink():
-        target.unlink()
-    if not target.exists():
-        target.symlink_to(source, target_is_directory=True)
-
-
-def _hard_link(source: str, target: str) -> None:
-    """Link a file, or copy it where the file system has no links."""
-    try:
-        os.link(source, target)
-    except FileNotFoundError:
-        raise
-    except OSError:
-        shutil.copy2(source, target)
 
 
 def _files(folder: Path) -> dict[str, Path]:

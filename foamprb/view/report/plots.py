@@ -246,18 +246,6 @@ def unrolled(found: Deposits) -> Plot:
     """Return the particles per area of a wall, unrolled."""
     factor, name = readable("m", float(max(np.ptp(edges) for edges in found.edges)))
 
-    def draw_line(_: Any, axes: Any) -> None:
-        along = found.edges[0] / factor
-        if found.few:
-            axes.plot(
-                found.points[:, 0] / factor, np.zeros(found.number), "o", color=FATES["stuck"], markersize=4.0
-            )
-            axes.set(xlim=along[[0, -1]], yticks=[])
-        else:
-            axes.stairs(found.density[:, 0], along, fill=True, color=FATES["stuck"])
-            axes.set(ylabel="particles per area [1/m²]")
-        axes.set(xlabel=f"length along {found.name} [{name}]")
-
     def draw(figure: Any, axes: Any) -> None:
         if found.few:
             axes.plot(*(found.points / factor).T, "o", color=FATES["stuck"], markersize=4.0)
@@ -275,7 +263,7 @@ def unrolled(found: Deposits) -> Plot:
         axes.xaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(6))
         axes.set(xlabel=f"{found.across[0]} {found.name} [{name}]", ylabel=f"{found.across[1]} [{name}]")
 
-    return _plot(draw_line if found.flat else draw)
+    return _plot(draw)
 
 
 def on_geometry(geometry: Geometry, walls: dict[str, Deposits]) -> Plot:

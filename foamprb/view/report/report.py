@@ -18,7 +18,6 @@ from foamprb.cloud.state import Status
 from foamprb.errors import InputError
 from foamprb.flow.read.flows import read_mesh
 from foamprb.flow.read.source import FlowSource
-from foamprb.memory import OutOfMemory
 from foamprb.results.atomic import atomic_write, refuse_other_kind
 from foamprb.results.folder import RECORD_FORMAT, file_name
 from foamprb.view.colours import DARK, LIGHT, written
@@ -187,7 +186,7 @@ def _scene(given: _Given, scene: Scene | InputError, target: Path) -> PageSectio
             f"coloured by {scene.colour[0]}."
         )
         body = image(drawn[0], drawn[1], caption)
-    except (InputError, OutOfMemory) as error:
+    except InputError as error:
         body = f"<p>No picture: {html.escape(str(error))}</p>"
     if live.exists():
         body += f'<p><a href="{_link(live, target)}">Interactive view</a> (foamprb view)</p>'
@@ -241,7 +240,7 @@ def _deposition(given: _Given) -> PageSection | None:
         return None
     x = np.stack([fates[key] for key in ("x1", "y1", "z1")], axis=1)
     walls = {
-        surface.name: deposits(surface, x[here], geometry.flat)
+        surface.name: deposits(surface, x[here])
         for surface in geometry.surfaces
         if (here := stuck & (fates["patch"] == surface.name)).any()
     }
@@ -264,8 +263,6 @@ def _deposition(given: _Given) -> PageSection | None:
     for name, own in sorted(walls.items(), key=lambda item: -item[1].number)[:_MOST_WALLS]:
         how = "unrolled about its axis" if own.across[1] == "around" else "in its plane"
         caption = f"{name}, {how}: particles per area; dots are particles."
-        if own.flat:
-            caption = f"{name}, along the wall: particles per area."
         drawn += given.figure(f"deposits-{name}", plots.unrolled(own), caption)
     return PageSection("deposition", "Deposition on walls", listed + grid(drawn))
 

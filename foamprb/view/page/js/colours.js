@@ -28,13 +28,6 @@ export function table(digits) {
   return colours;
 }
 
-// 256 colours as RGBA from one to another.
-export function ramp(from, to) {
-  const [a, b] = [from, to].map(bytesOf), colours = new Uint8Array(4 * 256).fill(255);
-  for (let i = 0; i < 256; i++) for (let c = 0; c < 3; c++) colours[4 * i + c] = a[c] + ((b[c] - a[c]) * i) / 255;
-  return colours;
-}
-
 export function tableOfNames(count) {
   const colours = new Uint8Array(4 * 256);
   for (let i = 0; i < 256; i++) colours.set([...bytesOf(i < count ? colourOfName(i) : "#9aa3ab"), 255], 4 * i);

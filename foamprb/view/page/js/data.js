@@ -130,9 +130,6 @@ export async function load() {
     flow = { ...scene.flow, values, lines: { ...lines, points: await places(lines.points, frame), start: await column(lines.start) } };
   }
   const linear = async (spec) => Float64Array.from(await column(spec), (whole) => spec.low[0] + spec.step[0] * whole);
-  const painting = scene.painting && {
-    ...scene.painting, places: await places(scene.painting.places, frame), times: await linear(scene.painting.times),
-  };
   let paths = null;
   if (scene.paths) {
     paths = {
@@ -142,7 +139,7 @@ export async function load() {
   }
   const radius = Float32Array.from(await linear(scene.bodies.radius), (r) => r / frame.size);
   return {
-    scene, n, m, times: scene.times, codes, fields, surfaces, flow, painting, paths, radius,
+    scene, n, m, times: scene.times, codes, fields, surfaces, flow, paths, radius,
     edges: await places(scene.edges, frame),
     ids: await column(scene.bodies.ids, Float64Array),
     x: await places(scene.bodies.places, frame),

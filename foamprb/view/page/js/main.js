@@ -5,12 +5,11 @@ import { Bodies } from "./bodies.js";
 import { Eye } from "./camera.js";
 import { drawChart } from "./chart.js";
 import { compassHeight, compassWidth, paintCompass, roundLength } from "./compass.js";
-import { bytesOf, colourOfName, number, pretty, ramp, readable, table, tableOfNames, written } from "./colours.js";
+import { bytesOf, colourOfName, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
 import { load } from "./data.js";
 import { FlowPlane, streamlines } from "./flow.js";
 import { GALLERY, Gallery } from "./gallery.js";
 import { paintLegends, showLegend } from "./legend.js";
-import { Painting } from "./painting.js";
 import { Link } from "./link.js";
 import { CURVES, TimePlot, curveKey, quantiles, through } from "./plot.js";
 import { Deposits, Walls } from "./surroundings.js";
@@ -44,7 +43,7 @@ const keys = [
   ["H", "this list", () => $("about").showModal()],
 ];
 
-let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, painting, plot, gallery, link;
+let data, renderer, eye, bodies, walls, plane, streams, trails, ownTrail, deposits, plot, gallery, link;
 const scene = new Scene(), haze = { value: new Vector4(1, 1, 1, 1) };
 const state = {
   t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
@@ -64,8 +63,7 @@ async function start() {
   renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: true, preserveDrawingBuffer: false });
   renderer.outputColorSpace = LinearSRGBColorSpace;
   bodies = new Bodies(data, haze);
-  painting = data.painting && new Painting(data);
-  walls = new Walls(data, painting, haze);
+  walls = new Walls(data, haze);
   deposits = new Deposits();
   trails = new Trails(data, 3, haze);
   ownTrail = new Trails(data, 4, haze);
@@ -256,16 +254,6 @@ function showDeposits() {
     }
   }
   deposits.draw(list);
-  if ($("deposits").value === "painted") painting.show(data.times[t]);
-}
-
-function setDeposits() {
-  const painted = $("deposits").value === "painted";
-  if (painted) legends.paint = { label: "Deposits", unit: data.painting.unit, low: 0, high: data.painting.most, table: ramp(variable("--glass"), variable("--deposit")) };
-  else delete legends.paint;
-  paint();
-  showLegends();
-  showDeposits();
 }
 
 // Fading trails of the shown bodies and of those that have just left, or whole paths up to now. The selected body
@@ -431,8 +419,7 @@ function fill(spec) {
   $("injectors").hidden = !injector || injector.meanings.length < 2;
   $("deposits-row").hidden = !fate.meanings.some((word) => word.startsWith("stuck"));
   $("trails").value = data.m > 1 && spec.trail > 0 && data.n <= spec.mostTrails ? "fading" : "none";
-  if (painting) option($("deposits"), "painted", "painted on the walls");
-  $("deposits").value = painting ? "painted" : "marked";
+  $("deposits").value = "marked";
   $("walls").hidden = data.surfaces.length === 0;
   walls.patches.forEach((patch, k) => {
     const label = check(`${patch.name}`, patch.visible, (on) => { patch.visible = on; paint(); });
@@ -624,7 +611,7 @@ function setSlice() {
   dirty = true;
 }
 
-const legendsShown = () => [legends.plane, legends.paint, legends.colour].filter((spec) => spec?.names || spec?.table);
+const legendsShown = () => [legends.plane, legends.colour].filter((spec) => spec?.names || spec?.table);
 
 function showLegends() {
   $("legends").replaceChildren();
@@ -650,7 +637,7 @@ function setTheme(wanted) {
   $("theme").value = wanted;
   const system = matchMedia("(prefers-color-scheme: dark)").matches;
   document.documentElement.dataset.theme = wanted === "auto" ? (system ? "dark" : "light") : wanted;
-  setDeposits();
+  paint();
   setSlice();
   restale();
 }
@@ -664,7 +651,7 @@ function paint() {
   const paper = rgb("--paper");
   // Colours are given in the colour space of the screen; no conversion.
   renderer.setClearColor(new Color().setRGB(...paper), 1);
-  walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent"), deposit: rgb("--deposit") }, $("opacity").value, dark(), $("deposits").value === "painted");
+  walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent") }, $("opacity").value, dark());
   bodies.material.uniforms.darkness.value = dark() ? 1 : 0;
   bodies.material.uniforms.accent.value.set(...rgb("--accent"));
   if (streams) {
@@ -941,7 +928,7 @@ function listen() {
   });
   on("mark", "change", () => { bodies.material.uniforms.mark.value = $("mark").checked ? 1 : 0; dirty = true; });
   on("trails", "change", showTrails);
-  on("deposits", "change", setDeposits);
+  on("deposits", "change", () => { showDeposits(); dirty = true; });
   on("gone", "change", () => { state.gone = $("gone").checked; show(state.t); });
   for (const id of ["filter", "filter-low", "filter-high"]) on(id, "change", setFilter);
   const chooseWanted = () => {
@@ -1019,7 +1006,6 @@ window.foamprb = {
   ready, state, show, choose, bodyAt, setColour, setEnlargement, paintPicture, draw, placeOf,
   get data() { return data; },
   get eye() { return eye; },
-  get painting() { return painting; },
   get plot() { return plot; },
   get bodies() { return bodies; },
   get renderer() { return renderer; },

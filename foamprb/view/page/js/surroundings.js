@@ -10,9 +10,8 @@ const SURFACE_VERTEX = `
 precision highp float;
 in vec3 position, normal;
 uniform mat4 modelViewMatrix, projectionMatrix;
-out vec3 across, place, own;
+out vec3 across, place;
 void main() {
-  own = position;
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
   across = mat3(modelViewMatrix) * normal;
   place = seen.xyz;
@@ -21,11 +20,9 @@ void main() {
 
 const SURFACE_FRAGMENT = `
 precision highp float;
-in vec3 across, place, own;
-precision highp sampler3D;
-uniform sampler3D paint;
-uniform vec3 base, deep, deposit, paintLow, paintNumber;
-uniform float opacity, paintCell, isPainted;
+in vec3 across, place;
+uniform vec3 base, deep;
+uniform float opacity;
 out vec4 colour;
 ${SHADE}${HAZE}
 void main() {
@@ -35,11 +32,9 @@ void main() {
   float facing = abs(dot(normal, towards));
   float lit = 0.5 + 0.5 * dot(normal, normalize(vec3(-0.35, 0.75, 0.55)));
   vec3 seen = mix(deep, base, smoothstep(0.1, 0.95, lit));
-  float share = isPainted > 0.5 ? texture(paint, (0.5 + (own - paintLow) / paintCell) / paintNumber).r : 0.0;
-  seen = mix(seen, deposit * mix(0.75, 1.0, lit), share);
   seen = hazed(seen, -place.z, 0.35);
   // Glass is denser at grazing angles.
-  colour = vec4(seen, opacity >= 1.0 ? 1.0 : opacity * (1.0 + 2.5 * pow(1.0 - facing, 3.0)) + 0.3 * share);
+  colour = vec4(seen, opacity >= 1.0 ? 1.0 : opacity * (1.0 + 2.5 * pow(1.0 - facing, 3.0)));
 }`;
 
 const LINE_VERTEX = `
@@ -104,7 +99,7 @@ export const isWall = (patch) => patch.type === "wall" || patch.type === "mapped
 export const isFlat = (patch) => patch.type === "empty" || patch.type === "wedge";
 
 export class Walls {
-  constructor(data, painting, haze) {
+  constructor(data, haze) {
     this.group = new Group();
     this.patches = data.surfaces.map((surface) => {
       const geometry = new BufferGeometry();
@@ -113,8 +108,8 @@ export class Walls {
       geometry.computeVertexNormals();
       const side = (more, order) => {
         const mesh = new Mesh(geometry, material(SURFACE_VERTEX, SURFACE_FRAGMENT,
-          { base: new Vector3(), deep: new Vector3(), deposit: new Vector3(), opacity: 1, darkness: 0, isPainted: 0 }, more));
-        Object.assign(mesh.material.uniforms, { haze }, painting?.uniforms ?? { paint: { value: null }, paintLow: { value: new Vector3() }, paintCell: { value: 1 }, paintNumber: { value: new Vector3(1, 1, 1) } });
+          { base: new Vector3(), deep: new Vector3(), opacity: 1, darkness: 0 }, more));
+        Object.assign(mesh.material.uniforms, { haze });
         mesh.renderOrder = order;
         this.group.add(mesh);
         return mesh;
@@ -132,16 +127,14 @@ export class Walls {
     this.group.add(this.edges);
   }
 
-  paint(palette, style, dark, painted) {
+  paint(palette, style, dark) {
     for (const patch of this.patches) {
       const wall = isWall(patch);
       patch.far.visible = patch.visible && style === "glass" && wall;
       patch.veil.visible = patch.visible && style !== "none" && !patch.far.visible;
       patch.near.visible = patch.visible && style !== "none";
       for (const mesh of [patch.far, patch.veil, patch.near]) {
-        const { base, deep, deposit, opacity, isPainted } = mesh.material.uniforms;
-        isPainted.value = wall && painted ? 1 : 0;
-        deposit.value.set(...palette.deposit);
+        const { base, deep, opacity } = mesh.material.uniforms;
         base.value.set(...(wall ? palette.glass : palette.accent));
         deep.value.set(...(wall ? palette.glassDeep : palette.accent));
         opacity.value = mesh === patch.far ? 1 : wall ? (style === "glass" ? 0.1 : 0.06) : 0.05;
