@@ -49,6 +49,16 @@ CONSTANT = Mass(np.ones(1), np.ones(1), np.zeros(1))
 """Density of an incompressible flow, whose cells keep volume."""
 
 
+class Balanced(NamedTuple):
+    """Outcome of :class:`Balance`: ratios of root mean squares to those of the flow, and a count."""
+
+    left: float
+    """Mass that cells still make or lose."""
+    change: float
+    """Change of the fluxes."""
+    iterations: int
+
+
 class Balance:
     """Least change of the fluxes through the faces of the cells that keeps the mass of each cell.
 
@@ -104,12 +114,10 @@ class Balance:
         here = segments[parts[rank] : parts[rank + 1] + 1] - ends[rank]
         self._equations = _sent(halo, self._own, self._cells, ends, rows, blocks, here)
 
-    def __call__(self, fluxes: Floats, mass: Mass) -> float:
+    def __call__(self, fluxes: Floats, mass: Mass) -> Balanced:
         """Change fluxes (n_faces,) in place; what remains of a closed flow is shared by volume.
 
-        Returns
-        -------
-        What cells still make or lose, over the fluxes through faces and into the cells; root mean squares.
+        The flow that the result refers to is that through faces and into the cells.
         """
         mesh, weight, n = self._mesh, self._weight, self._mesh.n_internal
         owner, neighbour, cells = mesh.owner, mesh.neighbour, mesh.n_cells
@@ -129,15 +137,20 @@ class Balance:
         squares = total_of(fluxes[self._faces] ** 2, self._of_all)
         gained = total_of(stored[self._cells] ** 2, self._of_all)
         size = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells + gained)
-        y, left = self._equations.solve(rest, BALANCED * size)
+        y, left, iterations = self._equations.solve(rest, BALANCED * size)
         if self._halo is not None:
             y = self._held.get(y)
+        change = fluxes.copy()
         fluxes += weight * y[owner]
         fluxes[:n] -= weight[:n] * y[neighbour]
+        change -= fluxes
         fluxes /= density
         if self._halo is not None:
             self._halo.fill("faces", fluxes)
-        return left / max(size, 1e-300)
+        squares = total_of(change[self._faces] ** 2, self._of_all)
+        changed = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells)
+        size = max(size, 1e-300)
+        return Balanced(left / size, changed / size, iterations)
 
 
 def _segments(cells: int) -> Index:
@@ -210,7 +223,7 @@ class _Equations:
         """Return the sum of values of the segments of all nodes, which is exact but for one rounding."""
         return math.fsum(value for listed in self._of_all(found) for value in listed)
 
-    def solve(self, residual: Floats, enough: float) -> tuple[Floats, float]:
+    def solve(self, residual: Floats, enough: float) -> tuple[Floats, float, int]:
         """Solve for potentials of the cells by conjugate gradients until the norm of what is left is enough.
 
         The preconditioner is Jacobi's plus the exact solution with a constant in each block. BLAS, and so
@@ -223,12 +236,14 @@ class _Equations:
 
         Returns
         -------
-        The potentials (n_cells,), and the norm.
+        The potentials (n_cells,), the norm, and the number of iterations.
         """
         with threads(min(len(self._segments), _PARTS)) as run:
             return self._solve(run, residual, enough)
 
-    def _solve(self, run: Callable[..., list[Any]], residual: Floats, enough: float) -> tuple[Floats, float]:
+    def _solve(
+        self, run: Callable[..., list[Any]], residual: Floats, enough: float
+    ) -> tuple[Floats, float, int]:
         n, diagonal, pair = len(residual), self._rows[3], self._pair
         each = partial(self._each, run)
         y, image = np.zeros((2, n))
@@ -254,7 +269,7 @@ class _Equations:
             if self._others is not None:
                 way[n:] = self._others(way)
             step = energy / self._summed(each(multiply, *self._rows, way, image))
-        return y, left
+        return y, left, iteration
 
     def _each(
         self,

@@ -17,7 +17,6 @@ the middle of a face times the area, which exceeds the integral by the curvature
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Collection
 
 import numpy as np
@@ -25,19 +24,20 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector_product
 from foamprb.compile.link import link
-from foamprb.flow.balance import BALANCED, CONSTANT, MOST_ITERATIONS, Balance, Mass
-from foamprb.flow.base import WALLS, Caveat, Floats, Ints
+from foamprb.errors import InputError
+from foamprb.flow.balance import BALANCED, CONSTANT, Balance, Mass
+from foamprb.flow.base import WALLS, Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.lists import Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.submesh import Halo
 
-log = logging.getLogger("foamprb")
-
 _CLOSED = frozenset({"empty", "symmetry", "symmetryPlane"})
 """Types of patches, beside walls, through which nothing flows."""
 _LEAST_ALONG = 0.02
 """Least cosine between a face's normal and the line of the cell centres that counts in its weight."""
+_LARGEST_CHANGE = 2.0
+"""Largest change of the fluxes over the flow (rms); a flow that starts from rest at an inlet changes by 1."""
 # Sum of squares of what the tetrahedra of a cell may still lack, over that of their fluxes.
 _EXACT = 1e-14
 _ROWS = 7
@@ -81,13 +81,12 @@ class Conservation:
         self._open = ~_types(mesh, _CLOSED | WALLS)
         if valued is not None:
             self._open |= _types(mesh, WALLS) & ~valued
-        self._warned = False
-        self.unbalanced = 0.0
-        """Flux that cells still make or lose after the last call, over that through their faces (rms)."""
         for coupling in mesh.couplings:
             self._open[coupling.faces] = False
 
-    def __call__(self, u: Floats, l: Floats, mass: Mass | None = CONSTANT) -> NDArray[np.float32]:
+    def __call__(
+        self, u: Floats, l: Floats, mass: Mass | None = CONSTANT, where: object = "flow"
+    ) -> NDArray[np.float32]:
         """Return the correction (n_tets, 4), 1/s; see :class:`~foamprb.flow.mesh.arrays.MeshArrays`.
 
         Parameters
@@ -97,6 +96,13 @@ class Conservation:
         mass
             Density of the fluid. None if it varies but is not known: cells then keep the volume that the
             interpolation makes.
+        where
+            Source of the velocity, for the message.
+
+        Raises
+        ------
+        InputError
+            If no fluxes are found that keep mass, or if they are not those of the flow.
         """
         mesh = self._mesh
         fields = self._nodes, u, l, self._free
@@ -114,7 +120,15 @@ class Conservation:
             outer[coupling.faces] = 0.5 * (interpolated[coupling.faces] - interpolated[coupling.partners])
         if mass is not None:
             measures = _measured(mesh, self._nodes, u, fluxes)
-            self.unbalanced = Balance(mesh, measures, self._open, self._halo)(fluxes, mass)
+            left, change, iterations = Balance(mesh, measures, self._open, self._halo)(fluxes, mass)
+            if not (left <= 10.0 * BALANCED and change <= _LARGEST_CHANGE):
+                raise InputError(
+                    f"{where}: no fluxes were found that conserve the fluid in each cell. After {iterations} "
+                    f"iterations the correction of the fluxes is {change:.2g} times the flow, and cells make "
+                    f"or lose {left:.2g} times the flow through their faces (root mean squares; allowed: "
+                    f"{_LARGEST_CHANGE:g} and {10.0 * BALANCED:g}). Possible causes: cells without volume "
+                    "(see checkMesh), or cyclicAMI patches around a part of the mesh without inlet or outlet."
+                )
         correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
         most = int(np.diff(mesh.cell_start).max(initial=0))
         arrays = (
@@ -128,24 +142,6 @@ class Conservation:
 
         share(mesh.n_cells, cells)
         return correction
-
-    def caveats(self) -> list[Caveat]:
-        """Return a warning if the last correction leaves cells that make or lose fluid."""
-        if self.unbalanced <= 10.0 * BALANCED:
-            return []
-        return [
-            Caveat(
-                f"cells make or lose {self.unbalanced:.1e} of what flows through their faces (root mean "
-                f"squares): {MOST_ITERATIONS} iterations found no fluxes that keep it. Tracers may gather "
-                "or stick where fluid is lost. Has the mesh cells without volume? (checkMesh tells)"
-            )
-        ]
-
-    def warn(self, time: str) -> None:
-        """Log the warning of :meth:`caveats` for the first time, given by name, that is not balanced."""
-        for caveat in self.caveats() if not self._warned else ():
-            self._warned = True
-            log.warning("At time %s %s", time, caveat)
 
 
 def _measured(mesh: Mesh, nodes: Floats, u: Floats, fluxes: Floats) -> Floats:

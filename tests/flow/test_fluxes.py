@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,13 +12,24 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mesh_shapes import KINDS, block, box_patches, cyclic_row, pipe, pipe_patches, wedge, wedge_patches
+from mesh_shapes import (
+    KINDS,
+    block,
+    box_patches,
+    cyclic_row,
+    interfaces,
+    pipe,
+    pipe_patches,
+    wedge,
+    wedge_patches,
+)
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
+from foamprb.errors import InputError
 from foamprb.flow import balance
 from foamprb.flow import fluxes as fluxes_of_faces
 from foamprb.flow.balance import Mass
@@ -232,16 +244,46 @@ def test_bits_do_not_depend_on_the_threads_of_blas():
     assert len(found) == 1
 
 
-def test_fluxes_that_are_not_balanced_are_told(monkeypatch):
+def refusal(monkeypatch, module, name, limit):
+    """Return iterations, correction and remainder in the message of a mesh that another limit allows."""
     conserve = Conservation(mesh := closed(n=6))
     u, l = Reconstruction(mesh)(whirl(mesh.centres), np.zeros_like(mesh.boundary_centres))
     conserve(u, l)
-    assert conserve.unbalanced < 1e-5
-    assert conserve.caveats() == []
-    for module in (balance, fluxes_of_faces):
-        monkeypatch.setattr(module, "MOST_ITERATIONS", 1)
-    conserve(u, l)
-    assert "1 iterations found no fluxes that keep it" in conserve.caveats()[0]
+    monkeypatch.setattr(module, name, limit)
+    with pytest.raises(InputError, match=r"^1/U: no fluxes were found") as error:
+        conserve(u, l, where="1/U")
+    pattern = r"After (\d+) iterations .* is (\S+) times the flow, .* lose (\S+) times"
+    return map(float, re.search(pattern, str(error.value)).groups())
+
+
+def test_a_correction_that_is_no_solution_is_refused(monkeypatch):
+    iterations, _, left = refusal(monkeypatch, balance, "MOST_ITERATIONS", 1)
+    assert iterations == 1
+    assert left > 1e-4
+
+
+def test_a_correction_that_is_larger_than_the_flow_is_refused(monkeypatch):
+    _, change, left = refusal(monkeypatch, fluxes_of_faces, "_LARGEST_CHANGE", 1e-3)
+    assert change > 1e-3
+    assert left <= 1e-4
+
+
+def test_closed_parts_between_patches_that_do_not_match_are_refused():
+    """The interpolated flux into each part is not zero, and the flux through coupled patches is given."""
+    mesh, *_ = interfaces(0.0, cuts=(3, 4))
+    y = np.pi * mesh.centres[:, 1:]
+    u = np.zeros_like(mesh.centres)
+    u[:, 0] = np.prod(np.sin(y) ** 2, axis=1)
+    with pytest.raises(InputError, match="cyclicAMI patches around a part"):
+        Conservation(mesh)(*Reconstruction(mesh)(u, np.zeros_like(mesh.boundary_centres)))
+
+
+def test_a_flow_from_rest_at_an_inlet_is_taken():
+    mesh = build_mesh(shape := pipe(2, axial=12), pipe_patches(shape))
+    inlet = next(k for k, patch in enumerate(mesh.patches) if patch.name == "inlet")
+    boundary = np.zeros_like(mesh.boundary_centres)
+    boundary[slice(*mesh.patch_start[inlet : inlet + 2])] = 1.0
+    Conservation(mesh)(*Reconstruction(mesh)(np.zeros_like(mesh.centres), boundary))
 
 
 @pytest.mark.parametrize("shape", ["cyclic", "wedge"])

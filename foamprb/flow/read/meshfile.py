@@ -74,8 +74,8 @@ def read_mesh_file(
     path = Path(path)
     grid, mesh, surfaces, note = open_file(path, velocity, time, division)
     field = _NodalVelocity(path, mesh, grid, surfaces, velocity, gradient)
-    u, l, correction = field(grid, surfaces)
-    return MeshFlow(mesh, u, l, [note, *field.notes, *field.conserve.caveats()], correction=correction)
+    u, l, correction = field(grid, surfaces, path)
+    return MeshFlow(mesh, u, l, [note, *field.notes], correction=correction)
 
 
 def read_mesh_series(
@@ -125,9 +125,7 @@ def read_mesh_series(
                 f"{path}: the mesh of time {name} is not that of time {names[0]}; only meshes at rest can be "
                 "read."
             )
-        values = field(cells, now)
-        field.conserve.warn(name)
-        return values
+        return field(cells, now, f"{path}, time {name}")
 
     return series_of(path, mesh, list(names), read, period, [note, *field.notes], conservative=True)
 
@@ -187,12 +185,14 @@ class _NodalVelocity:
                 f"{path}: no array {velocity}. {suggestion(velocity, names)} Three scalars are read by "
                 '-velocity "(Ux Uy Uz)".'
             )
-        self.conserve = Conservation(mesh, faces)
+        self._conserve = Conservation(mesh, faces)
 
     def __call__(
-        self, grid: Any, surfaces: Sequence[tuple[str, Any]]
+        self, grid: Any, surfaces: Sequence[tuple[str, Any]], where: object
     ) -> tuple[Floats, Floats, NDArray[np.float32]]:
         """Return velocity and gradient at the nodes and the correction, from the data read at any time.
+
+        ``where`` names them in a message.
 
         Raises
         ------
@@ -202,7 +202,7 @@ class _NodalVelocity:
         name, path, mesh = self._velocity, self._path, self._mesh
         if self._reconstruct is None:
             u, l = from_points(mesh, _array(grid.point_data, name, 3, path, "at point"))
-            return u, l, self.conserve(u, l)
+            return u, l, self._conserve(u, l, where=where)
         cells = _array(grid.cell_data, name, 3, path, "at cell")
         boundary = np.zeros((len(mesh.boundary_centres), 3))
         for index in self._valued:
@@ -214,7 +214,7 @@ class _NodalVelocity:
             given = _array(grid.cell_data, self._gradient, 9, path, "at cell")
             slopes = given.reshape(-1, 3, 3).transpose(0, 2, 1)
         u, l = self._reconstruct(cells, boundary, slopes)
-        return u, l, self.conserve(u, l)
+        return u, l, self._conserve(u, l, where=where)
 
 
 def _array(data: Any, name: str, components: int, path: Path, where: str) -> Floats:

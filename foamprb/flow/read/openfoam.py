@@ -239,13 +239,14 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     del reconstruct
     trim()
     conserve = Conservation(whole.mesh, halo=case.halo)
-    correction = conserve(u, l, mass_of(case.root, case.region, whole, (name,), [read], 0, case.halo))
+    mass = mass_of(case.root, case.region, whole, (name,), [read], 0, case.halo)
+    correction = conserve(u, l, mass, case.folder(name) / source.velocity)
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms([case.folder(name) / source.velocity])
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     notes += _caveats(case, name, turbulent=source.turbulent, relative=bool(rotations))
-    notes += [*flux, *conserve.caveats()]
+    notes += flux
     del conserve
     trim()
     notes += [
@@ -303,8 +304,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
         mass = mass_of(case.root, case.region, whole, names, reads, names.index(name), case.halo)
-        correction = conserve(u, l, mass)
-        conserve.warn(name)
+        correction = conserve(u, l, mass, case.folder(name) / source.velocity)
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
 
     notes = [*case.notes, *whole.notes]

@@ -109,8 +109,9 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
     u, l = Reconstruction(mesh)(cells, boundary)
     positive = np.exp(cells), np.exp(boundary)
     scalars, linear = Reconstruction(mesh).scalars(*positive)[0], Reconstruction(mesh).linear(*positive)
-    conserve = Conservation(mesh)
-    correction = conserve(u, l)
+    # No fluxes conserve volume in closed parts between patches that do not match.
+    mass = None if shape in ("interfaces", "rings") else balance.CONSTANT
+    correction = Conservation(mesh)(u, l, mass)
     flow = MeshFlow(mesh, u, l, correction=correction)
     points = np.concatenate([mesh.points[::7], random.uniform(*flow.bounds, (300, 3))])
     hosts = flow.locate(points)
@@ -138,8 +139,7 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         u, l = reconstruct(own_cells, on_faces)
         at_points = reconstruct.scalars(np.exp(own_cells), np.exp(on_faces))[0]
         also = reconstruct.linear(np.exp(own_cells), np.exp(on_faces))
-        conserve = Conservation(sub.mesh, halo=halo)
-        correction = conserve(u, l)
+        correction = Conservation(sub.mesh, halo=halo)(u, l, mass)
         part = PartFlow(halo, sub.mesh, u, l, correction=correction)
         assert part.width == flow.width
         # Walls within sight alone, without those beside them.
@@ -156,13 +156,13 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         np.testing.assert_array_equal(there, planes[place[found]])
         sampled = part.sample(points[found], local, 0.0)[0]
         np.testing.assert_array_equal(sampled, flow.sample(points[found], hosts[found], 0.0)[0])
-        return sub, (u, l, at_points, also), correction, conserve.unbalanced, found, numbers
+        return sub, (u, l, at_points, also), correction, found, numbers
 
     results = together(3, work)
     located = np.concatenate([found for *_, found, _ in results])
     np.testing.assert_array_equal(np.sort(located), np.flatnonzero(hosts >= 0))
     np.testing.assert_array_equal(np.concatenate([numbers for *_, numbers in results]), hosts[located])
-    for sub, parts_of, c_part, left, _, _ in results:
+    for sub, parts_of, c_part, _, _ in results:
         n, inner = sub.mesh.n_points, sub.layer <= 2
         nodes = np.concatenate([sub.points, mesh.n_points + sub.cells])
         of_inner = sub.mesh.cell_points[np.repeat(inner, np.diff(sub.mesh.cell_point_start))]
@@ -174,7 +174,6 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         own = np.concatenate([np.arange(*sub.mesh.cell_start[c : c + 2]) for c in np.flatnonzero(inner)])
         np.testing.assert_array_equal(nodes[sub.mesh.tets[own]], mesh.tets[tets])
         np.testing.assert_array_equal(c_part[own], correction[tets])
-        assert left == conserve.unbalanced
 
 
 def test_a_path_out_of_the_layers_of_a_node_is_noted():
