@@ -31,14 +31,8 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--time", type=float, metavar="TIME", help="first time shown [the time with most bodies]")
     add("--colour", "--color", default="taylorDeformation", metavar="ARRAY",
         help="array, or array:component, to colour by [taylorDeformation]")  # fmt: skip
-    ranges = parser.add_mutually_exclusive_group()
-    ranges.add_argument(
-        "--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="limits of the colours [-percentiles]"
-    )
-    ranges.add_argument(
-        "--percentiles", type=float, nargs=2, metavar=("LOW", "HIGH"), default=[5.0, 95.0],
-        help="percentiles of all values, as limits of the colours [5 95]; 0 100: all values",
-    )  # fmt: skip
+    add("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),
+        help="limits of the colours [the 5th and the 95th percentile]")  # fmt: skip
     add("--enlargement", type=float, metavar="S", help="draw the bodies S times larger [automatic]")
     add("--slice", metavar="PLANE", help="show the flow on a plane: x, z=0.01 or '(point) (normal)'")
     add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow on the plane [latest]")
@@ -66,7 +60,6 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
         arguments.enlargement,
         arguments.slice,
         arguments.bodies,
-        tuple(arguments.percentiles),
         arguments.results,
     )
     if path := arguments.png or arguments.film:

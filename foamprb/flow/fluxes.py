@@ -18,6 +18,7 @@ the middle of a face times the area, which exceeds the integral by the curvature
 from __future__ import annotations
 
 from collections.abc import Collection
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +45,53 @@ _ROWS = 7
 """Rows of working memory of :func:`correct`."""
 _SIZE, _COUNT = 3, 4
 """Columns of its sides: the length of the area vector, m², and the number of free nodes."""
+
+
+class NodalFlow(NamedTuple):
+    """Places x, m, velocity u, m/s, its gradient l, 1/s, and mask ``free`` at the nodes of a mesh."""
+
+    x: Floats
+    u: Floats
+    l: Floats
+    free: Floats
+
+
+class Sides(NamedTuple):
+    """Faces and cells of a mesh; see :class:`~foamprb.flow.mesh.mesh.Mesh`."""
+
+    face_start: Ints
+    face_points: Ints
+    owner: Ints
+    neighbour: Ints
+    cell_face_start: Ints
+    cell_faces: Ints
+    cell_start: Ints
+    tets: Ints
+    neighbours: Ints
+
+
+class Measures(NamedTuple):
+    """Measures of faces, (n_faces,), for :class:`Balance`."""
+
+    weight: Floats
+    """Conductance, m."""
+    error: Floats
+    """Squared error of the velocity, m²/s²."""
+    square: Floats
+    """Squared velocity, m²/s²."""
+
+
+class Work(NamedTuple):
+    """Working memory for the n tetrahedra of the largest cell."""
+
+    fluxes: Floats
+    """(n, 4), of the better velocity out of each side, m³/s."""
+    weight: Floats
+    """(n, 4)."""
+    sides: Floats
+    """(n, 4, 5): the area vector of each side, m², its length, and the number of free nodes."""
+    rows: Floats
+    """(7, n)."""
 
 
 def free_nodes(mesh: Mesh) -> Floats:
@@ -105,11 +153,11 @@ class Conservation:
             If no fluxes are found that keep mass, or if they are not those of the flow.
         """
         mesh = self._mesh
-        fields = self._nodes, u, l, self._free
+        at, sides = NodalFlow(self._nodes, u, l, self._free), sides_of(mesh)
         fluxes, integrate, fill = np.empty(len(mesh.owner)), link(face_fluxes), link(correct)
 
         def faces(low: int, high: int) -> None:
-            integrate(*fields, mesh.face_start[low : high + 1], mesh.face_points, fluxes[low:high])
+            integrate(low, high, at, sides, fluxes)
 
         share(len(fluxes), faces)
         outer = fluxes[mesh.n_internal :]
@@ -119,7 +167,7 @@ class Conservation:
             # What leaves through a coupled patch enters through its partner.
             outer[coupling.faces] = 0.5 * (interpolated[coupling.faces] - interpolated[coupling.partners])
         if mass is not None:
-            measures = _measured(mesh, self._nodes, u, fluxes)
+            measures = _measured(mesh, at, sides, fluxes)
             left, change, iterations = Balance(mesh, measures, self._open, self._halo)(fluxes, mass)
             if not (left <= 10.0 * BALANCED and change <= _LARGEST_CHANGE):
                 raise InputError(
@@ -131,36 +179,37 @@ class Conservation:
                 )
         correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
         most = int(np.diff(mesh.cell_start).max(initial=0))
-        arrays = (
-            *(mesh.tets, mesh.neighbours, mesh.cell_start, mesh.cell_face_start, mesh.cell_faces),
-            *(mesh.face_start, mesh.owner, fluxes, correction),
-        )
 
         def cells(low: int, high: int) -> None:
-            work = np.empty((most, 4)), np.empty((most, 4)), np.empty((most, 4, 5)), np.empty((_ROWS, most))
-            fill(*fields, *arrays, low, high, *work)
+            work = Work(
+                np.empty((most, 4)), np.empty((most, 4)), np.empty((most, 4, 5)), np.empty((_ROWS, most))
+            )
+            fill(low, high, at, sides, fluxes, correction, work)
 
         share(mesh.n_cells, cells)
         return correction
 
 
-def _measured(mesh: Mesh, nodes: Floats, u: Floats, fluxes: Floats) -> Floats:
+def sides_of(mesh: Mesh) -> Sides:
+    """Return the faces and cells of a mesh."""
+    return Sides(*(getattr(mesh, name) for name in Sides._fields))
+
+
+def _measured(mesh: Mesh, at: NodalFlow, sides: Sides, fluxes: Floats) -> Floats:
     """Return the results of :func:`weigh_faces`, (3, n_faces)."""
     measures, weigh = np.empty((3, len(fluxes))), link(weigh_faces)
-    given = nodes, u, mesh.n_points, mesh.boundary_centres, mesh.neighbour
-    own = mesh.face_start, mesh.face_points, mesh.owner, fluxes
-    share(len(fluxes), lambda low, high: weigh(low, high, *given, *own, *measures))
+    given = at.x, at.u, mesh.n_points, mesh.boundary_centres
+    share(len(fluxes), lambda low, high: weigh(low, high, *given, sides, fluxes, Measures(*measures)))
     return measures
 
 
-def face_fluxes(
-    nodes: Floats, u: Floats, l: Floats, free: Floats, start: Ints, points: Ints, fluxes: Floats
-) -> None:
-    """Integrate the interpolated velocity over the triangles of each face, m³/s."""
-    for f in range(fluxes.shape[0]):
+def face_fluxes(begin: int, end: int, at: NodalFlow, sides: Sides, fluxes: Floats) -> None:
+    """Integrate the interpolated velocity over the triangles of faces, m³/s."""
+    start, points = sides.face_start, sides.face_points
+    for f in range(begin, end):
         base, total = points[start[f]], 0.0
         for k in range(start[f] + 1, start[f + 1] - 1):
-            total += triangle_flux(nodes, u, l, free, base, points[k], points[k + 1])
+            total += triangle_flux(at, base, points[k], points[k + 1])
         fluxes[f] = total
 
 
@@ -171,19 +220,12 @@ def weigh_faces(
     u: Floats,
     n_points: int,
     boundary_centres: Floats,
-    neighbour: Ints,
-    start: Ints,
-    points: Ints,
-    owner: Ints,
+    sides: Sides,
     fluxes: Floats,
-    weight: Floats,
-    error: Floats,
-    square: Floats,
+    measures: Measures,
 ) -> None:
-    """Compute conductance (m), squared error and squared velocity (m²/s²) of faces; see :class:`Balance`.
-
-    The faces are those from ``begin`` to before ``end``; the last three arguments are the results (n_faces,).
-    """
+    """Measure the faces from ``begin`` to before ``end``."""
+    start, points, owner, neighbour = sides.face_start, sides.face_points, sides.owner, sides.neighbour
     for f in range(begin, end):
         s = 0.0, 0.0, 0.0
         for k in range(start[f] + 1, start[f + 1] - 1):
@@ -197,9 +239,9 @@ def weigh_faces(
         else:
             d = arm(boundary_centres, f - neighbour.shape[0], x)
         reach = max(inner(d, d), 1e-300)
-        weight[f] = max(inner(s, d), _LEAST_ALONG * size * np.sqrt(reach)) / reach
-        error[f] = ((inner(s, v) - fluxes[f]) / size) ** 2
-        square[f] = (fluxes[f] / size) ** 2
+        measures.weight[f] = max(inner(s, d), _LEAST_ALONG * size * np.sqrt(reach)) / reach
+        measures.error[f] = ((inner(s, v) - fluxes[f]) / size) ** 2
+        measures.square[f] = (fluxes[f] / size) ** 2
 
 
 def area_vector(nodes: Floats, a: int, b: int, c: int) -> Vector:
@@ -209,13 +251,13 @@ def area_vector(nodes: Floats, a: int, b: int, c: int) -> Vector:
     return 0.5 * s[0], 0.5 * s[1], 0.5 * s[2]
 
 
-def triangle_flux(nodes: Floats, u: Floats, l: Floats, free: Floats, a: int, b: int, c: int) -> float:
+def triangle_flux(at: NodalFlow, a: int, b: int, c: int) -> float:
     """Return the flux of the better velocity (:func:`measure_sides`) through a triangle, m³/s."""
-    s, flux = area_vector(nodes, a, b, c), 0.0
+    u, free, s, flux = at.u, at.free, area_vector(at.x, a, b, c), 0.0
     for k in range(3):
         flux += s[k] * (u[a, k] + u[b, k] + u[c, k]) / 3.0
     for i, j in ((a, b), (b, c), (c, a)):
-        flux += (free[i] + free[j] - free[i] * free[j]) * inner(s, edge_bend(nodes, l, i, j))
+        flux += (free[i] + free[j] - free[i] * free[j]) * inner(s, edge_bend(at.x, at.l, i, j))
     return float(flux)
 
 
@@ -236,52 +278,31 @@ def _change(l: Floats, i: int, j: int, k: int, d: Vector) -> float:
 
 
 def correct(
-    nodes: Floats,
-    u: Floats,
-    l: Floats,
-    free: Floats,
-    tets: Ints,
-    neighbours: Ints,
-    cell_start: Ints,
-    cell_face_start: Ints,
-    cell_faces: Ints,
-    face_start: Ints,
-    owner: Ints,
-    phi: Floats,
-    correction: NDArray[np.float32],
     begin: int,
     end: int,
-    fluxes: Floats,
-    weight: Floats,
-    sides: Floats,
-    work: Floats,
+    at: NodalFlow,
+    mesh: Sides,
+    phi: Floats,
+    correction: NDArray[np.float32],
+    memory: Work,
 ) -> None:
-    """Fill ``correction`` for the cells from ``begin`` to before ``end``.
+    """Fill ``correction``, (n_tets, 4), for the cells from ``begin`` to before ``end``.
 
-    Parameters
-    ----------
-    nodes, u, l, free
-        Places, velocity, gradient and mask of the nodes.
-    tets, neighbours, cell_start, cell_face_start, cell_faces, face_start, owner
-        See :class:`~foamprb.flow.mesh.mesh.Mesh`.
-    phi
-        (n_faces,) flux out of the owner of each face, m³/s.
-    correction
-        (n_tets, 4), the result.
-    fluxes, weight, sides, work
-        Working memory, twice (n, 4), (n, 4, 5) and (7, n), for the n tetrahedra of the largest cell.
+    ``phi`` is the flux out of the owner of each face, m³/s.
     """
+    fluxes, weight, sides, work = memory.fluxes, memory.weight, memory.sides, memory.rows
+    cell_start, face_start, neighbours = mesh.cell_start, mesh.face_start, mesh.neighbours
     rest, change, volume = work[0], work[4], work[5]
     for c in range(begin, end):
         first, n = cell_start[c], cell_start[c + 1] - cell_start[c]
         total = space = 0.0
         for t in range(n):
-            volume[t] = measure_sides(nodes, u, l, free, tets, first + t, t, fluxes, sides, correction)
+            volume[t] = measure_sides(at, mesh.tets, first + t, t, memory, correction)
             space += volume[t]
         # The triangles of a face share its flux by their areas and free nodes.
         t = 0
-        for h in range(cell_face_start[c], cell_face_start[c + 1]):
-            f = cell_faces[h]
+        for h in range(mesh.cell_face_start[c], mesh.cell_face_start[c + 1]):
+            f = mesh.cell_faces[h]
             size = face_start[f + 1] - face_start[f] - 2
             interpolated = area = 0.0
             for k in range(t, t + size):
@@ -292,12 +313,12 @@ def correct(
                 for k in range(t, t + size):
                     work[1, k] = sides[k, 0, _SIZE]
                     area += work[1, k]
-            out = phi[f] if owner[f] == c else -phi[f]
+            out = phi[f] if mesh.owner[f] == c else -phi[f]
             total += out
             for k in range(t, t + size):
                 fluxes[k, 0] += (out - interpolated) * work[1, k] / max(area, 1e-300)
             t += size
-        _carry(nodes, tets, first, n, space, fluxes, sides, correction)
+        _carry(at.x, mesh.tets, first, n, space, memory, correction)
         square = lost = 0.0
         for t in range(n):
             rest[t] = total * volume[t] / space
@@ -326,16 +347,7 @@ def correct(
 
 
 def measure_sides(
-    nodes: Floats,
-    u: Floats,
-    l: Floats,
-    free: Floats,
-    tets: Ints,
-    tet: int,
-    row: int,
-    fluxes: Floats,
-    sides: Floats,
-    correction: NDArray[np.float32],
+    at: NodalFlow, tets: Ints, tet: int, row: int, memory: Work, correction: NDArray[np.float32]
 ) -> float:
     """Measure the sides of a tetrahedron; return its signed volume, m³.
 
@@ -346,12 +358,12 @@ def measure_sides(
     ----------
     tet, row
         The tetrahedron, and its row in working memory.
-    fluxes, sides
-        Results (n, 4) and (n, 4, 5): the flux of the better velocity out of each side, m³/s; its area vector,
-        m², the length of this, and the number of free nodes.
+    memory
+        Results are its fluxes and sides.
     correction
         Result (n_tets, 4): minus the flux of the interpolated velocity, m³/s.
     """
+    nodes, u, l, free = at
     o, a, b, c = tets[tet, 0], tets[tet, 1], tets[tet, 2], tets[tet, 3]
     x = point(nodes, o)
     p, q, r = arm(nodes, a, x), arm(nodes, b, x), arm(nodes, c, x)
@@ -361,7 +373,7 @@ def measure_sides(
     ab, bc, ca = edge_bend(nodes, l, a, b), edge_bend(nodes, l, b, c), edge_bend(nodes, l, c, a)
     fo, fa, fb, fc = free[o], free[a], free[b], free[c]
     uo, ua, ub, uc = point(u, o), point(u, a), point(u, b), point(u, c)
-    results = row, fluxes, sides, tet, correction
+    results = row, memory.fluxes, memory.sides, tet, correction
     _put_side(*results, 0, so, plus(plus(ua, ub), uc), (fa, fb, fc), (ab, bc, ca))
     _put_side(*results, 1, sa, plus(plus(uo, uc), ub), (fo, fc, fb), (oc, bc, ob))
     _put_side(*results, 2, sb, plus(plus(uo, ua), uc), (fo, fa, fc), (oa, ca, oc))
@@ -402,14 +414,14 @@ def _carry(
     first: int,
     n: int,
     space: float,
-    fluxes: Floats,
-    sides: Floats,
+    memory: Work,
     correction: NDArray[np.float32],
 ) -> None:
     """Add to the fluxes inside a cell those of the mean correction that the ones through its sides make.
 
     The mean is Σ x δ over the volume ``space``, with the additional flux δ out of a side with the middle x.
     """
+    fluxes, sides = memory.fluxes, memory.sides
     o, mean = point(nodes, tets[first, 0]), (0.0, 0.0, 0.0)
     for t in range(n):
         tet = first + t

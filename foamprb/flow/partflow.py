@@ -12,8 +12,9 @@ from foamprb.body.turbulence import fluctuation_size
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints, PatchFaces
 from foamprb.flow.mesh.arrays import MeshArrays
+from foamprb.flow.mesh.faces import Faces
 from foamprb.flow.mesh.fragment import Labels
-from foamprb.flow.mesh.geometry import Faces, inward_normals, largest_fluxes
+from foamprb.flow.mesh.geometry import inward_normals, largest_fluxes
 from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.locator import cell_boxes, depth_of
 from foamprb.flow.mesh.mesh import Mesh

@@ -117,16 +117,6 @@ def number(value: float, digits: int = 3) -> str:
     return f"{value:.{digits}g}".replace("-", "−")
 
 
-def ticks(low: float, high: float, wanted: int = 5) -> list[float]:
-    """Return two limits and round numbers between them."""
-    raw = (high - low) / (wanted - 1)
-    power = 10.0 ** math.floor(math.log10(raw))
-    step = next(digit * power for digit in (1.0, 2.0, 2.5, 5.0, 10.0) if digit * power >= raw * (1.0 - 1e-9))
-    inner = step * np.arange(math.ceil(low / step), math.floor(high / step) + 1)
-    far = (inner - low > 0.6 * step) & (high - inner > 0.6 * step)
-    return [low, *(float(f"{value:.12g}") for value in inner[far]), high]
-
-
 def round_limits(low: float, high: float) -> tuple[float, float]:
     """Return round numbers, the first not above ``low``, the second not below ``high``.
 

@@ -84,11 +84,6 @@ class Scale(NamedTuple):
     limits: tuple[float, float]
     extremes: tuple[float, float]
 
-    @property
-    def beyond(self) -> tuple[bool, bool]:
-        """Whether values lie below the limits, and above them."""
-        return self.extremes[0] < self.limits[0], self.extremes[1] > self.limits[1]
-
 
 class Grid(NamedTuple):
     """Flow on a regular grid over the box of a mesh, (nz, ny, nx) points."""
@@ -293,40 +288,15 @@ def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
     origin, normal
         A point of the plane, m, and its unit normal, each (3,).
     """
-    mesh = flow.mesh
-    nodes, tets = mesh.nodes, mesh.tets.astype(np.int64)
-    distance = (nodes - origin) @ normal
+    nodes, tets = flow.mesh.nodes, flow.mesh.tets
+    grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: tets}, nodes)
+    grid.cell_data["tet"] = np.arange(len(tets), dtype=np.int32)
     # Nodes on the plane, such as cell centres of a mesh with one layer, count as above it.
-    distance += 1e-9 * np.ptp(nodes, axis=0).max()
-    above = distance[tets] > 0.0
-    n_above = above.sum(axis=1)
-    # Vertices of each tetrahedron; vertices below the plane come first.
-    order = np.argsort(above, axis=1, kind="stable")
-    pairs, hosts = [], []
-    for number, corners in _CUTS:
-        own = np.flatnonzero(n_above == number)
-        vertices = np.take_along_axis(tets[own], order[own], axis=1)
-        pairs.append(vertices[:, corners].reshape(-1, 2))
-        hosts.append(np.repeat(own, 3))
-    ends = np.sort(np.concatenate(pairs), axis=1)
-    unique, first, corner = np.unique(
-        ends[:, 0] * len(nodes) + ends[:, 1], return_index=True, return_inverse=True
-    )
-    one, other = unique // len(nodes), unique % len(nodes)
-    share = distance[one] / (distance[one] - distance[other])
-    points = nodes[one] + share[:, None] * (nodes[other] - nodes[one])
-    u, l = flow.sample(points, np.concatenate(hosts)[first].astype(np.int32), 0.0)
-    return Slice(
-        points,
-        corner.reshape(-1, 3).astype(np.int64),
-        {"speed": np.linalg.norm(u, axis=1), "shearRate": _rate(l.reshape(-1, 9))},
-    )
-
-
-# Number of vertices above the plane, and the vertex pairs, below first, of the corners of a triangle.
-_CUTS = (
-    (1, (0, 3, 1, 3, 2, 3)),
-    (3, (0, 1, 0, 2, 0, 3)),
-    (2, (0, 2, 0, 3, 1, 3)),
-    (2, (0, 2, 1, 3, 1, 2)),
-)
+    below = origin - 1e-9 * np.ptp(nodes, axis=0).max() * normal
+    found = grid.slice(normal=normal, origin=below).triangulate()
+    points, triangles = np.array(found.points, dtype=np.float64), np.array(found.regular_faces)
+    hosts = np.zeros(len(points), dtype=np.int32)
+    hosts[triangles] = found.cell_data["tet"][:, None]
+    u, l = flow.sample(points, hosts, 0.0)
+    values = {"speed": np.linalg.norm(u, axis=1), "shearRate": _rate(l.reshape(-1, 9))}
+    return Slice(points, triangles.astype(np.int64), values)

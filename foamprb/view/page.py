@@ -25,6 +25,7 @@ from foamprb.view.scene import (
     INSETS,
     MARGIN,
     MOST_TRAILS,
+    PERCENTILES,
     SCALE_BAR,
     TALL,
     VIEW_ANGLE,
@@ -43,8 +44,8 @@ _NOTES, _DESCRIPTION = 400, 2000
 class Page:
     """Packed parts of a page; :meth:`parts` yields the text of the file.
 
-    ``needed`` is its size without optional arrays, and ``wanted`` with all of them, bytes; ``of_bodies`` is
-    the part of the latter that grows with the bodies. ``left_out`` names the arrays that do not fit.
+    ``needed`` is its size without optional arrays, and ``wanted`` with all of them, bytes. ``left_out`` names
+    the arrays that do not fit.
 
     Parameters
     ----------
@@ -77,21 +78,18 @@ class Page:
         self._middle, self._size = 0.5 * (low + high), float((high - low).max()) or 1.0
         grid = encode.grid_of(*shown)
         self._header = self._described(0.5 * (high - low)) | self._bodies(grid)
-        self.of_bodies = sum(map(len, self._sections))
         self._header |= self._surroundings(grid)
         fields = self._header["fields"] = {}
         chosen = scene.colour[0]
         if chosen in bodies.fields:
             fields[chosen] = self._field(chosen, encode.pack_field(bodies.fields[chosen]))
         self.needed = self.wanted = sum(len(part.encode()) for part in self.parts())
-        self.of_bodies += sum(len(self._sections[own["section"]]) for own in fields.values())
         room = most_bytes - self.needed - _NOTES
         others = [name for name in bodies.fields if name not in fields]
         for name in sorted(others, key=lambda name: order.index(name) if name in order else len(order)):
             column = encode.pack_field(bodies.fields[name])
             size = len(column.data) + _DESCRIPTION
             self.wanted += size
-            self.of_bodies += len(column.data)
             if size > room:
                 self.left_out.append(name)
             else:
@@ -247,7 +245,7 @@ class Page:
         for part in field.parts:
             whole = limits_of(bodies, name, part)
             found = {
-                "usual": limits_of(bodies, name, part, self.scene.percentiles),
+                "usual": limits_of(bodies, name, part, PERCENTILES),
                 "whole": whole,
                 "extremes": extremes_of(bodies, name, part) or whole,
             }

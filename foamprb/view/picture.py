@@ -30,7 +30,6 @@ from foamprb.view.colours import (
     readable,
     rgb,
     round_down,
-    ticks,
     written,
 )
 from foamprb.view.flowfield import PLANE, QUANTITIES, STREAM_OPACITY, FlowField
@@ -57,8 +56,6 @@ _SPHERES = ((300, 48, 24), (5_000, 24, 12), (20_000, 12, 7), (math.inf, 6, 4))
 _MOST_MARKED = 500
 _MARK_WIDTH, _SPOT_WIDTH, _MARK_STEPS = 0.04, 0.3, 72
 _BAR = 280.0
-_GLYPH, _REACH, _LETTER, _AXES, _ARROWS = 56.0, 14.0, 11.0, 64.0, 73.0
-"""Width of axes or an arrow, length and letter of an axis, distances of their middles from below; pixels."""
 _UNKNOWN = 153
 _TRAIL_OPACITY = 0.85
 _HAZE, _HAZE_LENGTH = 0.3, 0.6
@@ -143,31 +140,14 @@ class Drawing:
         left = 22.0
         if scene.flowfield is not None and scene.flowfield.slice is not None:
             scale = scene.flowfield.scales[PLANE]
-            left = self._bar(
-                "plane",
-                *QUANTITIES[PLANE],
-                scale.limits,
-                self.style.plane,
-                left,
-                scale.beyond,
-                scale.extremes,
-            )
+            left = self._bar(*QUANTITIES[PLANE], scale.limits, self.style.plane, left, scale.extremes)
         name, part = scene.colour
         if name in scene.bodies.fields:
             field = scene.bodies.fields[name]
             label = f"{field.label}, {part}" if part else field.label
-            self._bar(
-                "legend",
-                label,
-                field.unit,
-                scene.limits,
-                colour_map(scene.map_name),
-                left,
-                scene.beyond,
-                scene.extremes,
-            )
+            self._bar(label, field.unit, scene.limits, colour_map(scene.map_name), left, scene.extremes)
         else:
-            self._names(scene.codes(name), left)
+            self._names(scene.codes(name))
         for surface in scene.geometry.surfaces if scene.geometry is not None else ():
             if surface.type not in FLAT_TYPES:
                 self._name(surface.name, anchor(surface, scene.camera))
@@ -184,49 +164,21 @@ class Drawing:
         self.plotter.add_actor(actor, name=f"patch {text}", **_LATER)
 
     def compass(self) -> None:
-        """Draw axes, the directions of flow and gravity, and a scale bar, in the lower right corner."""
-        scene, eye = self.scene, self.plotter.camera
+        """Draw axes and a scale bar in the lower right corner."""
+        self.plotter.add_axes(
+            interactive=False, color=self.style.soft, line_width=2, viewport=(0.88, 0.08, 1.0, 0.3)
+        )
+        eye = self.plotter.camera
         width, height = (length / self.scale for length in self.plotter.window_size)
-        towards = np.subtract(eye.position, eye.focal_point)
-        distance = float(np.linalg.norm(towards))
-        towards = towards / distance
-        right = np.cross(eye.up, towards)
-        right /= np.linalg.norm(right)
-        frame = np.array([right, np.cross(towards, right), towards])
-        arrows = scene.directions
-        lines: list[tuple[Floats, str, float]] = []
-        middle = width - 14.0 - _GLYPH * (len(arrows) + 0.5 - np.arange(len(arrows) + 1))
-
-        self._veil("compass veil", middle[0] - 0.5 * _GLYPH, width - 8.0 - middle[0] + 0.5 * _GLYPH)
-        origin, placed = np.array([middle[0], height - _AXES]), [np.zeros(2)]
-        for name, seen in sorted(zip("xyz", frame.T, strict=True), key=lambda axis: float(axis[1][2])):
-            tip, size = _REACH * seen[:2], float(np.linalg.norm(seen[:2]))
-            lines.append((np.array([origin, origin + tip * [1.0, -1.0]]), self.style.soft, 1.5))
-            # The name of an axis along the line of sight stands below its origin.
-            short = size < 0.3
-            at = np.full(2, -0.7 * _LETTER) if short else seen[:2] / size * (_REACH * size + 8.0)
-            if any(np.linalg.norm(at - other) < _LETTER for other in placed[1:]):
-                at = at - [0.0, _LETTER]
-            placed.append(at)
-            self._write(f"axis {name}", name, 12, "center", origin[1] - at[1] + 4.0, origin[0] + at[0])
-        for x, (name, vector) in zip(middle[1:], arrows.items(), strict=True):
-            colour = self.style.accent if name == "flow" else self.style.soft
-            lines += [(line, colour, 2.0) for line in _arrow(frame @ vector, np.array([x, height - _ARROWS]))]
-            self._write(f"direction {name}", name, 12, "center", height - 40.0, x)
-
+        distance = float(np.linalg.norm(np.subtract(eye.position, eye.focal_point)))
         pixel = 2.0 * distance * math.tan(math.radians(0.5 * eye.view_angle)) / height
         length = round_down(SCALE_BAR * pixel, (1, 2, 5))
-        ends = width - 20.0 - np.array([length / pixel, 0.0])
-        y = height - 26.0
-        corners = np.column_stack([ends[[0, 0, 1, 1]], [y - 4.0, y, y, y - 4.0]])
-        lines.append((corners, self.style.ink, 1.5))
-        self._write("scale", written(length, "m", length), 12, "center", height - 12.0, float(ends.mean()))
-        for k, (points, colour, thickness) in enumerate(lines):
-            points = np.column_stack([points * [1.0, -1.0] + [0.0, height], np.zeros(len(points))])
-            line = pyvista.lines_from_points(points * self.scale)
-            actor = self._add_flat(f"compass {k}", line)
-            actor.GetProperty().SetColor(*(c / 255.0 for c in rgb(colour)))
-            actor.GetProperty().SetLineWidth(thickness * self.scale)
+        right, left = width - 20.0, width - 20.0 - length / pixel
+        points = np.array([[left, 30.0, 0.0], [left, 26.0, 0.0], [right, 26.0, 0.0], [right, 30.0, 0.0]])
+        self._write("scale", written(length, "m", length), 12, "center", height - 12.0, 0.5 * (left + right))
+        actor = self._add_flat("scale bar", pyvista.lines_from_points(points * self.scale))
+        actor.GetProperty().SetColor(*(c / 255.0 for c in rgb(self.style.ink)))
+        actor.GetProperty().SetLineWidth(1.5 * self.scale)
 
     def _write(
         self, name: str, text: str, size: float, side: str, top: float, left: float = 22.0, bold: bool = False
@@ -244,75 +196,42 @@ class Drawing:
         self.plotter.add_actor(actor, name=name, **_LATER)
 
     def _bar(
-        self,
-        name: str,
-        label: str,
-        unit: str,
-        limits: tuple[float, float],
-        table: Table,
-        left: float,
-        beyond: tuple[bool, bool] = (False, False),
-        extremes: tuple[float, float] = (0.0, 0.0),
-    ) -> float:
+        self, label: str, unit: str, limits: tuple[float, float], table: Table, left: float,
+        extremes: tuple[float, float],
+    ) -> float:  # fmt: skip
         """Draw a colour bar ``left`` pixels of the page from the left; return the position of the next one.
 
-        ``beyond`` tells whether values lie below the limits, and above them; ``extremes`` are these values.
+        Values beyond the limits are named by their extremes.
         """
-        bottom = self.plotter.window_size[1] / self.scale
+        width, height = (length / self.scale for length in self.plotter.window_size)
         factor, shown_unit = readable(unit, max(map(abs, limits)))
-        low, high = limits[0] / factor, limits[1] / factor
+        low, high = (value / factor for value in limits)
         title = label[:1].upper() + label[1:] + (f"  ({shown_unit})" if shown_unit else "")
-        ends = [
-            f"{word} {number(value / factor, 2)}"
-            for word, value, is_beyond in zip(("min", "max"), extremes, beyond, strict=True)
-            if is_beyond
-        ]
-        title = "  ".join([title, ", ".join(ends)]) if ends else title
-        self._veil(f"{name} veil", left - 12.0, _BAR + 24.0)
-        self._write(f"{name} title", title, 13, "left", bottom - 54, left, bold=True)
-        self._rectangles(
-            name, left + _BAR * np.linspace(0.0, 1.0, 256, endpoint=False), _BAR / 256.0, 36.0, 12.0, table
-        )
-        for k, value in enumerate(ticks(low, high)):
-            share = (value - low) / (high - low)
-            side = "left" if share == 0.0 else "center"
-            sign = "≤ " if share == 0.0 and beyond[0] else "≥ " if value == high and beyond[1] else ""
-            self._write(f"{name} {k}", sign + number(value), 12, side, bottom - 20, left + _BAR * share)
+        ends = [f"min {number(extremes[0] / factor, 2)}"] * (extremes[0] < limits[0])
+        ends += [f"max {number(extremes[1] / factor, 2)}"] * (extremes[1] > limits[1])
+        colours = np.column_stack([table, np.full(len(table), 255)]).astype(np.uint8)
+        mapper = pyvista.DataSetMapper()
+        mapper.lookup_table = pyvista.LookupTable(values=colours, scalar_range=(low, high))
+        mapper.scalar_range = low, high
+        self._write(f"{label} title", "  ".join([title, *ends]), 13, "left", height - 62.0, left, bold=True)
+        # The title of the bar, blanks, is the name of its actor.
+        self.plotter.add_scalar_bar(
+            round(left) * " ", mapper=mapper, vertical=False, n_labels=4, fmt="%.3g",
+            color=self.style.ink, position_x=left / width, position_y=12.0 / height, width=_BAR / width,
+            height=62.0 / height, label_font_size=round(12 * self.scale), render=False,
+        )  # fmt: skip
         return left + _BAR + 40.0
 
-    def _names(self, codes: Codes, left: float) -> None:
+    def _names(self, codes: Codes) -> None:
         """Draw the colours of the names that occur."""
-        bottom = self.plotter.window_size[1] / self.scale
         present = [
             k for k in np.unique(codes.codes).tolist() if k < len(codes.meanings) and codes.meanings[k]
         ]
-        widths = [8.0 * len(codes.meanings[k]) + 40.0 for k in present]
-        self._veil("legend veil", left - 12.0, max(sum(widths), 100.0))
-        self._write("legend title", codes.label.capitalize(), 13, "left", bottom - 54, left, bold=True)
-        for k, width in zip(present, widths, strict=True):
-            colour = np.array([rgb(colour_of_name(k))], dtype=np.uint8)
-            self._rectangles(f"swatch {k}", np.array([left]), 12.0, 28.0, 12.0, colour)
-            self._write(f"name {k}", codes.meanings[k], 13, "left", bottom - 29, left + 18.0)
-            left += width
-
-    def _veil(self, name: str, left: float, width: float) -> None:
-        """Cover the scene behind texts at the bottom, so that they can be read on any body."""
-        paper = np.array([rgb(self.style.paper)], dtype=np.uint8)
-        actor = self._rectangles(name, np.array([left]), width, 8.0, 72.0, paper)
-        actor.GetProperty().SetOpacity(0.82)
-
-    def _rectangles(
-        self, name: str, left: Floats, width: float, bottom: float, height: float, colours: Table
-    ) -> Any:
-        """Fill rectangles side by side, in pixels of the page from the lower left corner; return them."""
-        n, s = len(left), self.scale
-        x, y = np.array([0.0, width, width, 0.0]), np.array([0.0, 0.0, height, height])
-        points = np.zeros((n, 4, 3))
-        points[:, :, 0], points[:, :, 1] = (left[:, None] + x) * s, (bottom + y) * s
-        data = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), np.arange(4 * n).reshape(n, 4))
-        data.cell_data["colour"] = colours
-        data.cell_data.active_scalars_name = "colour"
-        return self._add_flat(name, data)
+        names = [[codes.meanings[k], colour_of_name(k)] for k in present]
+        self.plotter.add_legend(
+            names, bcolor=self.style.paper, background_opacity=0.82, face="rectangle", loc="lower left",
+            size=(0.2, 0.035 * len(names)),
+        )  # fmt: skip
 
     def _add_flat(self, name: str, data: Any) -> Any:
         """Draw a mesh in front of the scene, in pixels of the picture; return its actor."""
@@ -446,22 +365,6 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool) -> 
     if texts:
         drawing.compass()
     return drawing
-
-
-def _arrow(seen: Floats, middle: Floats) -> list[Floats]:
-    """Return the lines of an arrow along a unit vector (right, up, to the viewer), in pixels of the page."""
-    size = float(np.linalg.norm(seen[:2]))
-    if size < 0.35:
-        # Its point, or its feathers, in a circle.
-        angle = np.linspace(0.0, 2.0 * np.pi, 33)
-        circle = np.column_stack([np.cos(angle), np.sin(angle)])
-        cross = [5.0 * np.array([[-1.0, -d], [1.0, d]]) for d in (-1.0, 1.0)]
-        return [middle + line for line in (8.0 * circle, *([2.0 * circle] if seen[2] > 0.0 else cross))]
-    along = seen[:2] / size * [1.0, -1.0]
-    across = np.array([-along[1], along[0]])
-    tip = middle + 17.0 * size * along
-    barbs = np.array([tip - 8.0 * along + 5.0 * across, tip, tip - 8.0 * along - 5.0 * across])
-    return [np.array([middle - 17.0 * size * along, tip]), barbs]
 
 
 def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: list[float]) -> None:

@@ -38,15 +38,13 @@ COHERENT = 0.3
 TALL = 1.6
 """A long object takes at least 1/1.6 of the height of the picture. Its length is cut for that."""
 PERCENTILES = (5.0, 95.0)
-"""Default percentiles of all shown values that limit the colours; values beyond may be clamped."""
+"""Percentiles of all shown values that limit the colours; values beyond may be clamped."""
 ALL = (0.0, 100.0)
 """Percentiles that include all values."""
 TRAIL = 0.3
 """Length of the fading trail of a body with the median speed, as a share of the visible length."""
 MOST_TRAILS = 5000
 """Largest number of bodies that have trails by default."""
-_SLACK = 1e-5
-"""Distance beyond the limits, as a share of their range, that counts as inside."""
 _THIN = 0.35
 """A geometry with a smaller ratio of the shortest side to the second one is viewed along the shortest."""
 _TILTED = 1.3
@@ -111,8 +109,6 @@ class Scene:
         Limits of the colours, if the user chose them.
     first
         Index of the time that is shown first.
-    percentiles
-        Percentiles of all values that limit the colours without a range.
     flow
         Unit vector of the mean velocity; zero if the flow has no main direction.
     gravity
@@ -135,7 +131,6 @@ class Scene:
     colour: tuple[str, str]
     range: tuple[float, float] | None
     first: int
-    percentiles: tuple[float, float] = PERCENTILES
     flow: Floats = field(default_factory=lambda: np.zeros(3))
     gravity: Floats = field(default_factory=lambda: np.zeros(3))
     groups: str = ""
@@ -144,14 +139,7 @@ class Scene:
     @cached_property
     def limits(self) -> tuple[float, float]:
         """Values of the chosen array at which its colours begin and end."""
-        return self.range or limits_of(self.bodies, *self.colour, self.percentiles)
-
-    @cached_property
-    def beyond(self) -> tuple[bool, bool]:
-        """Whether shown values of the chosen array lie below the limits, and above them."""
-        (low, high), (least, most) = self.limits, self.extremes
-        slack = _SLACK * (high - low)
-        return least < low - slack, most > high + slack
+        return self.range or limits_of(self.bodies, *self.colour, PERCENTILES)
 
     @cached_property
     def extremes(self) -> tuple[float, float]:

@@ -61,8 +61,6 @@ MOST_DRAWN = 100_000
 """Largest number of bodies in a page or a picture, unless -bodies requests more."""
 MOST_CELLS = 250_000
 """Largest number of cells of a mesh whose flow is read for streamlines."""
-_SAMPLE, _ESTIMATES = 500, 2
-"""Bodies in an estimate of the size of a page, and the number of estimates."""
 _MOST_TRAILING = 16
 """Largest number of earlier times that the trails of a picture need."""
 _TIMES_TOLERANCE = 1e-9
@@ -86,8 +84,6 @@ class Request:
     slice: str | None = None
     bodies: int | None = None
     """Largest number of bodies; by default :data:`MOST_DRAWN`."""
-    percentiles: tuple[float, float] = PERCENTILES
-    """Percentiles of all values that limit the colours without a range."""
     results: Path | None = None
     """Folder of the results instead of ``postProcessing`` in the case."""
 
@@ -140,21 +136,14 @@ def _packed(request: Request, megabytes: float, version: str) -> tuple[Page, Run
     written, released = len(run.entries), len(run.cloud(-1, ("origId",)).points)
     known = min(released, request.bodies or MOST_DRAWN)
 
-    def pack(m: int, bodies: int) -> Page:
-        scene = background.scene(gather(run, spread(written, m), bodies))
+    def pack(m: int) -> Page:
+        scene = background.scene(gather(run, spread(written, m), known))
         notes = [f"{len(scene.bodies.ids)} of {released} bodies are shown."] if known < released else []
         notes += [f"{m} of {written} times are shown."] if m < written else []
         return Page(scene, most, ORDER, version, notes)
 
-    m = written
-    for _ in range(_ESTIMATES if known * written * _BYTES_PER_STATE > most else 0):
-        page = pack(m, min(known, _SAMPLE))
-        sample = page.of_bodies / max(1, len(page.scene.bodies.ids))
-        fitting = int(m * (most - page.wanted + page.of_bodies) / max(1.0, sample * known))
-        if fitting >= m:
-            break
-        m = max(1, fitting)
-    while (page := pack(m, known)).wanted > most and m > 1:
+    m = max(1, min(written, most // max(1, known * _BYTES_PER_STATE)))
+    while (page := pack(m)).wanted > most and m > 1:
         m = max(1, min(m - 1, int(0.98 * m * most / page.wanted)))
     if known < released and request.bodies is None:
         log.warning("%d of %d bodies, evenly spread. -bodies N takes another number.", known, released)
@@ -217,7 +206,6 @@ class _Background:
             colour=self.colour,
             range=request.range,
             first=first,
-            percentiles=request.percentiles,
             flow=self.flow,
             gravity=g / (float(np.linalg.norm(g)) or 1.0),
             groups=self.groups,
@@ -277,7 +265,7 @@ def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
         return scene
     return replace(
         scene,
-        range=request.range or limits_of_values(values, request.percentiles),
+        range=request.range or limits_of_values(values, PERCENTILES),
         known_extremes=(float(values.min()), float(values.max())),
     )
 
@@ -298,11 +286,6 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
     if request.range is not None and not request.range[0] < request.range[1]:
         raise InputError(
             f"-range {request.range[0]:g} {request.range[1]:g}: the second must be the larger one."
-        )
-    low, high = request.percentiles
-    if not 0.0 <= low < high <= 100.0:
-        raise InputError(
-            f"-percentiles {low:g} {high:g}: two numbers from 0 to 100 are needed, the second the larger one."
         )
     colour = require_array(run, request.colour)
     fates = run.fates()

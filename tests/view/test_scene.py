@@ -16,7 +16,7 @@ from view_run import motion, write_run
 from foamprb.errors import InputError
 from foamprb.flow.read.openfoam import read_case
 from foamprb.view.bodies import Bodies, Codes, Quantity, gather
-from foamprb.view.colours import colour_of_name, readable, rgb, round_down, round_limits, ticks, written
+from foamprb.view.colours import colour_of_name, readable, rgb, round_down, round_limits, written
 from foamprb.view.flowfield import cut, read_plane
 from foamprb.view.geometry import Geometry, Surface, boundary, flat_normal
 from foamprb.view.results import open_run
@@ -244,14 +244,6 @@ class TestNumbers:
     def test_rounding_down(self, value):
         assert 0.5 * value < round_down(value) <= value * (1 + 1e-11)
 
-    @given(st.floats(-1e3, 1e3), st.floats(1e-3, 1e3))
-    def test_ticks_go_from_end_to_end(self, low, span):
-        found = ticks(low, low + span)
-        assert found[0] == low
-        assert found[-1] == low + span
-        assert 2 <= len(found) <= 6
-        assert (np.diff(found) > 0.0).all()
-
     @pytest.mark.parametrize(
         ("value", "unit", "most", "text"),
         [
@@ -301,25 +293,6 @@ class TestOutliers:
 
     def test_where_nearly_all_are_alike_the_others_count(self):
         assert limits_of(with_values([*[0.0] * 999, 7.0]), "D", "", PERCENTILES) == (0.0, 7.0)
-
-    def test_the_legend_marks_values_beyond(self, tmp_path):
-        write_run(tmp_path, motion(40, 8), mesh=False)
-        results = open_run(tmp_path)
-
-        def scene(**options):
-            return make_scene(Request(tmp_path, **options), results, range(8))
-
-        assert scene(percentiles=ALL).beyond == (False, False)
-        assert scene(percentiles=(30.0, 70.0)).beyond == (True, True)
-        assert scene(range=(0.0, 0.2)).beyond == (False, True)
-        usual, middle = scene(), scene(percentiles=(30.0, 70.0))
-        assert middle.limits[1] - middle.limits[0] < usual.limits[1] - usual.limits[0]
-
-    @pytest.mark.parametrize("wrong", [(1.0, 1.0), (-1.0, 99.0), (1.0, 101.0), (math.nan, 99.0)])
-    def test_invalid_percentiles_are_refused(self, tmp_path, wrong):
-        write_run(tmp_path, motion(4, 2), mesh=False)
-        with pytest.raises(InputError, match=r"-percentiles .*: two numbers from 0 to 100"):
-            make_scene(Request(tmp_path, percentiles=wrong), open_run(tmp_path), range(2))
 
 
 def test_enlargement_makes_bodies_visible_but_not_overlapping(bodies):

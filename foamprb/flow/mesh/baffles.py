@@ -14,8 +14,8 @@ from scipy.sparse import csgraph
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import mix
+from foamprb.flow.mesh.faces import Faces
 from foamprb.flow.mesh.fragment import Fragment, Team
-from foamprb.flow.mesh.geometry import Faces
 from foamprb.flow.mesh.lists import Index, Labels, int32, take_lists
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.geometry import Faces
+from foamprb.flow.mesh.faces import Faces
 from foamprb.flow.mesh.lists import Index, Labels, Mask, cell_array, points_of, starts, take_lists
 
 _Hash: TypeAlias = NDArray[np.uint64]

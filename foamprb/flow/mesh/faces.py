@@ -7,16 +7,22 @@ caller.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector_product
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
+from foamprb.flow.mesh.lists import Index, ragged
 
 __all__ = [
     "OPEN",
     "TWISTED",
+    "Faces",
+    "Fans",
+    "Numbering",
     "choose_bases",
     "gather_faces",
     "group_faces",
@@ -35,6 +41,45 @@ TWISTED = 2
 """State of a cell with two faces that run along a common edge in the same direction."""
 _MOST_BASES = 100
 """Largest number of fans compared on a face with many points; their cost is quadratic."""
+
+
+class Faces(NamedTuple):
+    """Faces of a mesh, interior ones first; they turn outwards from their owner."""
+
+    start: Ints
+    points: Ints
+    owner: Ints
+    neighbour: Ints
+    """(n_internal,); it is larger than the owner."""
+    first: Ints
+    """(n_cells + 1,) into ``of_cell``."""
+    of_cell: Ints
+    """Faces of each cell."""
+
+    def turn(self, some: Index) -> None:
+        """Reverse the points of some faces."""
+        begin, end = self.start[some], self.start[some + 1]
+        places = ragged(begin, end - begin)
+        self.points[places] = self.points[np.repeat(begin + end - 1, end - begin) - places]
+
+
+class Numbering(NamedTuple):
+    """Numbers of tetrahedra."""
+
+    cell: Ints
+    """(n_cells + 1,), of the first one in each cell."""
+    face: Ints
+    """(n_faces,), of the first one on each face, in its owner."""
+
+
+class Fans(NamedTuple):
+    """Tetrahedra, a fan on each face of a cell; see :class:`foamprb.flow.mesh.mesh.Mesh`."""
+
+    tets: Ints
+    neighbours: Ints
+    triangle_tet: Ints
+    state: NDArray[np.uint8]
+    """(n_cells,), :data:`OPEN` or :data:`TWISTED`; must hold zeros."""
 
 
 def list_faces(
@@ -403,38 +448,21 @@ def _quality(points: Floats, centres: Floats, cell: int, a: int, b: int, c: int)
     return float(volume / (edges * np.sqrt(edges)))
 
 
-def number_tetrahedra(
-    first: Ints, face_of: Ints, start: Ints, owner: Ints, cell_start: Ints, face_tet: Ints
-) -> None:
-    """Number the tetrahedra: the first of each cell, (n_cells + 1,), and of each face in its owner."""
+def number_tetrahedra(faces: Faces, numbers: Numbering) -> None:
+    """Number the tetrahedra, cell by cell."""
     tet = 0
-    for c in range(first.shape[0] - 1):
-        cell_start[c] = tet
-        for h in range(first[c], first[c + 1]):
-            f = face_of[h]
-            if owner[f] == c:
-                face_tet[f] = tet
-            tet += start[f + 1] - start[f] - 2
-    cell_start[first.shape[0] - 1] = tet
+    for c in range(faces.first.shape[0] - 1):
+        numbers.cell[c] = tet
+        for h in range(faces.first[c], faces.first[c + 1]):
+            f = faces.of_cell[h]
+            if faces.owner[f] == c:
+                numbers.face[f] = tet
+            tet += faces.start[f + 1] - faces.start[f] - 2
+    numbers.cell[faces.first.shape[0] - 1] = tet
 
 
 def split_cells(
-    begin_cell: int,
-    end_cell: int,
-    n_points: int,
-    first: Ints,
-    face_of: Ints,
-    start: Ints,
-    lists: Ints,
-    owner: Ints,
-    n_internal: int,
-    face_tet: Ints,
-    cell_start: Ints,
-    edges: Ints,
-    tets: Ints,
-    neighbours: Ints,
-    triangle_tet: Ints,
-    state: NDArray[np.uint8],
+    begin_cell: int, end_cell: int, n_points: int, faces: Faces, numbers: Numbering, edges: Ints, fans: Fans
 ) -> None:
     """Cut cells into tetrahedra, a fan on each face, and connect these.
 
@@ -444,28 +472,24 @@ def split_cells(
         The cells to cut, from the first to before the last.
     n_points
         Number of mesh points; the centre of cell c is node ``n_points + c``.
-    first, face_of
-        The faces of cell c are ``face_of[first[c]]`` to ``face_of[first[c + 1] - 1]``.
-    start, lists, owner, n_internal
-        The faces, interior ones first, which turn outwards from their owners.
-    face_tet, cell_start
-        Results of :func:`number_tetrahedra`.
+    faces, numbers
+        The faces, and the result of :func:`number_tetrahedra`.
     edges
         (5, m) work array of :func:`_join`; must hold −1. m is a power of two, at least the number of points
         of all faces of any cell.
-    tets, neighbours, triangle_tet
-        Results; see :class:`foamprb.flow.mesh.mesh.Mesh`.
-    state
-        (n_cells,) result, :data:`OPEN` or :data:`TWISTED`; must hold zeros.
+    fans
+        The results.
     """
+    start, lists, first, n_internal = faces.start, faces.points, faces.first, faces.neighbour.shape[0]
+    tets, neighbours, state = fans.tets, fans.neighbours, fans.state
     boundary = start[n_internal] - 2 * n_internal
     for c in range(begin_cell, end_cell):
-        tet = cell_start[c]
+        tet = numbers.cell[c]
         found = loose = 0
         for h in range(first[c], first[c + 1]):
-            f = face_of[h]
+            f = faces.of_cell[h]
             begin, size = start[f], start[f + 1] - start[f]
-            owned = owner[f] == c
+            owned = faces.owner[f] == c
             for k in range(size - 2):
                 # In the neighbour the fan turns the other way about the same base.
                 i, j = (k + 1, k + 2) if owned else (size - 1 - k, size - 2 - k)
@@ -478,9 +502,9 @@ def split_cells(
                 if f >= n_internal:
                     triangle = begin - 2 * f - boundary + k
                     neighbours[tet + k, 0] = -1 - triangle
-                    triangle_tet[triangle] = tet + k
+                    fans.triangle_tet[triangle] = tet + k
                 elif not owned:
-                    across = face_tet[f] + size - 3 - k
+                    across = numbers.face[f] + size - 3 - k
                     neighbours[tet + k, 0], neighbours[across, 0] = across, tet + k
             for k in range(size):
                 after = k + 1 if k + 1 < size else 0

@@ -10,6 +10,7 @@ from foamprb.body.tensor import vector_product
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.faces import (
+    Faces,
     choose_bases,
     gather_faces,
     group_faces,
@@ -17,7 +18,7 @@ from foamprb.flow.mesh.faces import (
     measure_cells,
     measure_faces,
 )
-from foamprb.flow.mesh.lists import Index, ragged, share, starts
+from foamprb.flow.mesh.lists import share, starts
 
 _FACES_AT_ONCE = 1 << 16
 
@@ -29,26 +30,6 @@ class HalfFaces(NamedTuple):
     """(n_cells + 1,) first face of each cell."""
     start: Ints
     points: Ints
-
-
-class Faces(NamedTuple):
-    """Faces of a mesh, interior ones first; they turn outwards from their owner."""
-
-    start: Ints
-    points: Ints
-    owner: Ints
-    neighbour: Ints
-    """(n_internal,); it is larger than the owner."""
-    first: Ints
-    """(n_cells + 1,) into ``of_cell``."""
-    of_cell: Ints
-    """Faces of each cell."""
-
-    def turn(self, some: Index) -> None:
-        """Reverse the points of some faces."""
-        begin, end = self.start[some], self.start[some + 1]
-        places = ragged(begin, end - begin)
-        self.points[places] = self.points[np.repeat(begin + end - 1, end - begin) - places]
 
 
 def faces_of(start: Ints, points: Ints, owner: Ints, neighbour: Ints, n_cells: int) -> Faces:

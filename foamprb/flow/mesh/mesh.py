@@ -21,9 +21,8 @@ from foamprb.flow.mesh.baffles import part_points
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, with_surface
 from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.coupling import Coupling, couple
-from foamprb.flow.mesh.faces import OPEN, TWISTED, number_tetrahedra, split_cells
+from foamprb.flow.mesh.faces import OPEN, TWISTED, Faces, Fans, Numbering, number_tetrahedra, split_cells
 from foamprb.flow.mesh.geometry import (
-    Faces,
     cell_geometry,
     inward_normals,
     measured,
@@ -238,19 +237,18 @@ def cut_into_tetrahedra(faces: Faces, n_points: int, source: str) -> tuple[Ints,
     cell_start, triangle_tet = np.empty(n_cells + 1, dtype=np.int32), np.empty(n_triangles, dtype=np.int32)
     tets, neighbours = np.empty((n_tets, 4), dtype=np.int32), np.empty((n_tets, 4), dtype=np.int32)
     state, face_tet = np.zeros(n_cells, dtype=np.uint8), np.empty(len(sizes), dtype=np.int32)
-    link(number_tetrahedra)(faces.first, faces.of_cell, faces.start, faces.owner, cell_start, face_tet)
+    numbers = Numbering(cell_start, face_tet)
+    link(number_tetrahedra)(faces, numbers)
     most_edges = int(np.add.reduceat(sizes[faces.of_cell], faces.first[:-1]).max())
     slots, split = 1 << most_edges.bit_length(), link(split_cells)
-    given = n_points, faces.first, faces.of_cell, faces.start, faces.points, faces.owner, n_internal
-    share(
-        n_cells,
-        lambda begin, end: split(
-            *(begin, end, *given, face_tet, cell_start),
-            # 64 bits: it holds four numbers for each tetrahedron.
-            np.full((5, slots), -1, dtype=np.int64),
-            *(tets, neighbours, triangle_tet, state),
-        ),
-    )
+    fans = Fans(tets, neighbours, triangle_tet, state)
+
+    def cut(begin: int, end: int) -> None:
+        # 64 bits: it holds four numbers for each tetrahedron.
+        edges = np.full((5, slots), -1, dtype=np.int64)
+        split(begin, end, n_points, faces, numbers, edges, fans)
+
+    share(n_cells, cut)
     gaping = np.flatnonzero(state & OPEN)
     if len(gaping):
         raise InputError(

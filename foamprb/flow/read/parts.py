@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import Transform
+from foamprb.flow.mesh.faces import Faces
 from foamprb.flow.mesh.fragment import Fragment, IndivisibleMeshError, Labels, Team, merged
-from foamprb.flow.mesh.geometry import Faces, largest_fluxes, measured
+from foamprb.flow.mesh.geometry import largest_fluxes, measured
 from foamprb.flow.mesh.lists import even_ends
 from foamprb.flow.mesh.parting import hold_part
 from foamprb.flow.mesh.submesh import CUT, Folders, Halo, layers_over

@@ -7,7 +7,7 @@ import pytest
 from mesh_shapes import HEXAHEDRON_FACES, KINDS, block, polyhedra
 
 from foamprb.flow.mesh import faces
-from foamprb.flow.mesh.faces import OPEN, TWISTED, number_tetrahedra, split_cells
+from foamprb.flow.mesh.faces import OPEN, TWISTED, Faces, Fans, Numbering, number_tetrahedra, split_cells
 from foamprb.flow.mesh.geometry import inward_normals
 from foamprb.flow.mesh.mesh import build_mesh
 
@@ -78,10 +78,11 @@ def split(cells):
     cell_start, triangle_tet = np.empty(len(cells) + 1, dtype=int), np.full(n, -99)
     state, face_tet = np.zeros(len(cells), dtype=np.uint8), np.empty(len(found), dtype=int)
     owner, own = np.repeat(np.arange(len(cells)), np.diff(first)), np.arange(len(found))
-    number_tetrahedra(first, own, start, owner, cell_start, face_tet)
+    each, numbers = Faces(start, lists, owner, np.empty(0, int), first, own), Numbering(cell_start, face_tet)
+    number_tetrahedra(each, numbers)
+    fans = Fans(tets, neighbours, triangle_tet, state)
     for c in range(len(cells)):
-        split_cells(c, c + 1, 100, first, own, start, lists, owner, 0, face_tet, cell_start,
-                    np.full((5, 64), -1), tets, neighbours, triangle_tet, state)  # fmt: skip
+        split_cells(c, c + 1, 100, each, numbers, np.full((5, 64), -1), fans)
     return cell_start, tets, neighbours, triangle_tet, state.tolist()
 
 
