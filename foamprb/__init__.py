@@ -76,9 +76,13 @@ Models of users:
     log_ratio           an accurate logarithm near 1, for energies
 """
 
+import time
 from importlib.metadata import version
 
 import lazy_loader
+
+started = time.perf_counter()
+"""Start of the program, s, for the log."""
 
 # Loading numba and VTK takes a second, which `foamprb -help` should not cost.
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -171,4 +171,5 @@ __all__ = [
     "set_rest_shape",
     "spheres",
 ]
+started: float
 __version__: str

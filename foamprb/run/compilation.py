@@ -13,9 +13,13 @@ import os
 import pickle
 import subprocess
 import sys
-from contextlib import suppress
+import threading
+import time as clock
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 
 import numpy as np
+from numba.core import event
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
@@ -32,25 +36,30 @@ __all__ = ["Compilation", "compile_all", "compile_run"]
 
 log = logging.getLogger("foamprb")
 
+_TICK, _BETWEEN_LINES = 1.0, 30.0
+"""Time between two looks whether something compiles, and between two lines of the log, s."""
+
 
 class Compilation:
-    """Second process that compiles a loop; a run does not depend on its success.
+    """Compilation for one run, by this process and a second one; a run does not depend on the second."""
 
-    Parameters
-    ----------
-    tracker
-        The loop that the settings select, as far as they determine it without the flow.
-    flow
-        Class of the flow.
-    """
-
-    def __init__(
-        self, tracker: Tracker, flow: type[MeshFlow] | type[SeriesFlow] | type[RotatingFlow]
-    ) -> None:
+    def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
+        self._span: tuple[float, float] | None = None
+        """First and last time at which something was compiled, s."""
+
+    def begin(self, tracker: Tracker, flow: type[MeshFlow] | type[SeriesFlow] | type[RotatingFlow]) -> None:
+        """Start the second process, if a loop is not compiled and a processor is to spare.
+
+        Parameters
+        ----------
+        tracker
+            The loop that the settings select, as far as they determine it without the flow.
+        flow
+            Class of the flow.
+        """
         if tracker.compiled or available_threads() == 1:
             return
-        log_compiling()
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-m", __name__],
             stdin=subprocess.PIPE,
@@ -63,10 +72,57 @@ class Compilation:
         with suppress(BrokenPipeError), self._process.stdin as pipe:
             pickle.dump((tracker, flow), pipe)
 
+    @contextmanager
+    def shown(self) -> Iterator[None]:
+        """Show the elapsed time while something compiles: on a terminal in one line, else in the log.
+
+        After an error the second process is ended.
+        """
+        ended = threading.Event()
+        with event.install_recorder("numba:compile") as compiled:
+            thread = threading.Thread(target=self._show, args=(compiled.buffer, ended), daemon=True)
+            thread.start()
+            try:
+                yield
+            except BaseException:
+                self.stop()
+                raise
+            finally:
+                ended.set()
+                thread.join()
+
+    def _show(self, events: list[tuple[float, event.Event]], ended: threading.Event) -> None:
+        terminal, last = sys.stderr.isatty(), 0.0
+        # The reader of the log may have gone.
+        with suppress(BrokenPipeError):
+            while not ended.wait(_TICK):
+                here = sum(1 if one.is_start else -1 for _, one in events)
+                if not here and (self._process is None or self._process.poll() is not None):
+                    continue
+                now = clock.perf_counter()
+                if self._span is None:
+                    log.info("Compiling the formulas, once; the code is kept in %s", cache_directory())
+                began, _ = self._span = (now, now) if self._span is None else (self._span[0], now)
+                text = f"Compiling: {now - began:.0f} s"
+                if terminal:
+                    # The next line of the log begins in the first column.
+                    print(f"\x1b[2K{text}", end="\r", file=sys.stderr, flush=True)
+                elif now - max(began, last) >= _BETWEEN_LINES:
+                    log.info(text)
+                    last = now
+            if terminal:
+                print("\x1b[2K", end="", file=sys.stderr, flush=True)
+
     def wait(self) -> None:
         """Wait until the process has ended."""
         if self._process is not None:
             self._process.wait()
+
+    def log_end(self) -> None:
+        """Log how long the compilation took, if it was noticed."""
+        if self._span is not None:
+            log.info("Compiled in %.0f s", self._span[1] - self._span[0])
+            self._span = None
 
     def stop(self) -> None:
         """End the process; code compiled so far stays in the cache."""
@@ -76,12 +132,7 @@ class Compilation:
             atexit.unregister(self.stop)
 
 
-def log_compiling() -> None:
-    """Log that the particle loop is being compiled."""
-    log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
-
-
-def compile_run(cloud: Cloud, compilation: Compilation | None, alone: bool) -> None:
+def compile_run(cloud: Cloud, compilation: Compilation, alone: bool) -> None:
     """Compile the code of a run; no-op for compiled code.
 
     Parameters
@@ -89,22 +140,21 @@ def compile_run(cloud: Cloud, compilation: Compilation | None, alone: bool) -> N
     cloud
         The cloud, before its first step.
     compilation
-        The second process, if there is one.
+        Of the run.
     alone
         Whether this process takes all steps, so that it needs the loop.
     """
-    arguments = cloud.make_ready()
-    if compilation is not None:
+    with compilation.shown():
+        arguments = cloud.make_ready()
         compilation.wait()
-    # The thread that writes measures the particles, and code may not be linked in two threads at once.
-    first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
-    first.status[:] = Status.ACTIVE
-    context(first, cloud.flow, cloud.medium.mu, cloud.time)
-    if not cloud.tracker.compiled:
-        log_compiling()
-    if alone:
-        with compiling_libs():
-            cloud.tracker.compile(arguments)
+        # The thread that writes measures the particles, and code may not be linked in two threads at once.
+        first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
+        first.status[:] = Status.ACTIVE
+        context(first, cloud.flow, cloud.medium.mu, cloud.time)
+        if alone:
+            with compiling_libs():
+                cloud.tracker.compile(arguments)
+    compilation.log_end()
 
 
 def compile_all() -> None:

@@ -6,7 +6,7 @@ import logging
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
@@ -67,8 +67,7 @@ class Job:
     settings: Settings
     cloud: Cloud
     functions: CloudFunctions
-    compilation: Compilation | None = None
-    """Second process that compiles the loop, if there is one."""
+    compilation: Compilation = field(default_factory=Compilation)
     output: Path | None = None
     """Folder of the results instead of ``postProcessing`` in the case."""
     following: Following | None = None
@@ -181,11 +180,13 @@ def prepare(
     needed = dict.fromkeys(name for f in settings.functions.values() for name in f.needed_fields)
     source = replace(source, sampled=tuple(needed))
     rotating = bool(rotations_of(case, source))
-    compilation = _compile(settings, rotating) if precompile else None
+    compilation = Compilation()
+    if precompile:
+        compilation.begin(*_loop(settings, rotating))
     output = None if output is None else Path(output)
     following = None
-    try:
-        log.info("Reading flow of case %s", case if source.file is None else source.file)
+    log.info("Reading flow of case %s", case if source.file is None else source.file)
+    with compilation.shown():
         flow = None if flows is None or settings.solution.transient else flows.get(source)
         if follow is not None:
             following = _follow(settings, time, source, output, follow, ranks)
@@ -204,11 +205,7 @@ def prepare(
         if following is not None:
             _wait_for_injections(settings, following)
         job = assemble(settings, flow, threads, following is not None, ranks)
-        return replace(job, compilation=compilation, output=output, following=following)
-    except BaseException:
-        if compilation is not None:
-            compilation.stop()
-        raise
+    return replace(job, compilation=compilation, output=output, following=following)
 
 
 def time_of_fluid(time: float | str | None) -> float | str:
@@ -216,8 +213,10 @@ def time_of_fluid(time: float | str | None) -> float | str:
     return "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
 
 
-def _compile(settings: Settings, rotating: bool) -> Compilation:
-    """Begin to compile the loop that the settings select, as far as they determine it."""
+def _loop(
+    settings: Settings, rotating: bool
+) -> tuple[Tracker, type[MeshFlow] | type[SeriesFlow] | type[RotatingFlow]]:
+    """Return the loop that the settings select, as far as they determine it, and the class of the flow."""
     scheme = settings.solution.integrationSchemes.shape
     models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
     shaped = any(not isinstance(injection.shape, Sphere) for injection in settings.injections)
@@ -227,7 +226,7 @@ def _compile(settings: Settings, rotating: bool) -> Compilation:
     )
     flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
-    return Compilation(Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow)
+    return Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow
 
 
 def likely_integrator(settings: Settings) -> str:

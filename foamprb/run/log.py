@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+import foamprb
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Stepper, explain
 from foamprb.cloud.integrators.paper import PAPER
@@ -113,7 +114,6 @@ class RunLog:
 
     def __init__(self, job: Job) -> None:
         self._job = job
-        self._started, self._cpu = clock.perf_counter(), clock.process_time()
         failed = np.sort(np.concatenate(job.cloud.at_homes(_failed_of, _MAX_LISTED_FAILURES)))
         self._listed = set(failed[:_MAX_LISTED_FAILURES].tolist())
         """Numbers of failed particles that need no line; no more than lines."""
@@ -161,8 +161,9 @@ class RunLog:
         log.info("    with a step below deltaT/10     = %.3g %%", 100.0 * sum(short) / n)
 
     def _log_clocks(self) -> None:
-        cpu, wall = clock.process_time() - self._cpu, clock.perf_counter() - self._started
-        log.info("ExecutionTime = %.2f s  ClockTime = %.2f s\n", cpu, wall)
+        """Log the times since the start of the program, as OpenFOAM does."""
+        wall = clock.perf_counter() - foamprb.started
+        log.info("ExecutionTime = %.2f s  ClockTime = %.2f s\n", clock.process_time(), wall)
 
     def _log_failures(self, stepper: Stepper) -> None:
         """Log the particles that have failed since the last time, up to a number in all."""

@@ -1,12 +1,16 @@
 """A second process compiles the loop while the flow is read; its code is that of the first process."""
 
+import io
+import logging
 import shutil
 import subprocess
+import time
 
 import numba
 import numpy as np
 import pytest
 from mesh_shapes import block
+from numba.core import event
 from paths import PIPE
 
 import foamprb
@@ -41,6 +45,12 @@ def loop():
     )
 
 
+def begun(tracker, flow):
+    compilation = Compilation()
+    compilation.begin(tracker, flow)
+    return compilation
+
+
 @pytest.fixture
 def two_processors(tmp_path, monkeypatch):
     """An empty cache, and a processor to spare."""
@@ -52,7 +62,7 @@ def two_processors(tmp_path, monkeypatch):
 def test_one_processor_compiles_alone(two_processors, monkeypatch):
     monkeypatch.setattr("foamprb.run.compilation.available_threads", lambda: 1)
     monkeypatch.setattr("foamprb.run.compilation.subprocess.Popen", lambda *_, **__: pytest.fail("a process"))
-    Compilation(loop(), MeshFlow).wait()
+    begun(loop(), MeshFlow).wait()
 
 
 @pytest.mark.usefixtures("two_processors")
@@ -74,7 +84,7 @@ def test_no_process_outlives_an_error_in_the_input(tmp_path, monkeypatch, capsys
 @pytest.mark.usefixtures("two_processors")
 def test_a_stopped_process_is_not_waited_for():
     tracker = loop()
-    compilation = Compilation(tracker, MeshFlow)
+    compilation = begun(tracker, MeshFlow)
     compilation.stop()
     compilation.stop()
     compilation.wait()
@@ -85,8 +95,40 @@ def test_a_stopped_process_is_not_waited_for():
 def test_a_process_that_cannot_start_is_ignored(monkeypatch):
     monkeypatch.setattr("foamprb.run.compilation.sys.executable", "/bin/false")
     tracker = loop()
-    Compilation(tracker, MeshFlow).wait()
+    begun(tracker, MeshFlow).wait()
     assert not tracker.compiled
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize("terminal", [False, True])
+def test_the_time_of_compilation_is_shown_while_something_compiles(terminal, monkeypatch, caplog):
+    monkeypatch.setattr("foamprb.run.compilation._TICK", 1e-3)
+    monkeypatch.setattr("foamprb.run.compilation._BETWEEN_LINES", 1e-2)
+    monkeypatch.setattr("sys.stderr", screen := Terminal() if terminal else io.StringIO())
+    compilation = Compilation()
+
+    def wait_for(n):
+        line = "\x1b[2KCompiling: 0 s\r"
+        while (screen.getvalue().count(line) if terminal else caplog.messages.count("Compiling: 0 s")) < n:
+            time.sleep(1e-3)
+
+    with caplog.at_level(logging.INFO, "foamprb"):
+        with compilation.shown():
+            time.sleep(0.02)
+            assert not caplog.messages
+            with event.trigger_event("numba:compile"):
+                wait_for(3)
+        compilation.log_end()
+    first, *between, last = caplog.messages
+    assert first.startswith("Compiling the formulas, once; the code is kept in ")
+    assert last == "Compiled in 0 s"
+    assert set(between) == (set() if terminal else {"Compiling: 0 s"})
+    # At the end the line is erased.
+    assert ("\r\x1b[2K" in screen.getvalue()) == terminal
 
 
 @pytest.mark.parametrize("make", [steady, transient])
@@ -118,7 +160,7 @@ def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
     p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
     cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, models)
     assert not cloud.tracker.compiled
-    Compilation(loop(), type(flow)).wait()
+    begun(loop(), type(flow)).wait()
     # It runs no code of the current folder.
     assert not (tmp_path / "executed").exists()
     assert cloud.tracker.compiled

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import logging
+import re
+import time
 
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
 from small_clouds import box_cloud
 
+import foamprb
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.measures import path_stokes_number
@@ -91,6 +94,16 @@ def test_steps_of_the_last_tracking_step_are_counted(caplog):
         f"{mean:.3g} in the mean, {int(cloud.particles.substeps[moved].max())} at most" in caplog.messages[0]
     )
     assert caplog.messages[1].endswith("%")
+
+
+def test_clocks_begin_with_the_program(caplog, monkeypatch):
+    monkeypatch.setattr(foamprb, "started", time.perf_counter() - 398.0)
+    job = type("Job", (), {"cloud": box_cloud("stokes")})
+    with caplog.at_level(logging.INFO, "foamprb"):
+        log.RunLog(job)._log_clocks()
+    cpu, wall = map(float, re.findall(r"= (\S+) s", caplog.messages[0]))
+    assert 398.0 <= wall < 400.0
+    assert cpu == pytest.approx(time.process_time(), abs=1.0)
 
 
 @pytest.mark.parametrize(
