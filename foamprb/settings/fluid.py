@@ -67,11 +67,8 @@ class ConstantProperties:
         Shape | None,
         Meaning("[shape at rest](#shape); an injection model may have its own", default="sphere"),
     ] = None
-    parcelTypeId: Annotated[None, NoEffect("particles are distinguished by their injection model")] = None
     constantVolume: Annotated[None, _NO_MASS_TRANSFER] = None
     rhoMin: Annotated[None, _NO_MASS_TRANSFER] = None
-    minParcelMass: Annotated[None, _NO_MASS_TRANSFER] = None
-    minParticleMass: Annotated[None, _NO_MASS_TRANSFER] = None
     alphaMax: Annotated[None, NoEffect("the suspension is dilute, particles do not meet")] = None
 
     @staticmethod

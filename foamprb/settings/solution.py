@@ -176,9 +176,6 @@ class Solution:
     ] = None
     sourceTerms: Annotated[None, _NO_SOURCES] = None
     averagingMethod: Annotated[None, _NO_SOURCES] = None
-    averagingMethods: Annotated[None, _NO_SOURCES] = None
-    calcFrequency: Annotated[None, _NO_SOURCES] = None
-    resetSourcesOnStartup: Annotated[None, _NO_SOURCES] = None
 
     @property
     def stride(self) -> int:

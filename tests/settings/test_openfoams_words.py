@@ -20,7 +20,7 @@ solution
 }
 constantProperties
 {
-    parcelTypeId 1; rhoMin 1e-14; minParcelMass 1e-14; constantVolume false; alphaMax 0.8;
+    rhoMin 1e-14; constantVolume false; alphaMax 0.8;
     rho0 1050; youngsModulus 4e7; poissonsRatio 0.4;
 }
 subModels
@@ -72,8 +72,8 @@ CHANGES = [
     ("pairCollision;", "none;"),
     ("packingModel implicit", "packingModel none"),
 ]  # fmt: skip
-NOTES = ["maxCo", "rho", "mu", "rho.water", "averagingMethod", "sourceTerms", "parcelTypeId", "rhoMin",
-         "minParcelMass", "constantVolume", "alphaMax", "pairCollisionCoeffs", "implicitCoeffs"]  # fmt: skip
+NOTES = ["maxCo", "rho", "mu", "rho.water", "averagingMethod", "sourceTerms", "rhoMin",
+         "constantVolume", "alphaMax", "pairCollisionCoeffs", "implicitCoeffs"]  # fmt: skip
 
 
 @pytest.fixture

@@ -26,7 +26,6 @@ from foamprb.dictionary.constraints import (
     Bounds,
     Constant,
     Meaning,
-    NoEffect,
     NonNegative,
     Positive,
     Vector3,
@@ -214,8 +213,6 @@ class PatchFlowRateInjection(Injection):
     concentration: Annotated[Constant, Positive, Meaning("factor of `parcelConcentration`", "1")] = _ONE
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
-    phi: Annotated[str, NoEffect("the inflow is that of the velocity")] = "phi"
-    rho: Annotated[str, NoEffect("the inflow is that of the velocity")] = "rho"
 
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
         """Return random places on the patch, as the inflow at the times of release.

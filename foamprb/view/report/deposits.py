@@ -1,4 +1,4 @@
-"""Particles per area that stick to a wall, on its triangles and on the unrolled wall."""
+"""Particles per area that stick to a wall, on the unrolled wall."""
 
 from __future__ import annotations
 
@@ -37,12 +37,8 @@ class Deposits(NamedTuple):
     """Edges of the bins along both coordinates, m; (p + 1,) and (q + 1,)."""
     density: Floats
     """Particles per area, (p, q), 1/m²; NaN outside the wall."""
-    triangles: Floats
-    """Density on each triangle of the surface, (t,), 1/m²."""
     points: Floats
     """Coordinates of the particles, (n, 2), m."""
-    places: Floats
-    """Positions of the particles, (n, 3), m."""
 
     @property
     def few(self) -> bool:
@@ -87,8 +83,6 @@ def deposits(surface: Surface, x: Floats) -> Deposits:
     counts = np.histogram2d(at[:, 0], at[:, 1], bins=edges)[0]
     with np.errstate(invalid="ignore", divide="ignore"):
         density = np.where(wall > 0.0, counts / wall, np.nan)
-    middles = unrolled(surface.centres)
-    i, j = (np.clip(np.searchsorted(edges[k], middles[:, k]) - 1, 0, bins[k] - 1) for k in range(2))
     names = ("along", "around") if rolled else ("along", "across")
     return Deposits(
         surface.name,
@@ -97,9 +91,7 @@ def deposits(surface: Surface, x: Floats) -> Deposits:
         names,
         (edges[0], edges[1]),
         density,
-        np.nan_to_num(density[i, j]),
         at,
-        x,
     )
 
 

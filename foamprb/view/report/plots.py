@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.view.colours import NAMES, readable
-from foamprb.view.geometry import Geometry
 from foamprb.view.libraries import load
 from foamprb.view.report.deposits import FEW, Deposits
 
@@ -22,7 +21,6 @@ __all__ = [
     "by_origin",
     "curves",
     "histogram",
-    "on_geometry",
     "shares",
     "unrolled",
 ]
@@ -264,53 +262,3 @@ def unrolled(found: Deposits) -> Plot:
         axes.set(xlabel=f"{found.across[0]} {found.name} [{name}]", ylabel=f"{found.across[1]} [{name}]")
 
     return _plot(draw)
-
-
-def on_geometry(geometry: Geometry, walls: dict[str, Deposits]) -> Plot:
-    """Return the particles per area on all walls, seen from two sides; nearer parts hide others."""
-    corner = np.concatenate([surface.points[surface.triangles] for surface in geometry.surfaces])
-    value = np.concatenate([
-        np.full(len(surface.triangles), np.nan)
-        if surface.name not in walls
-        else np.zeros(len(surface.triangles))
-        if walls[surface.name].few
-        else walls[surface.name].triangles
-        for surface in geometry.surfaces
-    ])  # fmt: skip
-    extent = np.ptp(corner.reshape(-1, 3), axis=0)
-    hidden = int(np.argmin(extent)) if geometry.flat is None else int(np.argmax(np.abs(geometry.flat)))
-    first, second = (axis for axis in range(3) if axis != hidden)
-    factor, name = readable("m", float(extent.max()))
-    # In a flat case the walls appear as lines.
-    sides, width = ((1.0, -1.0), 0.2) if geometry.flat is None else ((1.0,), 4.0)
-
-    def draw(figure: Any, axes: Any) -> None:
-        axes.remove()
-        panels = np.atleast_1d(figure.subplots(len(sides), 1, sharex=True))
-        high = float(np.nanmax(value)) if np.isfinite(value).any() else 1.0
-        for panel, side in zip(panels, sides, strict=True):
-            order = np.argsort(side * corner[:, :, hidden].mean(axis=1))
-            order = order[np.isfinite(value[order])]
-            shown = load("matplotlib.collections").PolyCollection(
-                corner[order][:, :, [first, second]] / factor, array=value[order], edgecolors="face",
-                linewidths=width, rasterized=True,
-            )  # fmt: skip
-            shown.set_clim(0.0, high or 1.0)
-            panel.add_collection(shown)
-            edges = geometry.edges[:, :, [first, second]] / factor
-            lines = load("matplotlib.collections").LineCollection(edges, colors=_SOFT, linewidths=0.5)
-            panel.add_collection(lines)
-            for wall in walls.values():
-                if wall.few:
-                    dots = wall.places[:, [first, second]] / factor
-                    panel.plot(*dots.T, "o", color=FATES["stuck"], markersize=3.0)
-            panel.autoscale_view()
-            panel.set_aspect("equal")
-            panel.grid(False)
-            panel.set_title(f"seen from {'+' if side > 0.0 else '−'}{'xyz'[hidden]}", loc="left")
-            panel.set_ylabel(f"{'xyz'[second]} [{name}]")
-        panels[-1].set_xlabel(f"{'xyz'[first]} [{name}]")
-        if not all(wall.few for wall in walls.values()):
-            _colour_bar(figure, shown, list(panels))
-
-    return _plot(draw, height=(2.6 if len(sides) > 1 else 3.6) * len(sides) + 0.4)

@@ -255,11 +255,7 @@ def _deposition(given: _Given) -> PageSection | None:
             for name, own in walls.items()
         ],
     )
-    drawn = given.figure(
-        "depositsOnGeometry",
-        plots.on_geometry(geometry, walls),
-        "Particles per area on the walls, in bins of about eight particles; lines are edges of the geometry.",
-    )
+    drawn = ""
     for name, own in sorted(walls.items(), key=lambda item: -item[1].number)[:_MOST_WALLS]:
         how = "unrolled about its axis" if own.across[1] == "around" else "in its plane"
         caption = f"{name}, {how}: particles per area; dots are particles."

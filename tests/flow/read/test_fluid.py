@@ -250,7 +250,7 @@ BLOOD = "transportModel BirdCarreau; BirdCarreauCoeffs { nu0 5.28e-5; nuInf 3.25
         (
             "phases (water air); water { nu 1; } air { nu 1; }",
             (),
-            ["phases water, air: see transportProperties"],
+            ["transportProperties has none that is read"],
         ),
         (
             "thermoType { transport sutherland; } mixture { }",
