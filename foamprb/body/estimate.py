@@ -8,7 +8,6 @@ from typing import NamedTuple
 from foamprb.body.brownian import BOLTZMANN
 from foamprb.body.lift import PLANE_CHANNEL, duct_coefficient, hinges
 from foamprb.body.lift import lift_coefficient as slip_lift_coefficient
-from foamprb.body.morphology import drop_breakup, recovery_of_drop
 
 
 class SoftSphere(NamedTuple):
@@ -83,21 +82,6 @@ class AcrossForces(NamedTuple):
     """Weight less buoyancy; without sign."""
 
 
-class Drop(NamedTuple):
-    """Numbers of a drop in simple shear; see :func:`estimate_drop`."""
-
-    ratio: float
-    """λ, viscosity over that of the fluid."""
-    capillary_number: float
-    """μ_f γ̇ R/σ."""
-    deformation: float
-    """Taylor's D = (19λ + 16)/(16λ + 16) Ca of small deformation."""
-    breakup: float
-    """Capillary number beyond which it breaks up; infinite if there is none."""
-    relaxation_time: float
-    """μ_f R/(σ f₁), s."""
-
-
 def shear_modulus(capillary_number: float, mu_f: float, shear_rate: float) -> float:
     """Return μ_s = μ_f γ̇/Ca, Pa."""
     return mu_f * shear_rate / capillary_number
@@ -163,14 +147,6 @@ def across_forces(sphere: SoftSphere, around: Surroundings, width: float = inf) 
     slip = slip_lift_coefficient(w, around.shear_rate, R, around.rho, around.mu) * around.shear_rate * w
     drag = 6.0 * pi * around.mu * R
     return AcrossForces(duct, drag * e.lift_speed, float(slip), drag * w)
-
-
-def estimate_drop(R: float, sigma: float, eta: float, around: Surroundings) -> Drop:
-    """Return the numbers of a drop with radius R, m, surface tension σ, N/m, and viscosity η, Pa s."""
-    ratio, time = eta / around.mu, around.mu * R / sigma
-    Ca = time * around.shear_rate
-    D = (19.0 * ratio + 16.0) / (16.0 * ratio + 16.0) * Ca
-    return Drop(ratio, Ca, D, drop_breakup(ratio), time / recovery_of_drop(ratio))
 
 
 def _delayed(t: float, tau: float) -> float:

@@ -112,25 +112,6 @@ def drop_growth(l_f: Tensor, ratio: Scalar, time: Scalar) -> tuple[Tensor, Scala
     return scale(time, growing), 0.5 * recovery_of_drop(ratio)
 
 
-def drop_breakup(ratio: float) -> float:
-    """Return the capillary number beyond which a drop breaks up in simple shear; infinite if there is none.
-
-    The root of Ca √(f₂² − 1) = f₁, see :func:`drop_growth`, by bisection.
-    """
-    low, high = 0.0, 1e3
-    f1 = recovery_of_drop(ratio)
-
-    def breaks(Ca: float) -> bool:
-        return bool(Ca * Ca * (strain_of_drop(ratio, Ca) ** 2 - 1.0) > f1 * f1)
-
-    if not breaks(high):
-        return np.inf
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if breaks(middle) else (middle, high)
-    return high
-
-
 def drop_energy(_I1: Scalar, I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar) -> Scalar:
     """Return w₀ = ³⁄₂ μ ln (I₂/3) − 2 μ ln J + ½ (λ + ⅔ μ) ln² J, J/m³: its stress is μ (I − g S⁻¹)."""
     log_J = log_ratio(J)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from foamprb.errors import InputError
 
 if TYPE_CHECKING:
-    from foamprb.body.estimate import AcrossForces, Surroundings
+    from foamprb.body.estimate import AcrossForces
     from foamprb.parallel.ranks import Ranks
 
 Fact: TypeAlias = tuple[str, float, str]
@@ -28,16 +28,11 @@ _NUMBERS = (
     ("--channelWidth", "channelWidth", "W", "distance of the walls of a plane channel, m", math.inf),
     ("--temperature", "temperature", "T", "temperature, K [293.15]", 293.15),
     ("--gravity", "gravity", "G", "gravity, m/s2 [9.81]", 9.81),
-    ("--epsilon", "epsilon", "EPS", "turbulent dissipation, m2/s3 [0, laminar]", 0.0),
-    ("--viscosity", "viscosity", "ETA", "viscosity of a drop's liquid, Pa s [that of the fluid]", 0.0),
-    ("--surfacePoissonsRatio", "surfacePoissonsRatio", "NU", "of a capsule's membrane [0.5]", 0.5),
 )
-_MAY_VANISH = ("gravity", "epsilon", "viscosity")
+_MAY_VANISH = ("gravity",)
 _STIFFNESS = (
     ("--Ca", "Ca", "CA", "capillary number, mu*rate/modulus"),
     ("--shearModulus", "shearModulus", "G", "shear modulus of the particle, Pa"),
-    ("--surfaceShearModulus", "surfaceShearModulus", "GS", "that of a capsule's membrane, N/m"),
-    ("--surfaceTension", "surfaceTension", "SIGMA", "surface tension of a drop, N/m"),
 )
 
 
@@ -51,7 +46,6 @@ def declare(parser: argparse.ArgumentParser) -> None:
     stiffness = parser.add_mutually_exclusive_group(required=True)
     for option, name, metavar, text in _STIFFNESS:
         stiffness.add_argument(option, dest=name, type=float, metavar=metavar, help=text)
-    parser.add_argument("--blood", action="store_true", help="also the haemolysis of red cells")
 
 
 def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
@@ -71,7 +65,6 @@ def lines(arguments: argparse.Namespace) -> list[str]:
     # Slow imports, which other commands do not need.
     from foamprb.body.bonds import force_on_held_sphere
     from foamprb.body.estimate import SoftSphere, Surroundings, across_forces, estimate, shear_modulus
-    from foamprb.body.material import modulus_of_capsule
 
     given = vars(arguments)
     names = (*(name for _, name, *_ in _NUMBERS), *(name for _, name, *_ in _STIFFNESS))
@@ -87,88 +80,43 @@ def lines(arguments: argparse.Namespace) -> list[str]:
     around = Surroundings(
         given["mu"], given["rhoInf"], given["shearRate"], h, given["temperature"], given["gravity"]
     )
-    membrane, sigma = given["surfaceShearModulus"], given["surfaceTension"]
-    if membrane:
-        modulus = modulus_of_capsule(membrane, given["surfacePoissonsRatio"], 0.5 * d)
-    elif sigma:
-        modulus = 2.0 * sigma / d
-    else:
-        modulus = given["shearModulus"] or shear_modulus(given["Ca"], given["mu"], given["shearRate"])
+    modulus = given["shearModulus"] or shear_modulus(given["Ca"], given["mu"], given["shearRate"])
     sphere = SoftSphere(d, given["rho0"], modulus)
     e = estimate(sphere, around, given["residenceTime"])
-    facts = _drop(given, around) if sigma else [
-        ("shear modulus [Pa]", modulus, "of the solid in place of the capsule" if membrane else ""),
-        (
-            "capillary number",
-            e.capillary_number,
-            "above 0.25 a capsule is stiffer than its solid" if membrane
-            else "below 1e-3 a rigid sphere suffices",
-        ),
-    ]  # fmt: skip
-    facts += [
+    lift_off = "within the particle: it does not lift off"
+    facts = [
+        ("shear modulus [Pa]", modulus, ""),
+        ("capillary number", e.capillary_number, "below 1e-3 a rigid sphere suffices"),
         ("shear stress [Pa]", given["mu"] * given["shearRate"], "of the fluid"),
         ("Reynolds number", e.reynolds_number, "above 0.01 to 0.1 fluid inertia lifts: see -channelWidth"),
         ("Stokes number", e.stokes_number, "below 0.01 the particle follows the flow"),
         ("Peclet number", e.peclet_number, "below 10 BrownianMotion turns and moves it"),
-        (
-            "settling speed [m/s]",
-            e.settling_speed,
-            "of a solid; a drop is faster, 1.5 times at most" if sigma else "",
-        ),
+        ("settling speed [m/s]", e.settling_speed, ""),
         ("its Reynolds number", e.settling_reynolds_number, "above 0.1 it is slower: drag exceeds Stokes'"),
         ("diffusivity [m2/s]", e.diffusion_coefficient, ""),
         ("settling length [m]", e.settling_length, "in the residence time; so is the next"),
         ("diffusion length [m]", e.diffusion_length, ""),
+        ("thermal strain", e.thermal_strain, "by Brownian motion of the shape"),
+        (
+            "turning [1/s]",
+            0.75 * e.diffusion_coefficient / (0.5 * d) ** 2,
+            "rotational diffusivity; a swimmer keeps its direction for half of the inverse",
+        ),
+        (
+            "force if stuck [N]",
+            force_on_held_sphere(0.5 * d, given["shearRate"], given["mu"]),
+            "of this shear on a sphere at a wall, and on its bonds: adhere",
+        ),
+        ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),
+        ("lift length [m]", e.lift_length, "in the residence time"),
+        (
+            "lift-off height [m]",
+            e.lift_height,
+            "where lift balances weight" if e.lift_height > 0.5 * d else lift_off,
+        ),
     ]
-    if not sigma:
-        lift_off = "within the particle: it does not lift off"
-        facts += [
-            ("thermal strain", e.thermal_strain, "by Brownian motion of the shape"),
-            (
-                "turning [1/s]",
-                0.75 * e.diffusion_coefficient / (0.5 * d) ** 2,
-                "rotational diffusivity; a swimmer keeps its direction for half of the inverse",
-            ),
-            (
-                "force if stuck [N]",
-                force_on_held_sphere(0.5 * d, given["shearRate"], given["mu"]),
-                "of this shear on a sphere at a wall, and on its bonds: adhere",
-            ),
-            ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),
-            ("lift length [m]", e.lift_length, "in the residence time"),
-            (
-                "lift-off height [m]",
-                e.lift_height,
-                "where lift balances weight" if e.lift_height > 0.5 * d else lift_off,
-            ),
-        ]
-    across = across_forces(sphere, around, width)
-    if sigma:
-        across = across._replace(wall_lift=0.0, slip_lift=0.0)
-    facts += _across(across)
-    if given["blood"]:
-        facts += _haemolysis(given)
-    if given["epsilon"] > 0.0:
-        facts += _eddies(given, modulus)
+    facts += _across(across_forces(sphere, around, width))
     return [f"{name:22s} {value:<12.4g} {text}".rstrip() for name, value, text in facts]
-
-
-def _drop(given: dict[str, Any], around: Surroundings) -> list[Fact]:
-    """Return the facts of a drop."""
-    from foamprb.body.estimate import estimate_drop
-
-    eta = given["viscosity"] or given["mu"]
-    drop = estimate_drop(0.5 * given["diameter"], given["surfaceTension"], eta, around)
-    more = (
-        "never breaks up in shear" if drop.breakup == math.inf else "at it and beyond it breaks up in shear"
-    )
-    return [
-        ("viscosity ratio", drop.ratio, "of the drop over the fluid"),
-        ("capillary number", drop.capillary_number, "mu*rate*R/sigma; below 1e-3 it stays round"),
-        ("Taylor's D", drop.deformation, "for small deformation"),
-        ("breakup number", drop.breakup, more),
-        ("relaxation time [s]", drop.relaxation_time, ""),
-    ]
 
 
 def _across(forces: AcrossForces) -> list[Fact]:
@@ -184,27 +132,4 @@ def _across(forces: AcrossForces) -> list[Fact]:
     return [
         (texts[name][0], value, texts[name][1] + ("; the largest" if name == largest else ""))
         for name, value in values.items()
-    ]
-
-
-def _haemolysis(given: dict[str, Any]) -> list[Fact]:
-    """Return the haemolysis in a steady shear for the residence time."""
-    from foamprb.cloudfunctions.haemolysis import POWER_LAWS
-
-    law, tau, t = POWER_LAWS["Giersiepen"], given["mu"] * given["shearRate"], given["residenceTime"]
-    beyond = tau > law.most or t > law.longest
-    text = "by the fluid's stress (Giersiepen); less with memory" + (", out of range" if beyond else "")
-    return [("haemolysis [%]", law.A * tau**law.alpha * t**law.beta, text)]
-
-
-def _eddies(given: dict[str, Any], modulus: float) -> list[Fact]:
-    """Return the facts of the smallest eddies of a turbulent flow."""
-    from foamprb.body.turbulence import kolmogorov_length, kolmogorov_rate
-
-    nu = given["mu"] / given["rhoInf"]
-    rate, length = kolmogorov_rate(given["epsilon"], nu), kolmogorov_length(given["epsilon"], nu)
-    return [
-        ("eddies' shear [1/s]", rate, "of the smallest eddies; not in dispersionModel"),
-        ("their Ca", given["mu"] * rate / modulus, "below 1e-3 they do not deform the particle"),
-        ("their size over d", length / given["diameter"], "below 1 the particle is not small against them"),
     ]

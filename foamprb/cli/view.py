@@ -38,7 +38,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow on the plane [latest]")
     add("--bodies", type=int, metavar="N", help="at most N bodies, evenly spread [100000]")
     add("--maxSize", type=float, default=30.0, metavar="MB",
-        help="largest page; arrays and times that do not fit are left out [30]")  # fmt: skip
+        help="largest page; times that do not fit are left out [30]")  # fmt: skip
     add("--size", default="1600x900", metavar="WxH",
         help="size of a picture or film, pixels [1600x900]")  # fmt: skip
     add("--dark", action="store_true", help="dark background of a picture or film")

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import json
-import zlib
 from collections.abc import Iterable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path, PurePosixPath
-from typing import Any, TypeAlias
+from typing import Any
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import write_text
 from foamprb.results.folder import MANIFEST
 
 FORMAT = 1
-
-Checksum: TypeAlias = list[int]
-"""Size and CRC-32 of a file."""
 
 
 class Manifest:
@@ -106,15 +102,6 @@ class Manifest:
 @cache
 def _name(file: Path, folder: Path) -> str:
     return file.relative_to(folder).as_posix()
-
-
-def checksum(path: Path) -> Checksum:
-    """Return the size and the CRC-32 of a file."""
-    size, code = 0, 0
-    with path.open("rb") as file:
-        while chunk := file.read(1 << 22):
-            size, code = size + len(chunk), zlib.crc32(chunk, code)
-    return [size, code]
 
 
 def _refuse_links(folder: Path, files: Iterable[Path]) -> None:

@@ -34,7 +34,6 @@ from foamprb.results.checkpoint import (
     StoredCheckpoint,
 )
 from foamprb.results.folder import FATES, ResultsFolder
-from foamprb.results.manifest import Checksum, checksum
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd, with_ending
 from foamprb.settings.settings import Settings
 from foamprb.settings.solution import StartFrom
@@ -105,7 +104,6 @@ def checkpoint_of(
     cloud: Cloud | Snapshot,
     functions: Mapping[str, NDArray[Any]],
     entries: Sequence[SnapshotFile],
-    sums: Mapping[str, Checksum],
     marks: Fingerprint,
     parts: Sequence[tuple[int, str]] = (),
     around: Sequence[Sums] = (),
@@ -120,8 +118,6 @@ def checkpoint_of(
         What its cloud functions remember.
     entries
         The snapshots that are written.
-    sums
-        Sizes and checksums of their files, from :func:`checksums`.
     marks
         The run's :func:`fingerprint`.
     parts
@@ -135,7 +131,6 @@ def checkpoint_of(
         "recovered": cloud.recovered,
         "reach": cloud.reach,
         "series": _stems(entries),
-        "sums": sums,
         "fingerprint": marks,
         "times": _times_until(cloud.flow, cloud.time),
         **({"around": list(around)} if around else {}),
@@ -149,12 +144,6 @@ def _arrays_of(p: Particles, memory: Mapping[str, NDArray[Any]]) -> dict[str, ND
     return {f"{PARTICLES}{name}": array for name, array in p._asdict().items()} | {
         f"{FUNCTIONS}{name}": array for name, array in memory.items()
     }
-
-
-def checksums(folder: Path, entries: Sequence[SnapshotFile]) -> dict[str, Checksum]:
-    """Return the sizes and checksums of the files of snapshots, by name."""
-    files = [file for entry in entries for file in files_of(folder / entry.file)]
-    return {file.relative_to(folder).as_posix(): checksum(file) for file in files}
 
 
 def require_choice(folder: ResultsFolder, start_from: StartFrom | None) -> None:
@@ -271,7 +260,7 @@ def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tupl
     Raises
     ------
     InputError
-        If the list has other snapshots, or a file of them is missing or damaged.
+        If the list has other snapshots, or a file of them is missing.
     """
     expected = checkpoint.header["series"]
     try:
@@ -290,10 +279,6 @@ def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tupl
         fault, files = f"a .pvtp file is damaged: {error}", []
     missing = [file.relative_to(pvd.parent) for file in files if not file.exists()]
     fault = f"{missing[0]} is missing" if missing else fault
-    if not fault:
-        now, then = checksums(pvd.parent, entries), checkpoint.header["sums"]
-        changed = [name for name, found in now.items() if found != then.get(name)]
-        fault = f"{changed[0]} was changed or cut after it was written" if changed else ""
     if fault:
         raise InputError(
             f"{where}: the results there are not those of the checkpoint ({fault}). Put them back, or start "

@@ -35,7 +35,7 @@ from foamprb.results.atomic import only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import PARTICLES, Checkpoints, StoredCheckpoint, part_file, parts_of
 from foamprb.results.folder import FAILURES, FATES
-from foamprb.results.manifest import Checksum, Manifest
+from foamprb.results.manifest import Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, Rows, rows_of, write_rows
 from foamprb.results.vtk import Parts
@@ -44,7 +44,6 @@ from foamprb.run.job import Job
 from foamprb.run.restart import (
     Sums,
     checkpoint_of,
-    checksums,
     fingerprint,
     refuse_changes,
     refuse_other_times,
@@ -115,7 +114,6 @@ class Results:
         self._place = _identity(job.folder.path)
         self.finished = False
         """Whether the run had ended before."""
-        self._sums: dict[str, Checksum] = {}
         self._manifest = Manifest(job.folder.path)
         self._fates, self._failures = (job.folder.table(name) for name in (FATES, FAILURES))
         self._snapshot: Snapshot | None = None
@@ -309,9 +307,7 @@ class Results:
         self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]], parts: Sequence[tuple[int, str]]
     ) -> None:
         entries = self._series.entries
-        new = [entry for entry in entries if entry.file not in self._sums]
-        self._sums |= checksums(self._job.folder.path, new)
-        given = self._sums, self._fingerprint, parts, self._around
+        given = self._fingerprint, parts, self._around
         self._checkpoints.write(checkpoint_of(cloud, memory, entries, *given))
 
     def _checkpoint_files(self, stepper: Stepper | None = None) -> list[Path]:
@@ -380,7 +376,6 @@ class Results:
         if self.finished:
             log.info("The run has ended at t = %.12g s: there is nothing to continue.", job.cloud.time)
             return
-        self._sums = checkpoint.header["sums"]
         log.info(
             "Continuing from the checkpoint at t = %.12g s in %s", job.cloud.time, self._checkpoints.folder
         )

@@ -124,8 +124,7 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     rho0 = 1050.0 if rho > 500.0 else 1000.0
     rotating = _rotating(case, flow, source)
     d = diameter(scales, nu, rho0 / rho if len(rotating) > 1 else 0.0)
-    settling = _settling_time(case, source.region, flow, rho0 / rho, d, nu)
-    step, interval, end = times(scales, settling)
+    step, interval, end = times(scales)
     text = f"""\
 // Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{source.options}.
 // Explain an entry: foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
@@ -269,37 +268,10 @@ def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
     return max(rates, key=lambda name: rates[name]), total
 
 
-def _settling_time(case: Path, region: str, flow: MeshFlow, ratio: float, d: float, nu: float) -> float:
-    """Return the time in which particles settle through the domain, s; 0 without gravity.
-
-    Parameters
-    ----------
-    case, region, flow
-        The case with its gravity, and the flow with its domain.
-    ratio, d, nu
-        Density over that of the fluid, diameter, m, and viscosity of the fluid, m²/s.
-    """
-    try:
-        g = np.array(read_gravity(case, region))
-    except InputError:
-        return 0.0
-    extent = float(np.abs(g) @ (flow.bounds[1] - flow.bounds[0])) / (float(g @ g) or math.inf)
-    if ratio == 1.0:
-        return 0.0
-    # The time at the final speed, and that of the free fall before.
-    return extent * 18.0 * nu / (abs(ratio - 1.0) * d * d) + math.sqrt(
-        2.0 * extent * ratio / abs(ratio - 1.0)
-    )
-
-
-def times(scales: FlowScales, settling: float = 0.0) -> tuple[float, float, float]:
-    """Return step, write interval and end of a first run, s: integer multiples of each other, rounded.
-
-    Where nothing flows, the end is the time of ``settling``, s, if that is known.
-    """
+def times(scales: FlowScales) -> tuple[float, float, float]:
+    """Return step, write interval and end of a first run, s: integer multiples of each other, rounded."""
     if scales.speed == 0.0:
-        step = _nice(settling / (20 * _TIMES), up=True) if settling > 0.0 else 0.01
-        return (step, 20.0 * step, 20.0 * _TIMES * step) if settling > 0.0 else (0.01, 0.02, 1.0)
+        return 0.01, 0.02, 1.0
     shortest = scales.duration / _MOST_STEPS
     step = _nice(max(shortest, min(scales.step, scales.duration / (4 * _TIMES))), up=scales.step < shortest)
     steps = _nice(max(1.0, scales.duration / step / _TIMES), up=True)

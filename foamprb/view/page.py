@@ -37,34 +37,24 @@ from foamprb.view.scene import (
 )
 
 _FOLDER = Path(__file__).parent / "page"
-_NOTES, _DESCRIPTION = 400, 2000
-"""Bytes for the note on arrays that are left out, and for the description of an array."""
 
 
 class Page:
     """Packed parts of a page; :meth:`parts` yields the text of the file.
 
-    ``needed`` is its size without optional arrays, and ``wanted`` with all of them, bytes. ``left_out`` names
-    the arrays that do not fit.
+    ``size`` is the number of bytes.
 
     Parameters
     ----------
     scene
         Scene with all its arrays.
-    most_bytes
-        Largest size of the file. Arrays that do not fit are left out, except the array to colour by.
-    order
-        Names of arrays by priority; other arrays follow.
     version
         Version of foamprb.
     notes
         Sentences about what is left out, which the page shows.
     """
 
-    def __init__(
-        self, scene: Scene, most_bytes: int, order: Sequence[str], version: str, notes: Sequence[str] = ()
-    ) -> None:
-        self.left_out: list[str] = []
+    def __init__(self, scene: Scene, version: str, notes: Sequence[str] = ()) -> None:
         self._notes = list(notes)
         self._sections: list[str] = []
         self._version = version
@@ -79,27 +69,15 @@ class Page:
         grid = encode.grid_of(*shown)
         self._header = self._described(0.5 * (high - low)) | self._bodies(grid)
         self._header |= self._surroundings(grid)
-        fields = self._header["fields"] = {}
-        chosen = scene.colour[0]
-        if chosen in bodies.fields:
-            fields[chosen] = self._field(chosen, encode.pack_field(bodies.fields[chosen]))
-        self.needed = self.wanted = sum(len(part.encode()) for part in self.parts())
-        room = most_bytes - self.needed - _NOTES
-        others = [name for name in bodies.fields if name not in fields]
-        for name in sorted(others, key=lambda name: order.index(name) if name in order else len(order)):
-            column = encode.pack_field(bodies.fields[name])
-            size = len(column.data) + _DESCRIPTION
-            self.wanted += size
-            if size > room:
-                self.left_out.append(name)
-            else:
-                room -= size
-                fields[name] = self._field(name, column)
+        names = sorted(bodies.fields, key=lambda name: name != scene.colour[0])
+        self._header["fields"] = {
+            name: self._field(name, encode.pack_field(bodies.fields[name])) for name in names
+        }
+        self.size = sum(len(part.encode()) for part in self.parts())
 
     def parts(self) -> Iterator[str]:
         """Yield the text of the file, piece by piece."""
-        left = [f"Left out for lack of room: {', '.join(self.left_out)}."] if self.left_out else []
-        notes = {"notes": [*self._notes, *left]}
+        notes = {"notes": self._notes}
         header = json.dumps(self._header | notes, ensure_ascii=False, separators=(",", ":"))
         script, style = _text("bundle.js"), _text("page.css")
         texts = {

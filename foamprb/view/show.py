@@ -51,10 +51,6 @@ Floats = NDArray[np.float64]
 
 LATEST = "latestTime"
 DEFAULT_COLOUR = "taylorDeformation"
-ORDER = ("taylorDeformation", "shearRate", "U", "Ca", "t0", "t1", "d", "rho", "age", "capillaryNumber",
-         "angularVelocity", "J", "semiAxes", "stresslet")  # fmt: skip
-"""Arrays by their priority in a page of limited size."""
-
 _BYTES_PER_STATE = 8
 """Least size of a body at one time in a page."""
 MOST_DRAWN = 100_000
@@ -98,7 +94,7 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     path
         The file; by default ``<cloud>.html`` beside the results.
     megabytes
-        Largest size. Times that do not fit are left out, evenly, and then arrays.
+        Largest size. Times that do not fit are left out, evenly.
     version
         Version of foamprb.
 
@@ -140,23 +136,20 @@ def _packed(request: Request, megabytes: float, version: str) -> tuple[Page, Run
         scene = background.scene(gather(run, spread(written, m), known))
         notes = [f"{len(scene.bodies.ids)} of {released} bodies are shown."] if known < released else []
         notes += [f"{m} of {written} times are shown."] if m < written else []
-        return Page(scene, most, ORDER, version, notes)
+        return Page(scene, version, notes)
 
     m = max(1, min(written, most // max(1, known * _BYTES_PER_STATE)))
-    while (page := pack(m)).wanted > most and m > 1:
-        m = max(1, min(m - 1, int(0.98 * m * most / page.wanted)))
+    while (page := pack(m)).size > most and m > 1:
+        m = max(1, min(m - 1, int(0.98 * m * most / page.size)))
     if known < released and request.bodies is None:
         log.warning("%d of %d bodies, evenly spread. -bodies N takes another number.", known, released)
-    if page.needed > most:
+    if page.size > most:
         log.warning("-maxSize %g: even one time takes %.1f MB. -bodies N takes fewer bodies.", megabytes,
-                    page.needed / 1e6)  # fmt: skip
+                    page.size / 1e6)  # fmt: skip
     if m < written:
         log.warning(
             "%d of %d times fit in %g MB, evenly spread. -maxSize allows more.", m, written, megabytes
         )
-    if page.left_out:
-        log.warning("%s: left out, there is no room in %g MB. -maxSize allows more.",
-                    ", ".join(page.left_out), megabytes)  # fmt: skip
     return page, run
 
 

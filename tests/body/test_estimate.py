@@ -10,7 +10,6 @@ from foamprb.body.estimate import (
     Surroundings,
     across_forces,
     estimate,
-    estimate_drop,
     lift_coefficient,
     shear_modulus,
 )
@@ -101,14 +100,3 @@ def test_forces_across_the_flow_of_a_channel():
     assert across_forces(BEAD, WATER).duct_lift == 0.0
     # Away from the wall nearer to it than 0.18 of the width.
     assert across_forces(BEAD, WATER._replace(wall_distance=8e-6), 50e-6).duct_lift > 0.0
-
-
-@pytest.mark.parametrize(("ratio", "breakup"), [(0.1, 0.51909), (1.0, 0.59795), (3.0, 1.80346), (4.0, inf)])
-def test_numbers_of_a_drop(ratio, breakup):
-    drop = estimate_drop(2.5e-6, 1e-5, ratio * 1e-3, WATER)
-    assert drop.ratio == pytest.approx(ratio)
-    assert drop.capillary_number == pytest.approx(0.025)
-    assert drop.deformation == pytest.approx(0.025 * (19 * ratio + 16) / (16 * ratio + 16))
-    assert drop.breakup == pytest.approx(breakup, rel=1e-4)
-    f1 = 40.0 * (ratio + 1.0) / ((2.0 * ratio + 3.0) * (19.0 * ratio + 16.0))
-    assert drop.relaxation_time == pytest.approx(2.5e-4 / f1)

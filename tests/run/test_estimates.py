@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
 from foamprb.body.estimate import SoftSphere, Surroundings, estimate
@@ -37,30 +36,12 @@ def test_stiffness_may_be_the_modulus_and_no_wall_lifts_not(capsys):
     assert found["lift speed [m/s]"] == 0.0
 
 
-def test_a_dissipation_tells_of_the_smallest_eddies(capsys):
-    found = told(capsys, "-shearModulus", "2", "-epsilon", "4")
-    assert found["eddies' shear [1/s]"] == pytest.approx(2000.0)
-    assert found["their Ca"] == pytest.approx(1.0)
-    assert found["their size over d"] == pytest.approx(np.sqrt(1e-6 / 2000.0) / 5e-6, rel=1e-3)
-
-
 def test_it_tells_which_force_across_the_flow_is_the_largest(capsys):
     assert main(["estimate", *NUMBERS, "-Ca", "0.1", "-wallDistance", "20e-6", "-channelWidth", "50e-6"]) == 0
     lines = {line[:22].strip(): line for line in capsys.readouterr().out.splitlines()}
     assert "ductLift" in lines["inertial lift [N]"]
     assert lines["inertial lift [N]"].split()[3].startswith("-")
     assert [name for name, line in lines.items() if "; the largest" in line] == ["weight [N]"]
-
-
-def test_capsules_drops_and_blood_have_their_own_lines(capsys):
-    found = told(capsys, "-surfaceShearModulus", "1e-5", "-surfacePoissonsRatio", "0.5")
-    assert found["shear modulus [Pa]"] == pytest.approx(0.6 * 1e-5 / 2.5e-6)
-    found = told(capsys, "-surfaceTension", "1e-5", "-viscosity", "1e-3")
-    assert found["capillary number"] == pytest.approx(0.025)
-    assert found["breakup number"] == pytest.approx(0.598, rel=1e-3)
-    assert "lift speed [m/s]" not in found
-    found = told(capsys, "-Ca", "0.1", "-blood")
-    assert found["haemolysis [%]"] == pytest.approx(3.62e-5 * 0.1**2.416 * 10.0**0.785, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -72,7 +53,7 @@ def test_capsules_drops_and_blood_have_their_own_lines(capsys):
             ["-Ca", "1", "-wallDistance", "3e-5", "-channelWidth", "5e-5"],
             "wallDistance is 3e-05. Allowed: less than half of channelWidth, 2.5e-05.",
         ),
-        ([], "one of the arguments --Ca --shearModulus --surfaceShearModulus --surfaceTension is required"),
+        ([], "one of the arguments --Ca --shearModulus is required"),
     ],
 )
 def test_wrong_numbers_are_refused(capsys, more, message):

@@ -226,10 +226,6 @@ def test_results_that_are_not_the_runs_are_refused(stopped, capsys):
     assert "lists other times" in message(stopped, capsys, "-resume")
     (folder / "softCloud.pvd").write_text(pvd)
     snapshot = folder / "softCloud_000001.vtp"
-    whole = snapshot.read_bytes()
-    for damaged in (b"", whole[:-100], whole.replace(b'"4"', b'"5"', 1)):
-        snapshot.write_bytes(damaged)
-        assert "softCloud_000001.vtp was changed or cut" in message(stopped, capsys, "-resume")
     snapshot.unlink()
     assert "softCloud_000001.vtp is missing" in message(stopped, capsys, "-resume")
     (folder / "softCloud.pvd").unlink()

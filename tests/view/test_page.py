@@ -71,8 +71,8 @@ class TestContents:
 
     def test_arrays(self, page, moved):
         fields = page.scene["fields"]
-        assert list(fields)[:3] == ["taylorDeformation", "shearRate", "U"]
-        assert {"Ca", "t0", "t1"} <= set(fields)
+        assert next(iter(fields)) == "taylorDeformation"
+        assert {"Ca", "t0", "t1", "shearRate", "U"} <= set(fields)
         spec = fields["taylorDeformation"]
         found = page.field(spec)[..., 0][page.present()]
         stretch = np.linalg.svd(moved.F, compute_uv=False)
@@ -214,24 +214,18 @@ class TestSize:
 
     @pytest.mark.parametrize(
         ("bodies", "times", "limit", "notes"),
-        [
-            (2000, 20, 30.0, r""),
-            (2000, 20, 1.7, r"\d+ of 20 times are shown\."),
-            (7000, 2, 1.0, r"1 of 2 times are shown\. Left out for lack of room: .+\."),
-        ],
+        [(2000, 20, 30.0, r""), (2000, 20, 1.7, r"\d+ of 20 times are shown\.")],
     )
-    def test_times_give_way_first_and_then_arrays(self, tmp_path, capsys, bodies, times, limit, notes):
+    def test_times_give_way(self, tmp_path, capsys, bodies, times, limit, notes):
         write_run(tmp_path, motion(bodies, times), mesh=False)
         path = tmp_path / "page.html"
         assert main(["view", "-case", str(tmp_path), "-output", str(path), "-maxSize", str(limit)]) == 0
         assert path.stat().st_size <= limit * 1e6
         scene = PageReader(path.read_text(encoding="utf-8")).scene
-        said = " ".join(scene["notes"])
-        assert re.fullmatch(notes, said)
+        assert re.fullmatch(notes, " ".join(scene["notes"]))
         assert ("times fit in" in capsys.readouterr().out) == (limit < 30.0)
         assert scene["times"][-1] == pytest.approx(0.1 * (times - 1))
-        assert "taylorDeformation" in scene["fields"]
-        assert (len(scene["fields"]) < 6) == ("Left out" in said)
+        assert len(scene["fields"]) >= 6
 
     def test_of_a_large_run_no_more_times_are_read_than_could_fit(self, tmp_path, monkeypatch):
         write_run(tmp_path, motion(5000, 100), mesh=False)
