@@ -18,7 +18,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
     """Execute the command; return the exit status."""
-    from foamprb.settings.reference import explain
+    from foamprb.settings.help import explain
 
     print("\n".join(explain(arguments.entry)))
     return 0

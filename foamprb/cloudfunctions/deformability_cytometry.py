@@ -9,7 +9,6 @@ from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ellipe
 
 from foamprb.cloudfunctions.base import (
     Memory,
@@ -59,6 +58,8 @@ def outline(B: Floats, view: Floats) -> Outline:
 
     The shadow of {x: x·B⁻¹x ≤ 1} on the plane with the basis P is the ellipse of P B Pᵀ.
     """
+    from scipy.special import ellipe
+
     other = np.eye(3)[int(np.argmin(np.abs(view)))]
     first = np.cross(view, other)
     first /= np.linalg.norm(first)

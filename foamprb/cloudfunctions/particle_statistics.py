@@ -9,7 +9,6 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from foamprb.cloud.measures import as_slice, shapes
 from foamprb.cloud.state import Particles, Status
@@ -160,6 +159,8 @@ def _cell_of(cloud: ObservedCloud, hosts: NDArray[np.int32]) -> NDArray[np.int64
 
 def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:
     """Count particles on each boundary face: the face of their patch with the nearest centre."""
+    from scipy.spatial import cKDTree
+
     counts = np.zeros(len(sizes.areas))
     trees: dict[int, cKDTree] = {}
     for x, patch in cloud.map({}, _stuck):

@@ -27,7 +27,6 @@ from foamprb.cloudfunctions.base import (
 )
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
 from foamprb.flow.fields import FieldValues
-from foamprb.results.vtk import Tracks, write_tracks
 
 __all__ = ["ParticleTracks"]
 
@@ -124,6 +123,8 @@ class ParticleTracks(CloudFunction, ContactObserver):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the paths of the particles that have moved."""
+        from foamprb.results.vtk import Tracks, write_tracks
+
         cloud = cloud.of(memory["row"])
         p = cloud.particles
         tracks = np.flatnonzero((memory["count"] > 1) & (p.status != Status.PENDING))

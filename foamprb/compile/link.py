@@ -25,9 +25,7 @@ from pathlib import Path
 from types import CellType, CodeType, FunctionType, ModuleType
 from typing import TYPE_CHECKING, Any, TypeGuard
 
-import numba
 import numpy as np
-from llvmlite import binding  # type: ignore[import-untyped]
 
 from foamprb.body.tensor import select
 from foamprb.compile.cache import Store
@@ -138,6 +136,8 @@ def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
 
 def is_compiled(dispatcher: Any) -> bool:
     """Return True if a function that :func:`link` returned is compiled, here or in the cache."""
+    import numba
+
     if numba.config.DISABLE_JIT or dispatcher.signatures:
         return True
     stores = _stores.get(id(dispatcher), ())
@@ -233,7 +233,8 @@ def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, call
 
 
 def _key_of(texts: Iterable[str]) -> str:
-    return hashlib.sha256(";".join((_compiler(), *texts)).encode()).hexdigest()[:24]
+    compiler = _compiler(plain=_internals() is None)
+    return hashlib.sha256(";".join((compiler, *texts)).encode()).hexdigest()[:24]
 
 
 def _is_linked(value: Any) -> TypeGuard[FunctionType]:
@@ -260,26 +261,31 @@ def _offsets(value: Any) -> ModuleType:
 
 def _link_select() -> Part:
     """Return the branch that ``select`` is on scalars."""
+    import numba
+
     key = "select"
     if key not in _parts:
         _parts[key] = Part(numba.njit(inline="always")(branch), Keys(key, key))
     return _parts[key]
 
 
-# Cached: a process that has switched to another user may be unable to read it again.
-_version = cache(version)
-
-
-def _compiler() -> str:
+# Cached: a process that has switched to another user may be unable to read a version again.
+@cache
+def _compiler(plain: bool) -> str:
     """Return versions, options and processor, on which machine code depends."""
+    import numba
+
     python = f"{sys.implementation.cache_tag} numba {numba.__version__} {_OWN_CODE}"
-    how = "plain" if _internals() is None else ""
-    return f"{python} llvmlite {_version('llvmlite')} {how} {_processor()}"
+    how = "plain" if plain else ""
+    return f"{python} llvmlite {version('llvmlite')} {how} {_processor()}"
 
 
 @cache
 def _processor() -> str:
     """Return name and features of the processor: several machines may share a home."""
+    import numba
+    from llvmlite import binding  # type: ignore[import-untyped]
+
     with suppress(RuntimeError):
         features = binding.get_host_cpu_features().flatten()
         # From NUMBA_CPU_NAME and NUMBA_CPU_FEATURES.
@@ -295,6 +301,8 @@ def _internals() -> ModuleType | None:
 
 @cache
 def _internals_by(switch: str) -> ModuleType | None:
+    import numba
+
     if switch == "1" or numba.config.DISABLE_JIT:
         return None
     if switch != "0" and not numba.__version__.startswith(f"{TESTED}."):
@@ -311,6 +319,8 @@ def _internals_by(switch: str) -> ModuleType | None:
 
 
 def _compile(function: Callable[..., Any], role: Role, keys: Keys, stages: Mapping[str, Part]) -> Any:
+    import numba
+
     internals = _internals()
     if internals is None:
         return numba.njit(**_OPTIONS, **_OPTIONS_OF[role])(function)

@@ -14,8 +14,6 @@ from itertools import pairwise, zip_longest
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import splu
 
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
@@ -188,6 +186,9 @@ class _Equations:
         others: Callable[[Floats], Floats] | None = None,
         before: int = 0,
     ) -> None:
+        from scipy import sparse
+        from scipy.sparse.linalg import splu
+
         self._rows, self._n_blocks, self._of_all, self._others = rows, n_blocks, of_all, others
         self._n_columns, self._segments = len(block), list(pairwise(segments.tolist()))
         start, diagonal = rows[0], rows[3]

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from foamprb.body import tensor
 from foamprb.body.tensor import Vector, inner, norm
@@ -168,6 +167,8 @@ def grouped(rows: NDArray[Any], columns: NDArray[Any], n: int) -> tuple[Ints, In
 
 def _second_neighbours(owner: Ints, neighbour: Ints, n: int, cells: Index) -> tuple[Index, Index]:
     """Return pairs of the given cells and the neighbours of their neighbours, without closer ones."""
+    from scipy import sparse
+
     ones = np.ones(2 * len(owner), dtype=np.int32)
     ends = (np.concatenate([owner, neighbour]), np.concatenate([neighbour, owner]))
     adjacent = sparse.csr_array((ones, ends), shape=(n, n))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.coupling import Coupling
@@ -110,6 +109,8 @@ def _mean_normals(mesh: Mesh, faces: Index, normals: Floats) -> tuple[Index, Flo
 
 def _seam(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Floats]:
     """Return points of a coupled patch, their images on the other patch, and the rotation between."""
+    from scipy.spatial import KDTree
+
     here, there = (np.unique(points_of_faces(mesh, f)[0]) for f in (coupling.faces, coupling.partners))
     images = mesh.points[here] @ coupling.turn.T + coupling.shift
     distance, nearest = KDTree(mesh.points[there]).query(images, distance_upper_bound=0.05 * coupling.size)

@@ -17,9 +17,9 @@ import threading
 import time as clock
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from typing import Any
 
 import numpy as np
-from numba.core import event
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
@@ -78,6 +78,8 @@ class Compilation:
 
         After an error the second process is ended.
         """
+        from numba.core import event
+
         ended = threading.Event()
         with event.install_recorder("numba:compile") as compiled:
             thread = threading.Thread(target=self._show, args=(compiled.buffer, ended), daemon=True)
@@ -91,7 +93,7 @@ class Compilation:
                 ended.set()
                 thread.join()
 
-    def _show(self, events: list[tuple[float, event.Event]], ended: threading.Event) -> None:
+    def _show(self, events: list[tuple[float, Any]], ended: threading.Event) -> None:
         terminal, last = sys.stderr.isatty(), 0.0
         # The reader of the log may have gone.
         with suppress(BrokenPipeError):

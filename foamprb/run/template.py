@@ -32,8 +32,8 @@ from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
 from foamprb.settings.fluid import of_region, read_gravity
+from foamprb.settings.help import meaning, plain
 from foamprb.settings.patches import needs_entry
-from foamprb.settings.reference import meaning, plain
 from foamprb.settings.solution import STRIDE
 
 __all__ = ["FlowScales", "scales_of", "template", "write_template"]

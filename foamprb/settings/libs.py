@@ -13,8 +13,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from numba.core.errors import NumbaError
-
 from foamprb.body.material import MATERIALS
 from foamprb.cloud.block import ROWS, new_block
 from foamprb.cloud.forces import FORCES, SAMPLE, tried
@@ -117,6 +115,8 @@ def _one_message(path: Path) -> Iterator[None]:
 @contextmanager
 def compiling_libs() -> Iterator[None]:
     """Raise InputError in place of an error of compilation, if models of ``libs`` are compiled."""
+    from numba.core.errors import NumbaError
+
     try:
         yield
     except (NumbaError, TypeError, ValueError) as error:
@@ -161,6 +161,8 @@ def _check(file: Path, kind: str, name: str) -> None:
 
 
 def _compile(file: Path, function: Callable[..., Any], *arguments: Any) -> None:
+    from numba.core.errors import NumbaError
+
     try:
         link(function)(*arguments)
     except (NumbaError, TypeError, ValueError) as error:

@@ -1,15 +1,15 @@
 """Documentation of the entries, from the declarations that read them.
 
-``docs/settings.md`` (``tools/settings_page``), ``foamprb help`` and the comments of ``foamprb init`` are made
-here. A test reports entries that are declared without a :class:`~foamprb.dictionary.constraints.Meaning`.
+``tools/settings_page`` makes of it the tables of ``docs/settings.md`` and the file of
+:mod:`foamprb.settings.help`. A test reports entries that are declared without a
+:class:`~foamprb.dictionary.constraints.Meaning`.
 """
 
 from __future__ import annotations
 
 import inspect
 import re
-import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any, NamedTuple
 
@@ -24,48 +24,15 @@ from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only
 from foamprb.dictionary.schema import Schema, allowed, hints_of, members, note_of, rule_of
 from foamprb.dictionary.values import READERS
-from foamprb.errors import InputError, suggestion
+from foamprb.errors import InputError
 from foamprb.settings import patches
 from foamprb.settings.fluid import ConstantProperties
+from foamprb.settings.help import EntryText, SectionText, Texts
 from foamprb.settings.injections import InjectionModel, Solid, parameters
 from foamprb.settings.settings import CloudProperties, ParticleForces, SubModels
 from foamprb.settings.solution import Solution
 
-__all__ = [
-    "SECTIONS",
-    "EntryText",
-    "Section",
-    "entries_of",
-    "explain",
-    "meaning",
-    "plain",
-    "tables",
-    "with_tables",
-]
-
-
-class EntryText(NamedTuple):
-    """Documentation of one entry; texts are Markdown."""
-
-    section: str
-    """Name of the :class:`Section`."""
-    model: str
-    """The ``type`` that has the entry; empty if all have it."""
-    name: str
-    """With the dictionaries between it and that of its section: ``integrationSchemes/shape``."""
-    unit: str
-    default: str
-    allowed: str
-    """Allowed values, in the words of a message."""
-    meaning: str
-    why_idle: str = ""
-    """Why it has no effect; empty if it has one."""
-
-    @property
-    def path(self) -> str:
-        """From the top of the file, with the type in parentheses."""
-        model = f" ({self.model})" if self.model else ""
-        return "/".join(filter(None, (SECTIONS[self.section].path, self.name))) + model
+__all__ = ["SECTIONS", "Section", "entries_of", "tables", "texts", "with_tables"]
 
 
 class Section(NamedTuple):
@@ -127,14 +94,6 @@ def entries_of(name: str) -> tuple[EntryText, ...]:
     return tuple(found)
 
 
-def meaning(section: str, entry: str, model: str = "") -> EntryText:
-    """Return the documentation of one entry; raise KeyError if it is not declared."""
-    for text in entries_of(section):
-        if (text.name, text.model) == (entry, model):
-            return text
-    raise KeyError(f"{section}: {entry} {model}")
-
-
 def _described(section: str, model: str, prefix: str, schema: Any) -> Iterator[EntryText]:
     hints = hints_of(schema)
     for field in fields(schema):
@@ -150,7 +109,7 @@ def _described(section: str, model: str, prefix: str, schema: Any) -> Iterator[E
 def _text(section: str, model: str, name: str, hint: Any, default: Any) -> EntryText:
     note, rule = note_of(hint, Meaning), rule_of(hint)
     if isinstance(rule, NoEffect):
-        return EntryText(section, model, name, "", "", "any", "no effect", rule.why)
+        return EntryText(section, SECTIONS[section].path, model, name, "", "", "any", "no effect", rule.why)
     unit, said = (note.unit, note.text) if note else ("", "")
     may_be = allowed(hint).removeprefix("Allowed: ").removesuffix(".")
     if isinstance(rule, Only):
@@ -163,7 +122,7 @@ def _text(section: str, model: str, name: str, hint: Any, default: Any) -> Entry
     if Distribution in members(hint)[1:]:
         said += "; a number or a [distribution](#distributions)"
     shown = note.default if note and note.default else _shown(default)
-    return EntryText(section, model, name, unit, shown, may_be, said)
+    return EntryText(section, SECTIONS[section].path, model, name, unit, shown, may_be, said)
 
 
 def _shown(default: Any) -> str:
@@ -178,6 +137,16 @@ def _shown(default: Any) -> str:
         case tuple():
             return f"`({' '.join(f'{x:g}' if isinstance(x, float) else str(x) for x in default)})`"
     return "required" if default is MISSING else ""
+
+
+def texts() -> Texts:
+    """Return the documentation of all entries."""
+    sections = {
+        name: SectionText(section.path, {model: summary(schema) for model, schema in section.models.items()})
+        for name, section in SECTIONS.items()
+    }
+    forces = {name: summary(force) for name, force in _CHOSEN.items()}
+    return Texts(sections, forces, [text for name in SECTIONS for text in entries_of(name)])
 
 
 def summary(schema: type) -> str:
@@ -255,107 +224,3 @@ def _idle_table() -> str:
         if text.why_idle
     ]
     return _head("entry", "why") + "".join(rows)
-
-
-# ---------------------------------------------------------------------------------------------------------
-# foamprb help
-
-
-def explain(word: str | None) -> list[str]:
-    """Return the documentation of an entry, a dictionary or a type; without a word, a list of all.
-
-    Raises
-    ------
-    InputError
-        If the name is unknown; with the most similar name.
-    """
-    if word is None:
-        return _overview()
-    wanted = word.strip("/")
-    everything = [text for name in SECTIONS for text in entries_of(name)]
-    lines: list[str] = []
-    for text in everything:
-        full = "/".join(filter(None, (SECTIONS[text.section].path, text.name)))
-        if wanted == full or full.endswith(f"/{wanted}"):
-            lines += _entry_lines(text)
-    for name, section in SECTIONS.items():
-        if wanted in section.models:
-            lines += _model_lines(name, wanted)
-        if wanted in (name, section.path):
-            lines += _section_lines(name)
-    if wanted in _CHOSEN:
-        path = f"particleForces/{wanted}/"
-        own = [t._replace(name=t.name.removeprefix(path)) for t in everything if t.name.startswith(path)]
-        title = [f"subModels/particleForces/{wanted}", *_wrapped(plain(summary(_CHOSEN[wanted])))]
-        lines += [*title, *_list_lines(own), ""]
-    if not lines:
-        # A dictionary without a section, such as integrationSchemes.
-        within = [text for text in everything if f"/{wanted}/" in f"/{text.path}"]
-        lines = [line for text in within for line in _entry_lines(text)]
-    if lines:
-        return lines[:-1]
-    paths = [text.path.partition(" (")[0] for text in everything if not text.why_idle]
-    names = {part for path in paths for part in path.split("/") if not part.startswith("(")}
-    names |= {model for section in SECTIONS.values() for model in section.models} | {*SECTIONS, *_CHOSEN}
-    close = suggestion(word, names)
-    question = close.partition(" Allowed:")[0] if close.startswith("Did") else "foamprb help lists all names."
-    raise InputError(f"no entry, dictionary or type '{word}'. {question}")
-
-
-def _overview() -> list[str]:
-    lines = [
-        "Entries of constant/softCloudProperties. Details of an entry, dictionary or type: foamprb help NAME"
-    ]
-    for name, section in SECTIONS.items():
-        words: Sequence[str] = tuple(section.models) or tuple(
-            t.name for t in entries_of(name) if not t.why_idle
-        )
-        if name == "particleForces":
-            words = ("ellipsoidDrag", *_CHOSEN)
-        lines += ["", f"{name}{'  (types)' if section.models else ''}", *_wrapped(", ".join(words))]
-    return lines
-
-
-def _entry_lines(text: EntryText) -> list[str]:
-    facts = [("unit", text.unit), ("default", text.default), ("allowed", text.allowed)]
-    shown = [f"    {name:8s} {plain(value)}" for name, value in facts if value]
-    said = f"{text.meaning}: {text.why_idle}" if text.why_idle else text.meaning
-    return [text.path, *_wrapped(plain(said)), *shown, ""]
-
-
-def _model_lines(name: str, model: str) -> list[str]:
-    section = SECTIONS[name]
-    lines = [f"{section.path}: type {model}", *_wrapped(plain(summary(section.models[model])))]
-    return [*lines, *_list_lines([t for t in entries_of(name) if t.model == model]), ""]
-
-
-def _section_lines(name: str) -> list[str]:
-    section = SECTIONS[name]
-    lines = [section.path or "constant/softCloudProperties"]
-    if section.models:
-        return [
-            *lines,
-            *(f"    {model:24s} {plain(summary(kind))}" for model, kind in section.models.items()),
-            "",
-        ]
-    return [*lines, *_list_lines(entries_of(name)), ""]
-
-
-def _list_lines(found: Sequence[EntryText]) -> list[str]:
-    lines = []
-    for text in found:
-        if not text.why_idle:
-            unit = f", {text.unit}" if text.unit else ""
-            default = f" [{plain(text.default)}]" if text.default else ""
-            lines.append(f"    {text.name:24s} {plain(text.meaning)}{unit}{default}")
-    return lines
-
-
-def plain(markdown: str) -> str:
-    """Return Markdown as plain text."""
-    return re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", markdown).replace("`", "")
-
-
-def _wrapped(text: str) -> list[str]:
-    indent = "    "
-    return textwrap.wrap(text, 105, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import pytest
 from paths import ROOT
 
 from foamprb.cloud.forces import FORCES
 from foamprb.dictionary.constraints import Only
 from foamprb.errors import InputError
-from foamprb.settings.reference import SECTIONS, entries_of, explain, meaning, plain, tables, with_tables
+from foamprb.settings.help import FILE, explain, meaning, plain
+from foamprb.settings.reference import SECTIONS, entries_of, tables, texts, with_tables
 
 PAGE = ROOT / "docs/settings.md"
 EVERY = [text for name in SECTIONS for text in entries_of(name)]
@@ -18,6 +22,27 @@ def test_the_page_has_the_tables_that_the_declarations_make():
     """After a change of an entry: tools/settings_page."""
     page = PAGE.read_text(encoding="utf-8")
     assert with_tables(page) == page
+
+
+def test_the_file_of_help_has_the_texts_of_the_declarations():
+    """After a change of an entry: tools/settings_page."""
+    assert FILE.read_text(encoding="utf-8") == texts().to_json()
+
+
+HEAVY = ("numba", "llvmlite", "scipy", "vtkmodules", "pyvista")
+
+
+@pytest.mark.parametrize(
+    ("code", "absent"),
+    [
+        ("from foamprb.cli import main; main(['help', 'deltaT'])", ("numpy", *HEAVY)),
+        ("import foamprb.settings.settings, foamprb.settings.reference", HEAVY),
+    ],
+)
+def test_texts_and_declarations_need_no_compiler(code, absent):
+    code += f"; import sys; print([name for name in {absent} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
 
 
 def test_the_page_without_one_of_its_tables_is_refused():

@@ -13,7 +13,6 @@ from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtr, ndtri
 
 from foamprb.dictionary.constraints import Meaning, Pairs, Positive
 from foamprb.dictionary.mistakes import Mistakes
@@ -110,6 +109,8 @@ class Normal(_Bounded):
     ]
 
     def __post_init__(self) -> None:
+        from scipy.special import ndtr
+
         super().__post_init__()
         low, high, _ = self._tail()
         if not ndtr(high) > ndtr(low):
@@ -124,6 +125,8 @@ class Normal(_Bounded):
 
     def quantile(self, share: Floats) -> Floats:
         """Return quantiles of the normal distribution, on the part between the limits."""
+        from scipy.special import ndtr, ndtri
+
         low, high, side = self._tail()
         below = ndtr(low)
         s = share if side > 0.0 else 1.0 - share

@@ -10,7 +10,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from foamprb.cloud.state import Particles, set_rest_shape
 from foamprb.dictionary.constraints import Meaning, Positive3, Vector3
@@ -70,6 +69,8 @@ class Ellipsoid(Shape):
 
     def form(self, p: Particles, random: np.random.Generator) -> None:
         """Change spheres at rest into ellipsoids."""
+        from scipy.spatial.transform import Rotation
+
         if self.orientation == "random":
             # A normal distribution of four components has no preferred direction.
             axes = Rotation.from_quat(random.standard_normal((p.size, 4))).as_matrix()

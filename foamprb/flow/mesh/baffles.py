@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse import csgraph
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import mix
@@ -91,6 +89,9 @@ def _groups(
     corners, groups
         cell · n_points + point, rising; numbers of groups in the order of their first corners.
     """
+    from scipy import sparse
+    from scipy.sparse import csgraph
+
     on_wall = np.zeros(n_points, dtype=bool)
     on_wall[take_lists(start, lists, outer)[1]] = True
     at = np.flatnonzero(on_wall[lists])

@@ -10,10 +10,6 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.spatial import KDTree
-from scipy.spatial.transform import Rotation
-from vtkmodules.vtkCommonCore import reference
-from vtkmodules.vtkCommonDataModel import vtkCellLocator
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Patch
@@ -194,6 +190,9 @@ def _interface(
 
 def _closest(surface: Any, points: Floats) -> tuple[Index, Floats]:
     """Return the cell of a surface that is closest to each point, and the place in it that is, m."""
+    from vtkmodules.vtkCommonCore import reference
+    from vtkmodules.vtkCommonDataModel import vtkCellLocator
+
     locator = vtkCellLocator()
     locator.SetDataSet(surface)
     locator.BuildLocator()
@@ -220,6 +219,8 @@ def _stated_motion(
     surface: PatchSurface, x: Floats, m: Floats, y: Floats, n: Floats
 ) -> tuple[Floats, Floats]:
     """Return the stated rotation and shift, in the sense that carries centroid x and area m to y and −n."""
+    from scipy.spatial.transform import Rotation
+
     stated = surface.transform
     turn, shift = np.eye(3), np.zeros(3)
     if stated.kind == "translational":
@@ -246,6 +247,8 @@ def _arm(v: Floats, axis: Floats) -> float:
 
 def _wedge(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -> Coupling | None:
     """Return the rotation about the line in which the planes of two wedge patches meet."""
+    from scipy.spatial import KDTree
+
     if len(a) != len(b):
         return None
     m, n = (_units(areas[faces].sum(axis=0)) for faces in (a, b))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.coupling import Coupling
@@ -85,6 +84,8 @@ def pairs_within(
     margin
         The factor.
     """
+    from scipy.spatial import KDTree
+
     # Sizes are searched octave by octave, so that one large sphere does not widen the search for all.
     octave = np.floor(np.log2(np.maximum(reach, 1e-300))).astype(int)
     rows, columns = [np.empty(0, dtype=np.intp)], [np.empty(0, dtype=np.intp)]

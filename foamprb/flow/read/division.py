@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse import csgraph
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh.boundary import PatchSurface, sort_boundary
@@ -101,6 +99,9 @@ def _crossings(mesh: Mesh) -> list[str]:
 
 def _by_angle(mesh: Mesh, angle: float) -> NDArray[np.intp]:
     """Return the patch of each boundary face; edges that turn by less than the angle join faces."""
+    from scipy import sparse
+    from scipy.sparse import csgraph
+
     edges, face = _boundary_edges(mesh)
     order = np.argsort(edges, kind="stable")
     same = edges[order[1:]] == edges[order[:-1]]

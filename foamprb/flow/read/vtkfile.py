@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh.boundary import mix
@@ -269,6 +268,8 @@ def solid_cells(grid: Any, path: Path) -> tuple[Any, list[str]]:
 
 def require_joined(mesh: Mesh, path: Path) -> None:
     """Raise InputError if boundary faces lie on each other, between cells that share no points."""
+    from scipy.spatial import KDTree
+
     size = np.linalg.norm(mesh.boundary_areas, axis=1)
     found = KDTree(mesh.boundary_centres).query(mesh.boundary_centres, k=2)
     distance, other = np.asarray(found[0]), np.asarray(found[1])

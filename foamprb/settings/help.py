@@ -1,0 +1,188 @@
+"""Documentation of the entries, as ``foamprb help`` prints it.
+
+It is read from ``entries.json``, which ``tools/settings_page`` makes of the declarations, as importing these
+takes longer than all else.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import textwrap
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+from foamprb.errors import InputError, suggestion
+
+__all__ = ["FILE", "EntryText", "SectionText", "Texts", "explain", "meaning", "plain"]
+
+FILE = Path(__file__).with_name("entries.json")
+
+
+class EntryText(NamedTuple):
+    """Documentation of one entry; texts are Markdown."""
+
+    section: str
+    """Name of the section."""
+    dictionary: str
+    """Path of the section's dictionary."""
+    model: str
+    """The ``type`` that has the entry; empty if all have it."""
+    name: str
+    """With the dictionaries between it and that of its section: ``integrationSchemes/shape``."""
+    unit: str
+    default: str
+    allowed: str
+    """Allowed values, in the words of a message."""
+    meaning: str
+    why_idle: str = ""
+    """Why it has no effect; empty if it has one."""
+
+    @property
+    def full_name(self) -> str:
+        """From the top of the file."""
+        return "/".join(filter(None, (self.dictionary, self.name)))
+
+    @property
+    def path(self) -> str:
+        """From the top of the file, with the type in parentheses."""
+        return f"{self.full_name} ({self.model})" if self.model else self.full_name
+
+
+class SectionText(NamedTuple):
+    """Documentation of a section."""
+
+    path: str
+    models: Mapping[str, str]
+    """What each ``type`` is."""
+
+
+class Texts(NamedTuple):
+    """Documentation of all entries, in the order of the page."""
+
+    sections: Mapping[str, SectionText]
+    forces: Mapping[str, str]
+    """What each of the ``particleForces`` is."""
+    entries: Sequence[EntryText]
+
+    def of(self, section: str, model: str | None = None) -> list[EntryText]:
+        """Return the entries of a section, or of one ``type`` in it."""
+        return [t for t in self.entries if t.section == section and model in (None, t.model)]
+
+    def to_json(self) -> str:
+        """Return the text of the file, with a line for each entry."""
+        lines = [json.dumps(own, ensure_ascii=False) for own in (self.sections, self.forces, *self.entries)]
+        return "[\n" + ",\n".join(lines) + "\n]\n"
+
+
+@cache
+def _texts() -> Texts:
+    sections, forces, *entries = json.loads(FILE.read_text(encoding="utf-8"))
+    named = {name: SectionText(*section) for name, section in sections.items()}
+    return Texts(named, forces, [EntryText(*entry) for entry in entries])
+
+
+def meaning(section: str, entry: str, model: str = "") -> EntryText:
+    """Return the documentation of one entry; raise KeyError if it is not declared."""
+    for text in _texts().of(section, model):
+        if text.name == entry:
+            return text
+    raise KeyError(f"{section}: {entry} {model}")
+
+
+def explain(word: str | None) -> list[str]:
+    """Return the documentation of an entry, a dictionary or a type; without a word, a list of all.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown; with the most similar name.
+    """
+    if word is None:
+        return _overview()
+    wanted, (sections, forces, everything) = word.strip("/"), _texts()
+    lines: list[str] = []
+    for text in everything:
+        if wanted == text.full_name or text.full_name.endswith(f"/{wanted}"):
+            lines += _entry_lines(text)
+    for name, section in sections.items():
+        if wanted in section.models:
+            lines += _model_lines(name, wanted)
+        if wanted in (name, section.path):
+            lines += _section_lines(name)
+    if wanted in forces:
+        path = f"particleForces/{wanted}/"
+        own = [t._replace(name=t.name.removeprefix(path)) for t in everything if t.name.startswith(path)]
+        title = [f"subModels/particleForces/{wanted}", *_wrapped(plain(forces[wanted]))]
+        lines += [*title, *_list_lines(own), ""]
+    if not lines:
+        # A dictionary without a section, such as integrationSchemes.
+        within = [text for text in everything if f"/{wanted}/" in f"/{text.path}"]
+        lines = [line for text in within for line in _entry_lines(text)]
+    if lines:
+        return lines[:-1]
+    paths = [text.full_name for text in everything if not text.why_idle]
+    names = {part for path in paths for part in path.split("/") if not part.startswith("(")}
+    names |= {model for section in sections.values() for model in section.models} | {*sections, *forces}
+    close = suggestion(word, names)
+    question = close.partition(" Allowed:")[0] if close.startswith("Did") else "foamprb help lists all names."
+    raise InputError(f"no entry, dictionary or type '{word}'. {question}")
+
+
+def _overview() -> list[str]:
+    lines = [
+        "Entries of constant/softCloudProperties. Details of an entry, dictionary or type: foamprb help NAME"
+    ]
+    for name, section in _texts().sections.items():
+        words = [*section.models] or [t.name for t in _texts().of(name) if not t.why_idle]
+        if name == "particleForces":
+            words = ["ellipsoidDrag", *_texts().forces]
+        lines += ["", f"{name}{'  (types)' if section.models else ''}", *_wrapped(", ".join(words))]
+    return lines
+
+
+def _entry_lines(text: EntryText) -> list[str]:
+    facts = [("unit", text.unit), ("default", text.default), ("allowed", text.allowed)]
+    shown = [f"    {name:8s} {plain(value)}" for name, value in facts if value]
+    said = f"{text.meaning}: {text.why_idle}" if text.why_idle else text.meaning
+    return [text.path, *_wrapped(plain(said)), *shown, ""]
+
+
+def _model_lines(name: str, model: str) -> list[str]:
+    section = _texts().sections[name]
+    lines = [f"{section.path}: type {model}", *_wrapped(plain(section.models[model]))]
+    return [*lines, *_list_lines(_texts().of(name, model)), ""]
+
+
+def _section_lines(name: str) -> list[str]:
+    section = _texts().sections[name]
+    lines = [section.path or "constant/softCloudProperties"]
+    if section.models:
+        return [
+            *lines,
+            *(f"    {model:24s} {plain(text)}" for model, text in section.models.items()),
+            "",
+        ]
+    return [*lines, *_list_lines(_texts().of(name)), ""]
+
+
+def _list_lines(found: Sequence[EntryText]) -> list[str]:
+    lines = []
+    for text in found:
+        if not text.why_idle:
+            unit = f", {text.unit}" if text.unit else ""
+            default = f" [{plain(text.default)}]" if text.default else ""
+            lines.append(f"    {text.name:24s} {plain(text.meaning)}{unit}{default}")
+    return lines
+
+
+def plain(markdown: str) -> str:
+    """Return Markdown as plain text."""
+    return re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", markdown).replace("`", "")
+
+
+def _wrapped(text: str) -> list[str]:
+    indent = "    "
+    return textwrap.wrap(text, 105, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
