@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from figures import integrator_study as study
 from hypothesis import given
 from hypothesis import strategies as st
+from pair_steps import CA, REST, pair_step, shear, steps, turning_strain, unit_bodies
 from strategies import flat, mild_stretches, rotations, square, tensors
 
 from foamprb.body import error_control as control
@@ -134,18 +134,13 @@ def distance(bodies, F, exact):
 
 def one_step(h, tolerance):
     """Errors of one step against the solution, for bodies of all stiffnesses in a flow that turns."""
-    n = len(study.CA)
-    flow = study.uniform(study.GRADIENTS["turning"])
-    x, step, found = study.spread(np.zeros(3), n), np.full(n, h), []
-    for kind in study.REST:
-        bodies, F = study.unit_bodies(study.CA, kind)
-        for i in range(20):
-            F = study.pair_step(
-                bodies, study.PLAIN, flow, np.full(n, 0.05 * i), x, F, np.full(n, 0.05), 0.0
-            ).F
-        args = (bodies, study.PLAIN, flow, np.ones(n), x, F, step)
-        exact = study.exact_step(*args)
-        two, three = (study.pair_step(*args, t) for t in (np.inf, tolerance))
+    n, found = len(CA), []
+    for kind in REST:
+        bodies, F = unit_bodies(CA, kind)
+        F = steps(bodies, F, turning_strain, 20, 0.05, 0.0)
+        exact = steps(bodies, F, turning_strain, 32, h / 32, 0.0, 1.0)
+        args = (bodies, turning_strain, np.ones(n), F, np.full(n, h))
+        two, three = (pair_step(*args, t) for t in (np.inf, tolerance))
         found.append((distance(bodies, two.F, exact), distance(bodies, three.F, exact), three.error))
     return np.concatenate(found, axis=1)
 
@@ -179,15 +174,12 @@ def test_the_error_is_the_smaller_a_share_of_the_slopes_part_the_less_its_time(h
 
 def test_soft_bodies_in_steady_shear_need_two_evaluations():
     """At γ̇h = 0.07, and then the error is below the tolerance still."""
-    n, tolerance = len(study.CA), 1e-4
-    flow, (bodies, F) = study.uniform(study.GRADIENTS["shear"]), study.unit_bodies(study.CA, "sphere")
-    x, t, h = study.spread(np.zeros(3), n), np.zeros(n), np.full(n, 0.07)
-    for _ in range(20):
-        F, t = study.pair_step(bodies, study.PLAIN, flow, t, x, F, h, 0.0).F, t + h
-    args = (bodies, study.PLAIN, flow, t, x, F, h)
-    step = study.pair_step(*args, tolerance)
+    n, tolerance, h = len(CA), 1e-4, 0.07
+    bodies, F = unit_bodies(CA, "sphere")
+    F = steps(bodies, F, shear, 20, h, 0.0)
+    step = pair_step(bodies, shear, np.zeros(n), F, np.full(n, h), tolerance)
     assert (step.evaluations == 2).all()
-    assert (distance(bodies, step.F, study.exact_step(*args)) < tolerance).all()
+    assert (distance(bodies, step.F, steps(bodies, F, shear, 32, h / 32, 0.0)) < tolerance).all()
 
 
 @given(tensors, st.integers(0, 8), st.sampled_from([-1.0, 1.0]))

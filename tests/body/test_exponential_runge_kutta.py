@@ -1,4 +1,4 @@
-"""The pair of order 3(2), stepped in plain numpy as tools/figures/integrator_study.py does."""
+"""The pair of order 3(2), stepped in plain numpy."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from figures import integrator_study as study
 from hypothesis import given
 from hypothesis import strategies as st
+from pair_steps import distance, pair_step, shear, unit_bodies
+from pair_steps import steps as take
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from strategies import flat, square, tensors
@@ -76,22 +77,18 @@ def independent(Ca, end):
     return solve_ivp(rate, (0.0, end), np.eye(3).ravel(), "LSODA", rtol=1e-10, atol=1e-12).y[:, -1]
 
 
-def steps(Ca, kind, n, end, tolerance, flow):
-    bodies, F = study.unit_bodies(Ca, kind)
-    x, h = study.spread(np.zeros(3), len(Ca)), np.full(len(Ca), end / n)
-    for i in range(n):
-        F = study.pair_step(bodies, study.PLAIN, flow, i * h, x, F, h, tolerance).F
-    return bodies, F
+def steps(Ca, kind, n, end, tolerance, gradient):
+    bodies, F = unit_bodies(Ca, kind)
+    return bodies, take(bodies, F, gradient, n, end / n, tolerance)
 
 
 @pytest.mark.parametrize(("tolerance", "order"), [(0.0, 3), (np.inf, 2)])
 def test_order_with_a_gradient_that_depends_on_time(tolerance, order):
     Ca = np.array([0.2, 0.5, 2.0])
     exact = np.array([independent(c, 1.0) for c in Ca]).T
-    flow = study.uniform(unsteady)
     errors = []
     for n in (10, 20, 40):
-        _, F = steps(Ca, "sphere", n, 1.0, tolerance, flow)
+        _, F = steps(Ca, "sphere", n, 1.0, tolerance, unsteady)
         errors.append(np.abs(np.array(F) - exact).max(axis=0))
     found = np.log2(np.array(errors[:-1]) / errors[1:])
     assert (found > order - 0.2).all(), found
@@ -104,10 +101,9 @@ def test_the_order_of_a_stiff_bodys_strain_is_not_reduced():
     At Ca = 0.01 the relaxation of the start, h/τ = 7 and 3, is between resolved and over at once.
     """
     Ca = np.array([1e-5, 1e-4, 1e-3, 1e-2])
-    flow = study.uniform(unsteady)
     for kind in ("prolate", "oblate"):
-        bodies, exact = steps(Ca, kind, 320, 1.0, 0.0, flow)
-        errors = [study.distance(bodies, steps(Ca, kind, n, 1.0, 0.0, flow)[1], exact) for n in (10, 20)]
+        bodies, exact = steps(Ca, kind, 320, 1.0, 0.0, unsteady)
+        errors = [distance(bodies, steps(Ca, kind, n, 1.0, 0.0, unsteady)[1], exact) for n in (10, 20)]
         assert (errors[0] < 3e-4).all(), errors
         assert (errors[1] < [2e-5, 2e-5, 2e-5, 1e-4]).all(), errors
         assert (np.log2(errors[0] / errors[1])[:2] > 2.6).all(), errors
@@ -116,7 +112,7 @@ def test_the_order_of_a_stiff_bodys_strain_is_not_reduced():
 def test_a_stiff_sphere_has_its_steady_strain_at_once():
     """Started from rest, with a step a thousand times the relaxation time: D = 5/4 Ca."""
     Ca = np.array([1e-5, 1e-4])
-    _, F = steps(Ca, "sphere", 1, 0.1, 0.0, study.uniform(study.GRADIENTS["shear"]))
+    _, F = steps(Ca, "sphere", 1, 0.1, 0.0, shear)
     G = np.array(F).T.reshape(-1, 3, 3)
     values = np.sqrt(np.linalg.eigvalsh(G @ G.transpose(0, 2, 1)))
     found = (values[:, 2] - values[:, 0]) / (values[:, 2] + values[:, 0])
@@ -125,13 +121,9 @@ def test_a_stiff_sphere_has_its_steady_strain_at_once():
 
 def test_steps_of_a_body_that_tank_treads_are_exact():
     """In its steady state the shape stays and the body turns in it, whatever the step."""
-    Ca = np.array([0.3])
-    flow = study.uniform(study.GRADIENTS["shear"])
-    bodies, F = steps(Ca, "sphere", 600, 60.0, 0.0, flow)
-    x = study.spread(np.zeros(3), 1)
-    F1 = study.pair_step(bodies, study.PLAIN, flow, np.zeros(1), x, F, np.full(1, 0.3), 0.0)
-    b = [np.array(G).reshape(3, 3) @ np.array(G).reshape(3, 3).T for G in (F, F1.F)]
+    bodies, F = steps(np.array([0.3]), "sphere", 600, 60.0, 0.0, shear)
+    args = (bodies, shear, np.zeros(1), F, np.full(1, 0.3))
+    b = [np.array(G).reshape(3, 3) @ np.array(G).reshape(3, 3).T for G in (F, pair_step(*args, 0.0).F)]
     np.testing.assert_allclose(b[1], b[0], atol=1e-5)
-    two = study.pair_step(bodies, study.PLAIN, flow, np.zeros(1), x, F, np.full(1, 0.3), 1e-4)
     # It does so with two evaluations.
-    assert two.evaluations[0] == 2
+    assert pair_step(*args, 1e-4).evaluations[0] == 2
