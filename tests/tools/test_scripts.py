@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from benchmarks.main import PARTS
+from benchmarks.records import PARTS
 from paths import ROOT
 
 TOOLS = ROOT / "tools"

@@ -7,7 +7,7 @@ from figures import integrators as study
 
 import foamprb
 from benchmarks import pipe
-from benchmarks.records import Options, Row, cpu_of, interleaved, rows
+from benchmarks.records import Options, Row, interleaved, rows
 from foamprb.body.imex import relaxation_time
 
 ERRORS = {"error of F 1e-3": 1e-3, "error of F 3e-4": 3e-4}
@@ -25,12 +25,6 @@ def fewest_steps(integrator: str, exact: np.ndarray, largest: float) -> int:
         n *= _FINER
 
 
-def _cost(cloud, steps: int) -> float:
-    before = pipe.particle_steps(cloud)
-    spent = cpu_of(lambda: cloud.advance(steps))
-    return 1e6 * spent / (pipe.particle_steps(cloud) - before)
-
-
 def measure(options: Options) -> list[Row]:
     """Measure steps, CPU per step and CPU per particle."""
     n, repeats = (2000, 2) if options.quick else (50_000, 5)
@@ -43,7 +37,7 @@ def measure(options: Options) -> list[Row]:
         for integrator, number in steps.items():
             cloud = pipe.soft_cloud(flow, n, study.WATER.time / number, integrator, fluid=pipe.WATER)
             cloud.advance(5)
-            clocks[integrator] = lambda c=cloud: _cost(c, 20)
+            clocks[integrator] = lambda c=cloud: pipe.cost(c, 20)
         costs = interleaved(clocks, repeats)
         whole = {integrator: costs[integrator] * number for integrator, number in steps.items()}
         found += rows("integrators", f"steps, {name}", {k: float(v) for k, v in steps.items()}, "")

@@ -11,36 +11,17 @@ import tempfile
 from pathlib import Path
 
 from benchmarks.records import (
+    PARTS,
     TOOLS,
     Options,
     Results,
     Row,
-    as_rows,
     isolated,
     load,
     machine,
-    processor,
     read_rows,
 )
 
-PARTS = (
-    "tracker",
-    "whole",
-    "tutorials",
-    "threads",
-    "memory",
-    "run",
-    "mesh",
-    "start",
-    "output",
-    "integrators",
-    "surroundings",
-    "peers",
-    "processes",
-    "scaling",
-    "profile",
-    "roofline",
-)
 CSV = "performance.csv"
 
 
@@ -72,7 +53,7 @@ def _arguments() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "-output", type=Path, default=TOOLS.parent / "docs", metavar="DIR",
-        help="folder of performance.csv, whose other parts and processors are kept, performance.md and the "
+        help="folder of performance.csv, whose other parts are kept, performance.md and the "
         "plots [docs]",
     )  # fmt: skip
     parser.add_argument(
@@ -108,11 +89,8 @@ def main(arguments: list[str] | None = None) -> int:
                 failed.append(part)
                 continue
             note = Row(part, "machine", machine() + (", quick" if parsed.quick else ""), 0.0, busy, "load")
-            here = processor()
-            new = [row._replace(processor=here) for row in (note, *as_rows(child.result))]
-            # Those of other processors stay, behind them.
-            kept[part] = [*new, *(row for row in kept[part] if row.processor != here)]
-            for row in new:
+            kept[part] = [note, *(Row(*values) for values in child.result)]
+            for row in kept[part]:
                 size = f"{row.size:g}" if row.size else ""
                 print(f"    {row.quantity:30s} {row.subject:32.60s} {size:8s} {row.value:11.5g} {row.unit}")
             print(f"    {child.wall:.0f} s", flush=True)
@@ -123,6 +101,6 @@ def main(arguments: list[str] | None = None) -> int:
         if parsed.scratch is None:
             shutil.rmtree(scratch, ignore_errors=True)
     results = Results(row for part in PARTS for row in kept[part])
-    print(f"\n{written_table(results.newest())}")
+    print(f"\n{written_table(results)}")
     write_report(results, parsed.output)
     return 1 if failed else 0

@@ -24,17 +24,12 @@ NEEDED = 18e9
 def throughput(n: int, steps: int, repeats: int) -> dict[str, float]:
     """Return CPU per particle-step of n particles, μs, and their memory, bytes."""
     import foamprb
-    from benchmarks.records import cpu_of
 
     flow = foamprb.read_case(pipe.case("40k"))
     pipe.soft_cloud(flow, 64, 2e-5).advance(1)
     before = resident_memory()
     cloud = pipe.soft_cloud(flow, n, 2e-5)
-    costs = []
-    for _ in range(repeats):
-        done = pipe.particle_steps(cloud)
-        spent = cpu_of(lambda: cloud.advance(steps))
-        costs.append(1e6 * spent / (pipe.particle_steps(cloud) - done))
+    costs = [pipe.cost(cloud, steps) for _ in range(repeats)]
     return {"cost": sorted(costs)[repeats // 2], "kept": resident_memory() - before, "peak": peak_memory()}
 
 

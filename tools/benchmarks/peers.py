@@ -1,4 +1,4 @@
-"""Other point trackers on the same mesh, and the paper's scheme in plain numpy, alternating with foamprb."""
+"""Other point trackers on the same mesh, alternating with foamprb."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from vtkmodules.vtkFiltersFlowPaths import (
 )
 
 import foamprb
-from benchmarks import pipe, plain
+from benchmarks import pipe
 from benchmarks.records import Options, Row, cpu_of, interleaved, rows
-from benchmarks.tracker import OPENFOAM_STEP, SOLVER, STEP, Tracker, openfoam_cost
+from benchmarks.tracker import OPENFOAM_STEP, SOLVER, Tracker, openfoam_cost
 
 _CELL_LENGTHS = 0.1
 
@@ -135,11 +135,6 @@ def particle_tracer(grid: pyvista.UnstructuredGrid, start: pyvista.PolyData, ste
     return 1e6 * spent / (steps * tracer.GetOutput().GetNumberOfPoints())
 
 
-def plain_numpy(x: pipe.Floats, steps: int) -> float:
-    """Measure CPU µs per particle-step of the paper's scheme in plain numpy, without a mesh."""
-    return 1e6 * cpu_of(lambda: plain.carry(x, steps, STEP["paper"])) / (steps * len(x))
-
-
 def measure(options: Options) -> list[Row]:
     """Measure CPU µs per particle-step, and the ratio to foamprb's."""
     n, steps, repeats = (500, 20, 1) if options.quick else (10_000, 50, 5)
@@ -155,7 +150,6 @@ def measure(options: Options) -> list[Row]:
         )
     contestants["vtkLagrangianParticleTracker"] = lambda: matida(grid, start, steps)
     contestants["vtkParticleTracer, ParaView's"] = lambda: particle_tracer(grid, start, steps)
-    contestants["the paper's scheme in numpy"] = lambda: plain_numpy(pipe.positions(n), steps)
     if shutil.which(SOLVER):
         pipe.write_parcels(case, pipe.positions(10 * n))
         contestants["OpenFOAM"] = lambda: openfoam_cost(case, 10 * n, steps)

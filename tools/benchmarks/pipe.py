@@ -7,6 +7,7 @@ Poiseuille's flow is written at the means of the cells' vertices. No mesher and 
 from __future__ import annotations
 
 import os
+import time
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -191,19 +192,19 @@ def write_case(folder: Path, grid: Grid) -> Path:
     return folder
 
 
-def write_dictionaries(folder: Path, nu: float, rho: float) -> None:
+def write_dictionaries(folder: Path, nu: float, rho: float, g: float = 9.81) -> None:
     """Write what parcels want of a case beside mesh, U and ``controlDict``.
 
     Parameters
     ----------
-    nu, rho
-        Of the fluid, m²/s and kg/m³.
+    nu, rho, g
+        Of the fluid, m²/s and kg/m³, and gravity against y, m/s².
     """
     _dictionary(
         folder / "constant" / "transportProperties", f"transportModel Newtonian; nu {nu:g}; rhoInf {rho:g};"
     )
     _dictionary(folder / "constant" / "turbulenceProperties", "simulationType laminar;")
-    gravity = "dimensions [0 1 -2 0 0 0 0]; value (0 -9.81 0);"
+    gravity = f"dimensions [0 1 -2 0 0 0 0]; value (0 {-g:g} 0);"
     _dictionary(folder / "constant" / "g", gravity, "uniformDimensionedVectorField")
     _dictionary(
         folder / "system" / "fvSchemes",
@@ -243,7 +244,15 @@ PATCHES = 'wall { type stick; } "(inlet|outlet)" { type escape; }'
 """What the patches do with particles."""
 
 
-def write_parcels(folder: Path, x: Floats, d: float = D, rho: float = RHO_S, patches: str = PATCHES) -> None:
+def write_parcels(
+    folder: Path,
+    x: Floats,
+    d: float = D,
+    rho: float = RHO_S,
+    patches: str = PATCHES,
+    interpolation: str = "cellPoint",
+    integration: str = "Euler",
+) -> None:
     """Write OpenFOAM's ``kinematicCloudProperties``: rigid point spheres at the positions (n, 3).
 
     Parameters
@@ -252,12 +261,15 @@ def write_parcels(folder: Path, x: Floats, d: float = D, rho: float = RHO_S, pat
         Their diameter, m, and density, kg/m³.
     patches
         As :data:`PATCHES`.
+    interpolation, integration
+        Of the fluid's velocity, and of the parcel's in time.
     """
     write_positions(folder / "constant" / "kinematicCloudPositions", x)
     _dictionary(
         folder / "constant" / "kinematicCloudProperties",
         "solution { active true; coupled false; transient yes; cellValueSourceCorrection off; maxCo 0.3; "
-        "interpolationSchemes { rho cell; U cellPoint; mu cell; } integrationSchemes { U Euler; } }\n"
+        f"interpolationSchemes {{ rho cell; U {interpolation}; mu cell; }} "
+        f"integrationSchemes {{ U {integration}; }} }}\n"
         f"constantProperties {{ rho0 {rho:g}; }}\n"
         "subModels { particleForces { sphereDrag; gravity; } injectionModels { model1 { "
         "type manualInjection; massTotal 0; parcelBasisType fixed; nParticle 1; SOI 0; U0 (0 0 0); "
@@ -321,26 +333,17 @@ def positions(n: int, seed: int = 0, reach: float = 0.95) -> Floats:
 
 
 def soft_cloud(
-    flow: Any,
-    n: int,
-    dt: float,
-    integrator: str = "paper",
-    threads: int = 1,
-    fluid: Fluid = AIR,
-    Ca: float = 0.5,
-    reach: float = 0.95,
-    tolerance: float = np.inf,
-    stride: int = 1,
+    flow: Any, n: int, dt: float, integrator: str = "paper", threads: int = 1, fluid: Fluid = AIR
 ) -> Any:
-    """Return n active particles moving with the flow; without tolerance the steps have a fixed size."""
+    """Return n active particles of Ca 0.5 at the wall that move with the flow, in steps of a fixed size."""
     import foamprb
 
-    x = positions(n, reach=reach)
+    x = positions(n)
     medium = foamprb.Medium(fluid.rho * fluid.nu, fluid.rho, (0.0, -9.81, 0.0))
-    particles = foamprb.spheres(x, d=D, rho=fluid.rho_s, mu=medium.mu * WALL_RATE / Ca)
+    particles = foamprb.spheres(x, d=D, rho=fluid.rho_s, mu=medium.mu * WALL_RATE / 0.5)
     particles.v[:] = poiseuille(x)
     walls = [foamprb.Stick() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
-    models = foamprb.Models(integrator=integrator, tolerance=tolerance, stride=stride)
+    models = foamprb.Models(integrator=integrator, tolerance=np.inf)
     return foamprb.Cloud(particles, flow, medium, walls, dt, models, threads)
 
 
@@ -350,12 +353,11 @@ def particle_steps(cloud: Any) -> float:
     return float((p.t - p.t0).sum() / cloud.dt)
 
 
-def cache_folder(scratch: Path, grid: str) -> Path:
-    """Return the case of a grid, written once."""
-    folder = scratch / grid
-    if not (folder / "0" / "U").exists():
-        write_case(folder, GRIDS[grid])
-    return folder
+def cost(cloud: Any, steps: int) -> float:
+    """Advance a cloud, and return CPU µs per particle-step."""
+    before, start = particle_steps(cloud), time.process_time()
+    cloud.advance(steps)
+    return 1e6 * (time.process_time() - start) / (particle_steps(cloud) - before)
 
 
 def scratch_folder() -> Path:
@@ -364,8 +366,11 @@ def scratch_folder() -> Path:
 
 
 def case(grid: str) -> Path:
-    """Return the case of one of :data:`GRIDS`."""
-    return cache_folder(scratch_folder(), grid)
+    """Return the case of one of :data:`GRIDS`, written once."""
+    folder = scratch_folder() / grid
+    if not (folder / "0" / "U").exists():
+        write_case(folder, GRIDS[grid])
+    return folder
 
 
 def _header(kind: str, name: str, note: str = "", binary: bool = True) -> str:

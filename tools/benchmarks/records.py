@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
@@ -23,6 +23,10 @@ from typing import Any, NamedTuple
 
 TOOLS = Path(__file__).parents[1]
 KILO, MEGA, GIGA = 1e3, 1e6, 1e9
+PARTS = (
+    "tracker", "whole", "tutorials", "threads", "memory", "run", "mesh", "start", "output", "integrators",
+    "surroundings", "peers", "scaling",
+)  # fmt: skip
 
 
 class Row(NamedTuple):
@@ -36,8 +40,6 @@ class Row(NamedTuple):
     size: float
     value: float
     unit: str
-    processor: str = ""
-    """Model of the processor on which it was measured."""
 
 
 @dataclass(frozen=True)
@@ -79,15 +81,6 @@ class Results:
         """Return rows of one part."""
         return [row for row in self.rows if row.part == name]
 
-    def newest(self) -> Results:
-        """Return the rows of the first processor of each part."""
-        first = {row.part: row.processor for row in reversed(self.rows)}
-        return Results(row for row in self.rows if row.processor == first[row.part])
-
-    def on(self, processor: str) -> Results:
-        """Return the rows of a processor."""
-        return Results(row for row in self.rows if row.processor == processor)
-
 
 def read_rows(path: Path) -> list[Row]:
     """Return the rows of a file of :func:`foamprb.results.tables.write_table`; [] if it is absent."""
@@ -95,31 +88,18 @@ def read_rows(path: Path) -> list[Row]:
         return []
     with path.open(encoding="utf-8", newline="") as file:
         return [
-            Row(
-                r["part"],
-                r["quantity"],
-                r["subject"],
-                float(r["size"]),
-                float(r["value"]),
-                r["unit"],
-                r["processor"],
-            )
+            Row(**{name: float(r[name]) if name in ("size", "value") else r[name] for name in Row._fields})
             for r in csv.DictReader(file)
         ]
 
 
-def processor() -> str:
-    """Return the model of the processor."""
-    names = re.findall(r"model name\s*:\s*(.+)", _text("/proc/cpuinfo"))
-    return names[0] if names else platform.processor() or platform.machine()
-
-
 def machine() -> str:
     """Return the processor, versions relevant for speed, and the date."""
+    models = re.findall(r"model name\s*:\s*(.+)", _text("/proc/cpuinfo"))
+    model = models[0] if models else platform.processor() or platform.machine()
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "numpy", "vtk"))
     processors = len(os.sched_getaffinity(0))
-    python = f"Python {platform.python_version()}"
-    return f"{processor()}, {processors} processors, {python}, {versions}, {date.today()}"
+    return f"{model}, {processors} processors, Python {platform.python_version()}, {versions}, {date.today()}"
 
 
 def load(seconds: float = 2.0) -> float:
@@ -230,11 +210,6 @@ def _serve(call: str) -> None:
 def rows(part: str, quantity: str, values: Mapping[str, float], unit: str, size: float = 0.0) -> list[Row]:
     """Return a row for each subject."""
     return [Row(part, quantity, subject, size, value, unit) for subject, value in values.items()]
-
-
-def as_rows(values: Sequence[Sequence[Any]]) -> list[Row]:
-    """Return rows from their JSON form."""
-    return [Row(*value) for value in values]
 
 
 if __name__ == "__main__":

@@ -8,11 +8,11 @@ import shutil
 import statistics
 import subprocess
 import sys
+from math import prod
 from pathlib import Path
 from typing import NamedTuple
 
 from benchmarks import pipe
-from benchmarks.processes import decomposed, decomposed_folder, together
 from benchmarks.records import KILO, MEGA, Options, Row
 from benchmarks.tracker import OPENFOAM_STEP, openfoam_environment
 from foamprb.parallel.shared_memory import NODE_RANKS
@@ -36,6 +36,28 @@ class Use(NamedTuple):
     """Peak of the resident size of the process with the highest one, shared memory included, bytes."""
 
 
+def _decomposed(case: Path) -> Path:
+    """Return the case in processor folders alone, :data:`CUTS` along each axis."""
+    folder, parts = case.with_name(f"{case.name}_decomposed"), prod(CUTS)
+    if (folder / f"processor{parts - 1}").is_dir():
+        return folder
+    shutil.copytree(case / "system", folder / "system")
+    (folder / "constant").mkdir()
+    (folder / "system" / "decomposeParDict").write_text(
+        "FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }\n"
+        f"numberOfSubdomains {parts}; method hierarchical; "
+        f"hierarchicalCoeffs {{ n ({' '.join(map(str, CUTS))}); delta 0.001; order xyz; }}\n"
+    )
+    for path in (*(case / "constant").iterdir(), case / "0"):
+        (folder / path.relative_to(case)).symlink_to(path)
+    subprocess.run(
+        ["decomposePar"], cwd=folder, env=openfoam_environment(), check=True, stdout=subprocess.DEVNULL
+    )
+    for link in (folder / "constant" / "polyMesh", folder / "0"):
+        link.unlink()
+    return folder
+
+
 def _run(case: Path, settings: Path, cores: int, way: str) -> Use:
     """Run foamprb.
 
@@ -49,7 +71,10 @@ def _run(case: Path, settings: Path, cores: int, way: str) -> Use:
     if way == "threads":
         words += [str(cores)]
     else:
-        words, folder = [*together(cores), *words, "1", "-parallel"], decomposed(case, CUTS)
+        # Waiting processes yield: their user CPU is that of the work.
+        mpirun = ["mpirun", "-np", str(cores), "--oversubscribe", "--bind-to", "none"]
+        words = [*mpirun, "--mca", "mpi_yield_when_idle", "1", *words, "1", "-parallel"]
+        folder = _decomposed(case)
     if way == "nodes":
         environment[NODE_RANKS] = "1"
     log = folder / "log"
@@ -79,7 +104,7 @@ def measure(options: Options) -> list[Row]:
     case = pipe.case(grid)
     settings = _write_cloud(case, n, steps)
     ways = ["threads"]
-    if shutil.which("mpirun") and (shutil.which("decomposePar") or decomposed_folder(case, CUTS).is_dir()):
+    if shutil.which("mpirun") and shutil.which("decomposePar"):
         ways += ["processes", "nodes"]
     runs: dict[tuple[str, int], list[Use]] = {("threads", 1): []}
     ends = {("threads", 1), *((way, 2) for way in ways)}

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 import foamprb
 from benchmarks import pipe
-from benchmarks.records import Options, Row, cpu_of, interleaved, rows
+from benchmarks.records import Options, Row, interleaved, rows
 
 STEP, MU = 1e-4, pipe.RHO * pipe.NU
 
@@ -63,24 +64,22 @@ def particles(n: int, d: float, low: float, high: float, material: str) -> foamp
     return p
 
 
-class Contestant:
-    """A cloud with one of the models, ready to go."""
+def contestant(flow, p: foamprb.Particles, model: Model, steps: int) -> Callable[[], float]:
+    """Return the measurement of CPU µs per particle-step with a model, without the lists of walls."""
+    medium = foamprb.Medium(model.mu, pipe.RHO, (0.0, 0.0, 0.0))
+    rules = [foamprb.Rebound() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
+    chosen = foamprb.Models(
+        material=model.material, integrator="stokes", forces=model.forces, surroundings=model.surroundings
+    )
+    cloud = foamprb.Cloud(p, flow, medium, rules, STEP, chosen, 1)
+    cloud.advance(3)
 
-    def __init__(self, flow, p: foamprb.Particles, model: Model, steps: int) -> None:
-        medium = foamprb.Medium(model.mu, pipe.RHO, (0.0, 0.0, 0.0))
-        rules = [foamprb.Rebound() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
-        chosen = foamprb.Models(
-            material=model.material, integrator="stokes", forces=model.forces, surroundings=model.surroundings
-        )
-        self.cloud, self.steps = foamprb.Cloud(p, flow, medium, rules, STEP, chosen, 1), steps
-        self.cloud.advance(3)
+    def cost() -> float:
+        # The lists are made once per run.
+        cloud.make_ready()
+        return pipe.cost(cloud, steps)
 
-    def cost(self) -> float:
-        """Measure CPU µs per particle-step, without the lists of walls, made once per run."""
-        self.cloud.make_ready()
-        before = pipe.particle_steps(self.cloud)
-        spent = cpu_of(lambda: self.cloud.advance(self.steps))
-        return 1e6 * spent / (pipe.particle_steps(self.cloud) - before)
+    return cost
 
 
 def measure(options: Options) -> list[Row]:
@@ -91,7 +90,7 @@ def measure(options: Options) -> list[Row]:
     for place, (d, low, high) in PLACES.items():
         models = MODELS | FAR if place == "far from walls" else MODELS
         clocks = {
-            name: Contestant(flow, particles(n, d, low, high, model.material), model, steps).cost
+            name: contestant(flow, particles(n, d, low, high, model.material), model, steps)
             for name, model in models.items()
         }
         costs = interleaved(clocks, repeats)

@@ -1,4 +1,4 @@
-"""Speed-up by threads, and equal results to the last bit for any number of threads and order in memory.
+"""Speed-up by threads.
 
 Beside them stand as many processes of one thread, which share nothing but the machine: threads cannot be
 expected to do better than they, where processors share their clocks, their caches, or a host with others.
@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
-
-import numpy as np
 
 import foamprb
 from benchmarks import pipe
@@ -36,20 +34,8 @@ def _go_on(steps: int) -> float:
     return _timed(_clouds[0], steps)
 
 
-def _shuffled(cloud, order, threads: int):
-    """Return the same particles in another order."""
-    rest = (cloud.flow, cloud.medium, cloud.interactions, cloud.dt, cloud.models, threads)
-    return foamprb.Cloud(cloud.particles.take(order), *rest)
-
-
-def _same(a, b) -> bool:
-    """Return whether two clouds are in the same state, except for particle indices."""
-    a = a._replace(number=b.number)
-    return all(x.tobytes() == y.tobytes() for x, y in zip(a, b, strict=True))
-
-
 def measure(options: Options) -> list[Row]:
-    """Measure wall time per particle-step with 1, 2, 4, … threads, and processes; 1 for equal bits."""
+    """Measure wall time per particle-step with 1, 2, 4, … threads, and processes."""
     n, dt, steps, repeats = (20_000, 2e-5, 20, 2) if options.quick else (100_000, 2e-5, 100, 9)
     flow = foamprb.read_case(pipe.case("40k"))
     counts = [1]
@@ -74,17 +60,4 @@ def measure(options: Options) -> list[Row]:
         spent = times[str(count)]
         found += rows("threads", "wall time by threads", {"foamprb paper": spent}, "us/particle-step", count)
         found += rows("threads", "speed-up", {"foamprb paper": times["1"] / spent}, "", count)
-
-    order = np.random.default_rng(1).permutation(n)
-    for integrator in ("paper", "stokes"):
-        one = pipe.soft_cloud(flow, n, 2e-5, integrator, threads=1)
-        others = [_shuffled(one, order, threads) for threads in (1, 2, 3)]
-        one.advance(20)
-        same = True
-        for other in others:
-            # In pieces of other lengths as well.
-            other.advance(7)
-            other.advance(13)
-            same &= _same(one.particles.take(order), other.particles)
-        found += rows("threads", "same to the last bit", {f"foamprb {integrator}": float(same)}, "")
     return found

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import foamprb
 from benchmarks import pipe
-from benchmarks.records import Options, Row, cpu_of, interleaved, rows
+from benchmarks.records import Options, Row, interleaved, rows
 
 SOLVER = "icoUncoupledKinematicParcelFoam"
 STEP = {"paper": 2e-5, "rosenbrock": 1e-4, "stokes": 1e-4}
@@ -28,9 +28,7 @@ class Tracker:
 
     def cost(self) -> float:
         """Measure CPU µs per particle-step."""
-        before = pipe.particle_steps(self.cloud)
-        spent = cpu_of(lambda: self.cloud.advance(self.steps))
-        return 1e6 * spent / (pipe.particle_steps(self.cloud) - before)
+        return pipe.cost(self.cloud, self.steps)
 
 
 def openfoam_environment() -> dict[str, str]:

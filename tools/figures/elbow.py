@@ -17,6 +17,7 @@ import gzip
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -25,6 +26,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from benchmarks import pipe
 
 from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, read_case, spheres
 from foamprb.cloud.patches import Interaction, Mirror
@@ -38,7 +43,6 @@ DIAMETER, DENSITY, FLUID, NU = 1e-4, 1e5, 1.0, 0.01
 SECONDS = 30
 SETTLED = (40.0, 10.0, 5.0, 2.0)
 """Time of icoFoam on each mesh, s, starting from the flow on the previous one."""
-HEADER = 'FoamFile {{ version 2.0; format ascii; class {}; location "{}"; object {}; }}\n'
 
 
 class Plane(NamedTuple):
@@ -114,13 +118,6 @@ def sh(case: Path, *words: str) -> None:
     """Run one of OpenFOAM's programs."""
     with (case / f"log.{words[0]}").open("w") as log:
         subprocess.run([*words, "-case", str(case)], check=True, stdout=log, stderr=log)
-
-
-def put(case: Path, name: str, text: str, kind: str = "dictionary") -> None:
-    """Write a file of a case."""
-    path = case / name
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(HEADER.format(kind, Path(name).parent, path.name) + text)
 
 
 def change(path: Path, entries: Mapping[str, object]) -> None:
@@ -241,45 +238,10 @@ def starts(case: Path) -> Floats:
     return np.concatenate([left, below])
 
 
-CLOUD = """
-solution
-{{
-    active true; coupled false; transient yes; cellValueSourceCorrection off; maxCo 0.3;
-    interpolationSchemes {{ rho cell; U {scheme}; mu cell; }}
-    integrationSchemes {{ U analytical; }}
-}}
-constantProperties {{ rho0 {density}; }}
-subModels
-{{
-    particleForces {{ sphereDrag; }}
-    injectionModels
-    {{
-        all
-        {{
-            type manualInjection; massTotal 0; parcelBasisType fixed; nParticle 1; SOI 0; U0 (0 0 0);
-            positionsFile "places";
-            sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {diameter}; }} }}
-        }}
-    }}
-    dispersionModel none; surfaceFilmModel none; stochasticCollisionModel none; collisionModel none;
-    patchInteractionModel localInteraction;
-    localInteractionCoeffs
-    {{
-        patches
-        (
-            "wall.*" {{ type rebound; e 1; mu 0; }}
-            "(velocity|pressure).*" {{ type escape; }}
-            frontAndBackPlanes {{ type none; }}
-        );
-    }}
-}}
-cloudFunctions {{}}
-"""
-CONTROL = """
-application icoUncoupledKinematicParcelFoam;
-startFrom startTime; startTime 0; stopAt endTime; endTime {end}; deltaT {dt};
-writeControl timeStep; writeInterval {interval}; purgeWrite 0; writeFormat ascii; writePrecision 12;
-timeFormat general; timePrecision 9; runTimeModifiable no;
+PATCHES = """
+    "wall.*" { type rebound; e 1; mu 0; }
+    "(velocity|pressure).*" { type escape; }
+    frontAndBackPlanes { type none; }
 """
 
 
@@ -290,14 +252,9 @@ def openfoam(case: Path, level: int, scheme: str, dt: float) -> Run:
     shutil.copytree(case / "constant", copy / "constant")
     shutil.copytree(case / "system", copy / "system")
     x = starts(case)
-    places = "\n".join(f"({a:.17g} {b:.17g} {c:.17g})" for a, b, c in x.tolist())
-    put(copy, "constant/places", f"(\n{places}\n)\n", "vectorField")
-    cloud = CLOUD.format(scheme=scheme, density=DENSITY, diameter=DIAMETER)
-    put(copy, "constant/kinematicCloudProperties", cloud)
-    put(copy, "constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);\n", "uniformDimensionedVectorField")
-    put(copy, "constant/turbulenceProperties", "simulationType laminar;\n")
-    put(copy, "constant/transportProperties", f"transportModel Newtonian; rhoInf {FLUID}; nu {NU};\n")
-    put(copy, "system/controlDict", CONTROL.format(end=SECONDS, dt=dt, interval=round(1.0 / dt)))
+    pipe.write_dictionaries(copy, NU, FLUID, 0.0)
+    pipe.write_parcels(copy, x, DIAMETER, DENSITY, PATCHES, scheme, "analytical")
+    pipe.write_control(copy, dt, SECONDS, round(1.0 / dt))
     sh(copy, "icoUncoupledKinematicParcelFoam")
     found = np.full((SECONDS, len(x), 2), np.nan)
     for t in range(SECONDS):
