@@ -1,9 +1,11 @@
-"""Landing distance in the paper's pipe against softness: the paper's Fig. 14 (a).
+"""Landing distance in the paper's pipe against softness: the paper's Fig. 14 (a), and with wall lift.
 
 Tracks the particle of Sect. 5.4 from (0, −1.65 mm, 0) until its centre meets the wall, for capillary numbers
 from 0.0001 to 1, with both drag laws, in the exact Poiseuille flow and in OpenFOAM cases of the same pipe.
 The solid has Poisson's ratio 0.499, and inertia. The change of the distances at ten times the tolerance is
-printed beside them. Writes ``distance.csv`` and, with matplotlib, ``distance.png``.
+printed beside them. Writes ``distance.csv`` and, with matplotlib, ``distance.png``. With ``-lift`` it prints
+only the second table of docs/pipe.md: for each Ca the landing distance in diameters, or the height of the
+centre over the wall, in radii, after 2 s; exact flow, without inertia of the solid, steps of 0.2 ms.
 
     python tools/figures/pipe_distance.py cases/pipe --output docs
 """
@@ -11,50 +13,70 @@ printed beside them. Writes ``distance.csv`` and, with matplotlib, ``distance.pn
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from validation.runs import DIAMETER, MEAN_VELOCITY, PIPE_RADIUS, pipe_cloud
 
 import foamprb
 from foamprb.body.drag import DRAGS
 from foamprb.results.tables import write_table
 
-NU, RHO = 1.491e-5, 1.208
-WALL_SHEAR_RATE, RADIUS, DIAMETER = 923.8, 2.1e-3, 5e-6
 CAPILLARY = np.array([1e-4, *np.arange(0.05, 1.001, 0.05)])
 RIGID_ANALYTIC, RIGID_PRINTED = 8989.0, 9165.0
-
-
-INTEGRATOR, POISSONS_RATIO = "rosenbrock", 0.499
+SURROUNDINGS: dict[str, tuple[foamprb.WallLift, ...]] = {
+    "without": (),
+    "lift, `mobility no`": (foamprb.WallLift(mobility=False),),
+    "with `mobility yes`": (foamprb.WallLift(mobility=True),),
+}
 
 
 def distances(flow, drag: str, dt: float, tolerance: float) -> np.ndarray:
     """Return the landing distance over the particle's diameter, for each of CAPILLARY."""
-    medium = foamprb.Medium(RHO * NU, RHO, (0.0, -9.81, 0.0))
-    start = np.tile([0.0, -1.65e-3, 0.0], (len(CAPILLARY), 1))
-    mu = medium.mu * WALL_SHEAR_RATE / CAPILLARY
-    particles = foamprb.spheres(start, d=DIAMETER, rho=2560.0, mu=mu, poissons_ratio=POISSONS_RATIO)
-    interactions = [foamprb.Stick() if p.type == "wall" else foamprb.Escape() for p in flow.patches]
-    models = foamprb.Models(drag=drag, touching="centre", integrator=INTEGRATOR, tolerance=tolerance)
-    cloud = foamprb.Cloud(particles, flow, medium, interactions, dt, models)
+    models = foamprb.Models(drag=drag, touching="centre", integrator="rosenbrock", tolerance=tolerance)
+    cloud = pipe_cloud(CAPILLARY, dt, models, flow)
     cloud.advance(round(1.0 / dt))
+    particles = cloud.particles
     if not (particles.status == foamprb.Status.STUCK).all():
-        raise SystemExit(f"Not every particle landed: {cloud.particles.counts()}")
+        raise SystemExit(f"Not every particle landed: {particles.counts()}")
     return particles.x[:, 0] / DIAMETER
+
+
+def print_lift(end: float = 2.0, dt: float = 2e-4) -> None:
+    """Print the table with wall lift."""
+    Ca = CAPILLARY[[0, 5, 10, 15, 20]]
+    print("| Ca | " + " | ".join(f"{c:g}" for c in Ca) + " |")
+    print("|---" * (len(Ca) + 1) + "|")
+    for name, around in SURROUNDINGS.items():
+        cloud = pipe_cloud(Ca, dt, foamprb.Models(integrator="stokes", surroundings=around))
+        cloud.advance(round(end / dt))
+        p = cloud.particles
+        height = 2.0 * (PIPE_RADIUS - np.hypot(p.x[:, 1], p.x[:, 2])) / DIAMETER
+        words = [
+            f"{x:.0f}" if status == foamprb.Status.STUCK else f"{h:.2f} radii"
+            for x, h, status in zip(p.x[:, 0] / DIAMETER, height, p.status, strict=True)
+        ]
+        print(f"| {name} | " + " | ".join(words) + " |")
 
 
 def main() -> None:
     """Compute, write and plot."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
     parser.add_argument("-help", "--help", action="help", help="show this text and stop")
+    parser.add_argument("-lift", action="store_true", help="print the table with wall lift and stop")
     parser.add_argument("cases", type=Path, nargs="*", default=[Path("cases/pipe")], metavar="CASE")
     parser.add_argument("--output", type=Path, default=Path("docs"))
     parser.add_argument("--dt", type=float, default=2e-5, help="tracking step, s [2e-5]")
     parser.add_argument("--tolerance", type=float, default=1e-6, help="of a step [1e-6]")
     options = parser.parse_args()
-    flows = {
-        "analytic": foamprb.analytic.pipe(RADIUS, WALL_SHEAR_RATE * RADIUS / 4),
-    }
+    if options.lift:
+        print_lift()
+        return
+    flows = {"analytic": foamprb.analytic.pipe(PIPE_RADIUS, MEAN_VELOCITY)}
     for case in options.cases:
         flow = foamprb.read_case(case)
         flows[f"OpenFOAM, {flow.mesh.n_cells} cells"] = flow

@@ -1,7 +1,8 @@
-"""Pictures of ``foamprb view``: docs/pipe.png by VTK; view.png, view-dark.png and view-phone.png of its page.
+"""Pictures of pages in docs: pipe.png by VTK, view.png, view-dark.png, view-phone.png and report.png.
 
-Runs the pipe case of the tree and opens its page in Chromium, which draws by software, so that any machine
-makes the same pictures. Needs Chromium on PATH and the extra ``browser``.
+Runs the pipe case of the tree, for the report with the settings of ``foamprb init``, and opens its pages in
+Chromium, which draws by software, so that any machine makes the same pictures. Needs Chromium on PATH and the
+extra ``browser``.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ class Shot(NamedTuple):
     width: int
     height: int
     scheme: str
-    script: str
+    script: str = ""
 
 
 # Chooses the body nearest to a place, given in shares of the picture.
@@ -47,12 +48,13 @@ CHOOSE = """
     };
 """
 SHOTS = (
-    Shot("view.png", 1440, 900, "light", ""),
+    Shot("view.png", 1440, 900, "light"),
     Shot(
         "view-dark.png", 1440, 900, "dark", f"{CHOOSE} foamprb.eye.zoom(0.35, 620, 330); choose(0.62, 0.5);"
     ),
     Shot("view-phone.png", 390, 780, "light", f"{CHOOSE} choose(0.5, 0.4);"),
 )
+REPORT = Shot("report.png", 1100, 2300, "light")
 
 
 def take(browser: Any, page: Path, shot: Shot, folder: Path) -> None:
@@ -61,15 +63,16 @@ def take(browser: Any, page: Path, shot: Shot, folder: Path) -> None:
     scale = 2 if shot.width < 500 else 1
     tab = browser.new_page(viewport=size, color_scheme=shot.scheme, device_scale_factor=scale)
     tab.goto(page.as_uri())
-    tab.evaluate("() => foamprb.ready")
-    tab.evaluate(f"() => {{ {shot.script} }}")
-    tab.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    if shot is not REPORT:
+        tab.evaluate("() => foamprb.ready")
+        tab.evaluate(f"() => {{ {shot.script} }}")
+        tab.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
     tab.screenshot(path=folder / shot.file)
     tab.close()
 
 
 def main() -> None:
-    """Run the case and take the pictures."""
+    """Run the cases and take the pictures."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0], add_help=False)
     parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("--output", type=Path, default=ROOT / "docs", metavar="DIR", help="[docs]")
@@ -78,12 +81,20 @@ def main() -> None:
     from playwright.sync_api import sync_playwright
 
     with tempfile.TemporaryDirectory() as scratch:
-        case = Path(scratch) / "pipe"
-        shutil.copytree(ROOT / "cases/pipe", case, ignore=shutil.ignore_patterns("postProcessing"))
-        page = Path(scratch) / "pipe.html"
-        picture = ["view", "-png", str(options.output / "pipe.png")]
-        for words in (["run"], ["view", "-noBrowser", "-output", str(page)], picture):
-            if foamprb([words[0], "-case", str(case), *words[1:]]) != 0:
+        case, first = Path(scratch) / "pipe", Path(scratch) / "first" / "pipe"
+        for copy in (case, first):
+            shutil.copytree(ROOT / "cases/pipe", copy, ignore=shutil.ignore_patterns("postProcessing"))
+        (first / "constant/softCloudProperties").unlink()
+        page, report = Path(scratch) / "pipe.html", Path(scratch) / "report.html"
+        for words in (
+            ["run", "-case", str(case)],
+            ["view", "-noBrowser", "-output", str(page), "-case", str(case)],
+            ["view", "-png", str(options.output / "pipe.png"), "-case", str(case)],
+            ["init", "-case", str(first)],
+            ["run", "-case", str(first)],
+            ["report", "-noBrowser", "-output", str(report), "-case", str(first)],
+        ):
+            if foamprb(words) != 0:
                 raise SystemExit(1)
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(
@@ -91,6 +102,7 @@ def main() -> None:
             )
             for shot in SHOTS:
                 take(browser, page, shot, options.output)
+            take(browser, report, REPORT, options.output)
             browser.close()
 
 
