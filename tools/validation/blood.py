@@ -10,11 +10,11 @@ from scipy.integrate import quad
 
 from foamprb.cloudfunctions.base import Memory
 from foamprb.cloudfunctions.haemolysis import Haemolysis, effective_shear_rate, index_of_haemolysis
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared
 from validation.references.morphology import shapes, taylor
+from validation.references.shear import SHEAR
 
 MU, F1, F2 = 3.5e-3, 5.0, 4.2298e-4
-SHEAR = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
 Cell = Literal["fluid", "KelvinVoigt", "morphology"]
 
 
@@ -61,8 +61,8 @@ def cells(quick: bool) -> Outcome:
             name = f"{stress}: {rate:g} 1/s for {time:g} s, %"
             rows.append(Row(name, ours[-1], expected[-1], "equation of the cell", 1e-3, True))
             if time == 0.05:
-                curves.append(Curve(times, ours, f"foamprb, {stress}", colour=colour))
-                curves.append(Curve(times, expected, "solve_ivp" if colour == 0 else "", "reference", colour))
+                labels = f"foamprb, {stress}", "solve_ivp" if colour == 0 else ""
+                curves += compared(times, ours, expected, labels, colour)
     fluid = 3.62e-5 * (MU * 5000.0) ** 2.416 * times_of(n) ** 0.785
     curves.append(Curve(times_of(n), fluid, "stress of the fluid", "guide"))
     for rate, time in ((5000.0, 1.0), (10_000.0, 0.1), (20_000.0, 0.05), (40_000.0, 0.05)):

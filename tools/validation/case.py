@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -95,6 +95,14 @@ class Case(NamedTuple):
         return (self.run.__doc__ or "").partition("\n")[0].rstrip(".")
 
 
+def compared(
+    x: Floats, ours: Floats, reference: Floats, labels: tuple[str, str], colour: int = 0, every: int = 1
+) -> list[Curve]:
+    """Return a curve of ours beside every so many points of its reference, each (n,)."""
+    mark = Curve(x[::every], reference[::every], labels[1], "reference", colour)
+    return [Curve(x, ours, labels[0], colour=colour), mark]
+
+
 def worst(
     quantity: str,
     ours: Floats,
@@ -108,3 +116,11 @@ def worst(
     miss = np.abs(np.asarray(ours) - reference)
     k = int(np.argmax(np.where(np.isfinite(miss), miss, np.inf)))
     return Row(quantity, float(ours[k] / scale), float(reference[k] / scale), source, allowed, note=note)
+
+
+def worst_of_each(
+    quantity: str, names: Sequence[str], ours: Floats, reference: Floats, source: str, most: Sequence[float]
+) -> list[Row]:
+    """Return a row as of :func:`worst` for each named column of curves (n, m); ``{}`` stands for its name."""
+    columns = zip(names, ours.T, reference.T, most, strict=False)
+    return [worst(quantity.format(name), a, b, source, allowed) for name, a, b, allowed in columns]

@@ -11,12 +11,12 @@ from foamprb.cloud.state import drops as drops_at
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.flow.base import Flow
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared, worst
 from validation.references.morphology import angle, of_drop, shapes, taylor
-from validation.runs import advance_to, measures
+from validation.references.shear import SHEAR
+from validation.runs import advance_to, follow, measures
 
 ODE = "equation of S by LSODA"
-SHEAR = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
 RATIOS, NUMBERS = (0.1, 1.0, 5.0), np.array([0.1, 0.2, 0.3])
 
 
@@ -48,9 +48,9 @@ def _steady(ratio: float) -> tuple[list[Row], list[Curve]]:
     volume = float(np.abs(np.linalg.det(ours) - 1.0).max())
     rows.append(Row(f"λ = {ratio:g}: |det S − 1|, worst", volume, 0.0, "the equation", 1e-13))
     colour = RATIOS.index(ratio)
+    labels = f"foamprb, λ = {ratio:g}", "LSODA" if colour == 0 else ""
     return rows, [
-        Curve(NUMBERS, taylor(ours), f"foamprb, λ = {ratio:g}", colour=colour),
-        Curve(NUMBERS, taylor(expected), "LSODA" if colour == 0 else "", "reference", colour),
+        *compared(NUMBERS, taylor(ours), taylor(expected), labels, colour),
         Curve(NUMBERS, (19.0 * ratio + 16.0) / (16.0 * ratio + 16.0) * NUMBERS, "Taylor", "guide", colour),
     ]
 
@@ -68,17 +68,10 @@ def _transient(quick: bool) -> tuple[list[Row], list[Curve]]:
         # Time in μ_f R/σ at Ca = 0.3.
         cloud = _cloud(analytic.linear(l), 0.3, 1.0, 0.05)
         cloud.particles.F[:] = np.sqrt(begin).ravel()
-        path = []
-        for t in times:
-            advance_to(cloud, float(t))
-            path.append(_tensors(cloud)[0])
-        ours = taylor(np.array(path))
+        ours = taylor(follow(cloud, times, _tensors)[:, 0])
         expected = taylor(shapes(0.3 * l, of_drop(1.0, 0.3 if k == 0 else 0.0), times / 0.3, begin))
         rows.append(worst(f"{name}, λ = 1, μ_f R/σ = 0.3: D, worst of all times", ours, expected, ODE, 1e-4))
-        curves += [
-            Curve(times, ours, f"foamprb, {name}", colour=k),
-            Curve(times, expected, "LSODA" if k == 0 else "", "reference", k),
-        ]
+        curves += compared(times, ours, expected, (f"foamprb, {name}", "LSODA" if k == 0 else ""), k)
     return rows, curves
 
 

@@ -17,7 +17,7 @@ from foamprb.flow import analytic
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
 from validation.references import tube
 from validation.references.duct import coefficient
-from validation.runs import advance_to
+from validation.runs import follow
 
 QUADRATURE = "modes along the walls, first order in Re"
 MODES = "modes along and around, first order in Re"
@@ -44,11 +44,7 @@ def _paths(Ca: float, rate: float, inertia: bool, times: Floats) -> Floats:
         integrator="stokes", forces=(lift,), surroundings=(WallLift(cutOff=25.0, mobility=False),), stride=20
     )
     cloud = Cloud(p, flow, Medium(MU, RHO, (0.0, 0.0, 0.0)), [Stick(), Stick()], 1e-4, models, threads=1)
-    found = []
-    for t in times:
-        advance_to(cloud, float(t))
-        found.append(p.x[:, 2] / HEIGHT)
-    return np.array(found)
+    return follow(cloud, times, lambda c: c.particles.x[:, 2] / HEIGHT)
 
 
 def _own(rate: float, times: Floats) -> Floats:

@@ -12,6 +12,7 @@ from validation.references.extension import steady_extension as exact_steady_ext
 from validation.runs import (
     NEARLY_INCOMPRESSIBLE,
     advance_to,
+    follow,
     measures,
     unit_cloud,
 )
@@ -71,11 +72,7 @@ def volume(quick: bool) -> Outcome:
     Ca = np.array([0.1, 0.4])
     cloud = unit_cloud(analytic.shear(1.0), Ca, 2e-3, 4e-4, Models(integrator="paper"))
     times = np.linspace(0.25, 10.0, 40)
-    J = []
-    for t in times:
-        advance_to(cloud, float(t))
-        J.append(measures(cloud)["J"])
-    drift = np.array(J)
+    drift = follow(cloud, times, lambda c: measures(c)["J"])
     for i, c in enumerate(Ca):
         k = int(np.argmax(abs(drift[:, i] - 1.0)))
         rows.append(

@@ -15,8 +15,8 @@ from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
-from validation.runs import advance_to
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared, worst
+from validation.runs import follow
 
 ODE = "Maxey & Riley (1983) without history, by solve_ivp"
 CLOSED = "closed form"
@@ -99,11 +99,7 @@ def _run(
     medium = Medium(MU_F, RHO_F, (float(g[0]), float(g[1]), float(g[2])))
     models = Models(integrator=integrator, tolerance=1e-7, forces=_forces(*kernel))
     cloud = Cloud(p, flow, medium, (), dt, models, threads=1)
-    path = []
-    for t in times:
-        advance_to(cloud, float(t))
-        path.append(np.concatenate([p.x[0], p.v[0]]))
-    return np.array(path)
+    return follow(cloud, times, lambda _: np.concatenate([p.x[0], p.v[0]]))
 
 
 def _lift() -> list[Row]:
@@ -149,13 +145,10 @@ def _start_of_lift() -> Row:
     models = Models(integrator="rosenbrock", tolerance=1e-6, surroundings=(SaffmanMeiLift(),))
     medium = Medium(MU_F, RHO_F, (-g, 0.0, 0.0))
     cloud = Cloud(p, analytic.shear(rate), medium, (), times[0] / 10.0, models, threads=1)
-    drift = []
-    for t in times:
-        advance_to(cloud, float(t))
-        drift.append(p.v[0, 1])
+    drift = follow(cloud, times, lambda _: p.v[0, 1])
     title = "lift, rosenbrock, from rest: drift over the largest, worst of all times"
     scale = float(np.abs(expected.y[3]).max())
-    return worst(title, np.array(drift), expected.y[3], "drag and lift by Radau", 1e-3, scale)
+    return worst(title, drift, expected.y[3], "drag and lift by Radau", 1e-3, scale)
 
 
 def forces(quick: bool) -> Outcome:
@@ -190,8 +183,7 @@ def forces(quick: bool) -> Outcome:
                     away = np.hypot(ours[:, 0], ours[:, 1]) / radius
                     exact = np.hypot(own[:, 0], own[:, 1]) / radius
                     shade = colour + (3 if rho > RHO_F else 0)
-                    turns.append(Curve(times, away, label, colour=shade))
-                    turns.append(Curve(times[::2], exact[::2], "", "reference", shade))
+                    turns += compared(times, away, exact, (label, ""), shade, 2)
     # Neutral and with the pressure gradient, a sphere is a piece of the fluid.
     for integrator, dt, allowed in integrators:
         ours = _run(analytic.linear(spin), RHO_F, (1.0, 0.5), integrator, dt, start, times[-1:], np.zeros(3))
@@ -224,12 +216,8 @@ def forces(quick: bool) -> Outcome:
                     )
                 )
                 if integrator == "rosenbrock" and rho > RHO_F:
-                    swings.append(
-                        Curve(times / period, ours[:, 3] / swing.speed, f"foamprb, {name}", colour=colour)
-                    )
-                    swings.append(
-                        Curve((times / period)[::3], own[::3, 3] / swing.speed, "", "reference", colour)
-                    )
+                    speeds = ours[:, 3] / swing.speed, own[:, 3] / swing.speed
+                    swings += compared(times / period, *speeds, (f"foamprb, {name}", ""), colour, 3)
     figure = Figure(
         "forces",
         "A sphere of 0.2 mm in water: distance from the axis of a rotating fluid over that at the start, and "

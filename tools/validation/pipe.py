@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -96,17 +97,12 @@ def rigid(quick: bool) -> Outcome:
         ),
     ]
 
-    def pair(y: Floats, own_y: Floats, label: str, chosen: Floats | None = None) -> Panel:
-        at = np.arange(len(times))[start] if chosen is None else sparse
-        line = np.arange(len(times))[start] if chosen is None else np.arange(len(times))
-        return Panel(
-            "t [s]",
-            label,
-            [
-                Curve(times[line], y[line], "foamprb, Ca = 1e-4"),
-                Curve(times[at], own_y[at], "rigid sphere", "reference"),
-            ],
-        )
+    def pair(y: Floats, own_y: Floats, label: str, shown: Any = slice(None), marks: Any = sparse) -> Panel:
+        curves = [
+            Curve(times[shown], y[shown], "foamprb, Ca = 1e-4"),
+            Curve(times[marks], own_y[marks], "rigid sphere", "reference"),
+        ]
+        return Panel("t [s]", label, curves)
 
     figures = [
         Figure("pipe-cosines", "Fig. 11: direction cosines of a half axis (the end of the run).", panels),
@@ -114,9 +110,9 @@ def rigid(quick: bool) -> Outcome:
             "pipe-rigid",
             "Fig. 12: angular velocity and torque, at the start and over the whole run.",
             [
+                pair(spin, own_spin, "|ω_s3|/γ̇_max", start, start),
                 pair(spin, own_spin, "|ω_s3|/γ̇_max"),
-                pair(spin, own_spin, "|ω_s3|/γ̇_max", times),
-                pair(torque, own_torque, "M/(μ_f γ̇_max d³)"),
+                pair(torque, own_torque, "M/(μ_f γ̇_max d³)", start, start),
             ],
         ),
     ]

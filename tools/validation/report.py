@@ -1,9 +1,7 @@
-"""The table on the terminal, and the report as Markdown and HTML with its figures."""
+"""The table on the terminal, and the report as Markdown with its figures."""
 
 from __future__ import annotations
 
-import base64
-import html
 import time
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
@@ -64,7 +62,7 @@ def pyplot() -> Any:
 
 
 def validate(cases: Mapping[str, Case], folder: Path, quick: bool) -> bool:
-    """Run cases, print their rows, and write ``report.md``, ``report.html`` and the figures.
+    """Run cases, print their rows, and write ``report.md`` and the figures.
 
     Parameters
     ----------
@@ -93,7 +91,7 @@ def validate(cases: Mapping[str, Case], folder: Path, quick: bool) -> bool:
     print(f"\n{summary(sections)}")
     for line in failed:
         print(f"    failed: {line}")
-    print(f"Report in {folder / 'report.html'}\n")
+    print(f"Report in {folder / 'report.md'}\n")
     return not failed
 
 
@@ -150,7 +148,6 @@ def write(sections: Sequence[Section], folder: Path, quick: bool, plt: Any) -> N
         for figure in section.outcome.figures:
             draw(figure, folder / f"{figure.name}.png", plt)
     (folder / "report.md").write_text(markdown(sections, quick), encoding="utf-8")
-    (folder / "report.html").write_text(page(sections, folder, quick), encoding="utf-8")
 
 
 def _introduction(sections: Sequence[Section], quick: bool) -> list[str]:
@@ -176,52 +173,6 @@ def markdown(sections: Sequence[Section], quick: bool) -> str:
             parts.append(f"![{figure.caption.replace('[', '(').replace(']', ')')}]({figure.name}.png)")
             parts.append(figure.caption)
     return "\n\n".join(parts) + "\n"
-
-
-_STYLE = """
-body { font: 15px/1.45 sans-serif; max-width: 75em; margin: 2em auto; padding: 0 1em; color: #222; }
-table { border-collapse: collapse; font-size: 13px; margin: 1em 0; }
-th, td { border-bottom: 1px solid #ddd; padding: 2px 8px; text-align: left; vertical-align: top; }
-td:nth-child(2), td:nth-child(3), td:nth-child(5), td:nth-child(6) { font-variant-numeric: tabular-nums; }
-.yes { color: #070; } .NO { color: #b00; font-weight: bold; }
-img { max-width: 100%; } figure { margin: 1em 0; } figcaption { color: #555; }
-"""
-
-
-def page(sections: Sequence[Section], folder: Path, quick: bool) -> str:
-    """Return the report as one HTML page with the figures of ``folder``."""
-    parts = ["<h1>Validation</h1>", *(f"<p>{_inline(text)}</p>" for text in _introduction(sections, quick))]
-    for name, case, outcome in sections:
-        parts.append(f"<h2>{_inline(case.title)}</h2><p><code>{name}</code>; {_inline(case.section)}.</p>")
-        head = "".join(f"<th>{c}</th>" for c in COLUMNS)
-        body = "\n".join(_table_row(row) for row in outcome.rows)
-        parts.append(f"<table><thead><tr>{head}</tr></thead><tbody>\n{body}\n</tbody></table>")
-        parts += [f"<p>{_inline(remark)}</p>" for remark in outcome.remarks]
-        for figure in outcome.figures:
-            data = base64.b64encode((folder / f"{figure.name}.png").read_bytes()).decode()
-            caption = _inline(figure.caption)
-            parts.append(
-                f'<figure><img alt="{caption}" src="data:image/png;base64,{data}">'
-                f"<figcaption>{caption}</figcaption></figure>"
-            )
-    content = "\n".join(parts)
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>foamprb: validation</title>'
-        f"<style>{_STYLE}</style></head><body>\n{content}\n</body></html>\n"
-    )
-
-
-def _inline(text: str) -> str:
-    """Return escaped text with backquoted parts as code."""
-    pieces = html.escape(text).split("`")
-    return "".join(f"<code>{p}</code>" if k % 2 else p for k, p in enumerate(pieces))
-
-
-def _table_row(row: Row) -> str:
-    entries = [html.escape(c) for c in cells(row)]
-    mark = f'<td class="{entries[6]}">' if row.passed is not None else "<td>"
-    tags = ["<td>"] * 6 + [mark, "<td>"]
-    return "<tr>" + "".join(f"{tag}{entry}</td>" for tag, entry in zip(tags, entries, strict=True)) + "</tr>"
 
 
 def draw(figure: Figure, file: Path, plt: ModuleType | Any) -> None:

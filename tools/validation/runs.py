@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,6 +78,15 @@ def unit_cloud(
 def advance_to(cloud: Cloud, t: float) -> None:
     """Advance a cloud to the time step nearest to t, s."""
     cloud.advance(round(t / cloud.dt) - cloud.step)
+
+
+def follow(cloud: Cloud, times: Floats, value: Callable[[Cloud], Any]) -> Floats:
+    """Advance a cloud to the steps nearest to times (m,), s; return its ``value`` at each, (m, …)."""
+    found = []
+    for t in times:
+        advance_to(cloud, float(t))
+        found.append(np.array(value(cloud)))
+    return np.array(found)
 
 
 def gradients(p: Particles) -> tuple[Floats, Floats]:

@@ -12,7 +12,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import set_rest_shape, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared, worst
 from validation.references.ellipsoid import prolate_resistances, resistances
 from validation.references.extension import (
     EXTENSIONS,
@@ -96,10 +96,8 @@ def _ellipsoids(quick: bool) -> tuple[list[Row], list[Figure]]:
         )  # fmt: skip
         rows.append(worst(f"{r:g}:1:1, drift from the vertical [deg], worst of all leans", drift, exact,
                           SPHEROID, 1e-5))  # fmt: skip
-        curves += [
-            Curve(angles, drift, f"foamprb, aspect ratio {r:g}", colour=colour),
-            Curve(angles[::2], exact[::2], "closed form" if colour == 0 else "", "reference", colour),
-        ]
+        labels = f"foamprb, aspect ratio {r:g}", "closed form" if colour == 0 else ""
+        curves += compared(angles, drift, exact, labels, colour, 2)
     figure = Figure(
         "settling",
         "Oblique settling of prolate spheroids in a fluid at rest.",

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared, worst, worst_of_each
 from validation.references.extension import EXTENSIONS, steady_extension
 from validation.references.roscoe import roscoe_at, roscoe_frequency
 from validation.references.shear import (
@@ -19,7 +20,7 @@ from validation.references.shear import (
     steady_shear,
     tank_treading_rate,
 )
-from validation.runs import advance_to, gradients, shear_shapes, unit_cloud, without_inertia
+from validation.runs import advance_to, follow, gradients, shear_shapes, unit_cloud, without_inertia
 
 ROSCOE = "Roscoe (1967), steady algebraic solution"
 TABLE = "high-order inertialess solution, tabulated"
@@ -64,10 +65,8 @@ def steady(quick: bool) -> Outcome:
         cloud = unit_cloud(analytic.shear(1.0), Ca, 1e-6, 0.02, models)
         advance_to(cloud, 20.0 if quick else 250.0)
         direct = shear_shapes(cloud)
-        rows += [
-            worst(f"{name}, {integrator}, worst of all Ca", direct[:, k], roscoe[:, k], ROSCOE, ALLOWED[k])
-            for k, name in enumerate(NAMES)
-        ]
+        title = f"{{}}, {integrator}, worst of all Ca"
+        rows += worst_of_each(title, NAMES, direct, roscoe, ROSCOE, ALLOWED)
 
     Ca_j = np.array([0.01, 0.1] if quick else [0.01, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4])
     # Jeffery's traction does not damp a change of shape, so that the last of it goes slowly.
@@ -168,44 +167,19 @@ def transient(quick: bool) -> Outcome:
     found = []
     for s in (2e-3, 1e-3):
         cloud = unit_cloud(analytic.shear(1.0), 0.4, s, 0.2 * s, Models(integrator="paper"))
-        shapes = []
-        for t in times:
-            advance_to(cloud, float(t))
-            shapes.append(shear_shapes(cloud)[0])
-        found.append(np.array(shapes))
+        found.append(follow(cloud, times, shear_shapes)[:, 0])
     ours = without_inertia(*found)
     F = inertialess_history(SHEAR, 0.4, times)
     expected = np.array([shear_shape(f, inertialess_rate(f, SHEAR, 0.4)) for f in F])
     # Two extrapolated levels leave errors of second order in the Stokes number, largest at the start.
     allowed = (2e-4, 2e-4, 2e-4, 0.02, 2e-4)
-    rows = [
-        worst(
-            f"{name}, worst of γ̇t = {times[0]:g} to {times[-1]:g}",
-            ours[:, k],
-            expected[:, k],
-            ODE,
-            allowed[k],
-        )
-        for k, name in enumerate(NAMES)
-    ]
+    span = f"worst of γ̇t = {times[0]:g} to {times[-1]:g}"
+    rows = worst_of_each(f"{{}}, {span}", NAMES, ours, expected, ODE, allowed)
     for integrator in ("stokes", "rosenbrock"):
         models = Models(integrator=integrator, tolerance=1e-6)
         cloud = unit_cloud(analytic.shear(1.0), 0.4, 1e-6, 0.02, models)
-        path = []
-        for t in times:
-            advance_to(cloud, float(t))
-            path.append(shear_shapes(cloud)[0])
-        direct = np.array(path)
-        rows += [
-            worst(
-                f"{name}, {integrator}, worst of γ̇t = {times[0]:g} to {times[-1]:g}",
-                direct[:, k],
-                expected[:, k],
-                ODE,
-                allowed[k],
-            )
-            for k, name in enumerate(NAMES)
-        ]
+        direct = follow(cloud, times, shear_shapes)[:, 0]
+        rows += worst_of_each(f"{{}}, {integrator}, {span}", NAMES, direct, expected, ODE, allowed)
     for t, shape in TRANSIENT_SHAPES.items():
         i = int(np.argmin(abs(times - t)))
         for k, value in zip((1, 2, 3), shape, strict=True):
@@ -214,10 +188,7 @@ def transient(quick: bool) -> Outcome:
         Panel(
             "γ̇t",
             label,
-            [
-                Curve(times, ours[:, k], f"foamprb, {label}", colour=k),
-                Curve(times[::2], expected[::2, k], f"solve_ivp, {label}", "reference", k),
-            ],
+            compared(times, ours[:, k], expected[:, k], (f"foamprb, {label}", f"solve_ivp, {label}"), k, 2),
         )
         for k, label in ((1, "b/a"), (2, "c/a"), (3, "θ [deg]"))
     ]
@@ -232,12 +203,7 @@ def tank_treading(quick: bool) -> Outcome:
     points, periods = [], []
     for s in (2e-3, 1e-3):
         cloud = unit_cloud(analytic.shear(1.0), Ca, s, 0.25 * s, Models(integrator="paper"))
-        path = []
-        for t in times:
-            advance_to(cloud, float(t))
-            # The point at (R, 0, 0) of the sphere at rest.
-            path.append(gradients(cloud.particles)[0][0, :2, 0].copy())
-        points.append(np.array(path))
+        points.append(follow(cloud, times, _point))
         periods.append(_period(times, points[-1]))
     period = 2.0 * periods[1] - periods[0]
     exact = roscoe_at(Ca)
@@ -253,11 +219,7 @@ def tank_treading(quick: bool) -> Outcome:
     for integrator in ("stokes",) if quick else ("stokes", "rosenbrock"):
         models = Models(integrator=integrator, tolerance=1e-6)
         cloud = unit_cloud(analytic.shear(1.0), Ca, 1e-6, 0.05, models)
-        path = []
-        for t in times:
-            advance_to(cloud, float(t))
-            path.append(gradients(cloud.particles)[0][0, :2, 0].copy())
-        own_period = _period(times, np.array(path))
+        own_period = _period(times, follow(cloud, times, _point))
         source = "Roscoe's frequency ν of his steady ellipse"
         rows.append(Row(f"period γ̇T, {integrator}", own_period, 2.0 * np.pi / nu, source, 1e-3))
     fine = without_inertia(*points)
@@ -291,6 +253,11 @@ def tank_treading(quick: bool) -> Outcome:
         ],
     )
     return Outcome(rows, [figure], [])
+
+
+def _point(cloud: Cloud) -> Floats:
+    """Return the place (2,) of the material point that was at (R, 0, 0) at rest."""
+    return gradients(cloud.particles)[0][0, :2, 0]
 
 
 def _period(times: Floats, path: Floats) -> float:

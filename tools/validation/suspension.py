@@ -8,10 +8,10 @@ from scipy.spatial.transform import Rotation
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared, worst, worst_of_each
 from validation.references import rigid, soft
 from validation.references.shear import SHEAR
-from validation.runs import advance_to, measures, principal_axes, unit_cloud
+from validation.runs import advance_to, follow, measures, principal_axes, unit_cloud
 
 EINSTEIN = "Einstein (1906, 1911)"
 ROSCOE = "Roscoe (1967): stress of the solid in his steady ellipsoid"
@@ -69,8 +69,8 @@ def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
         if i < 3:
             exact = rigid.jeffery_axis(np.array([1.0, 0.0, 0.0]), shapes[i, 0], times)
             closed = [rigid.spheroid_stresslet(shapes[i, 0], a, SHEAR)[0, 1] for a in exact]
-            curves.append(Curve(times, found[:, i, 0, 1], f"foamprb, r = {shapes[i, 0]:g}", colour=i))
-            curves.append(Curve(times[::4], np.array(closed)[::4], "closed form", "reference", i))
+            labels = f"foamprb, r = {shapes[i, 0]:g}", "closed form"
+            curves += compared(times, found[:, i, 0, 1], np.array(closed), labels, i, 4)
     figure = Figure(
         "stresslet",
         "Rigid spheroids that tumble in the plane of shear: contribution of each to the shear stress, per "
@@ -125,16 +125,8 @@ def stress(quick: bool) -> Outcome:
             advance_to(cloud, 25.0 if quick else 250.0 if ratio == 0.0 else 20.0 * (1.5 + ratio) * Ca[-1])
             ours = np.array([soft.rheology(S) for S in stresslets(cloud)])
             # S is the small difference of large stresses where the solid is stiff.
-            rows += [
-                worst(
-                    f"spheres, η_s/μ_f = {ratio:g}, {integrator}: {name}, worst of Ca to {Ca[-1]:g}",
-                    ours[:, k],
-                    expected[:, k],
-                    ROSCOE,
-                    1e-3,
-                )
-                for k, name in enumerate(NAMES)
-            ]
+            title = f"spheres, η_s/μ_f = {ratio:g}, {integrator}: {{}}, worst of Ca to {Ca[-1]:g}"
+            rows += worst_of_each(title, NAMES, ours, expected, ROSCOE, (1e-3,) * 3)
         fine = np.linspace(0.01, float(Ca[-1]), 40)
         line = np.array([soft.roscoe_rheology(c, ratio) for c in fine])
         for k in range(3):
@@ -146,11 +138,9 @@ def stress(quick: bool) -> Outcome:
     cloud = unit_cloud(analytic.shear(1.0), given, 1e-6, 0.05, Models(integrator="stokes", tolerance=1e-7))
     advance_to(cloud, 60.0)
     ours = np.array([soft.rheology(S) for S in stresslets(cloud)])
-    for k, name in enumerate(NAMES[:2]):
-        own = np.array([GIVEN[c][k] for c in given])
-        rows.append(
-            worst(f"spheres: {name}, worst of Ca = 0.05, 0.1, 0.4", ours[:, k], own, QUADRATURE, 6e-4)
-        )
+    own = np.array([GIVEN[c] for c in given])
+    title = "spheres: {}, worst of Ca = 0.05, 0.1, 0.4"
+    rows += worst_of_each(title, NAMES, ours, own, QUADRATURE, (6e-4,) * 2)
 
     small = np.array([0.01, 0.02])
     cloud = unit_cloud(analytic.shear(1.0), small, 1e-6, 0.02, Models(integrator="stokes", tolerance=1e-7))
@@ -173,14 +163,11 @@ def stress(quick: bool) -> Outcome:
         Models(integrator="stokes", tolerance=1e-7),
         ratios=(2.0, 1.0, 1.0),
     )
-    path = []
-    for t in times:
-        advance_to(cloud, float(t))
-        path.append(stresslets(cloud)[0])
+    path = follow(cloud, times, stresslets)[:, 0]
     rows.append(
         worst(
             "soft spheroid, r = 2, Ca = 0.2, tumbling: component of S/(μ_f γ̇ V), worst of all times",
-            np.array(path).ravel(),
+            path.ravel(),
             own.ravel(),
             ODE,
             1e-3,

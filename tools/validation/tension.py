@@ -6,10 +6,10 @@ import numpy as np
 
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared, worst, worst_of_each
 from validation.references import soft
 from validation.references.shear import SHEAR, shear_shape
-from validation.runs import advance_to, gradients, shear_shapes, unit_cloud
+from validation.runs import advance_to, follow, gradients, shear_shapes, unit_cloud
 
 ODE = "inertialess equations by solve_ivp, mean surface stress by quadrature"
 RATE = "linear: (8/5)/(3 + 2 η_s/μ_f)"
@@ -49,16 +49,12 @@ def _recovery(quick: bool) -> tuple[list[Row], list[Curve]]:
     for integrator in ("stokes", "rosenbrock"):
         cloud = unit_cloud(analytic.linear(still), WEAK, 1e-6, 0.025, _models(integrator), tension=1.0)
         cloud.particles.F[:] = start.ravel()
-        path = []
-        for t in times:
-            advance_to(cloud, float(t))
-            path.append(soft.semi_axes(gradients(cloud.particles)[0][0]))
-        ours = np.array(path)
+        ours = follow(cloud, times, lambda c: soft.semi_axes(gradients(c.particles)[0][0]))
         name = f"3:1.5:1, {integrator}: semi-axis over R, worst of all times"
         rows.append(worst(name, ours.ravel(), expected.ravel(), ODE, 1e-3))
     for k in range(3):
-        curves.append(Curve(times, ours[:, k], f"foamprb, axis {k + 1}", colour=k))
-        curves.append(Curve(times, expected[:, k], "solve_ivp" if k == 0 else "", "reference", k))
+        labels = f"foamprb, axis {k + 1}", "solve_ivp" if k == 0 else ""
+        curves += compared(times, ours[:, k], expected[:, k], labels, k)
     return rows, curves
 
 
@@ -99,18 +95,10 @@ def drops(quick: bool) -> Outcome:
             )
             advance_to(cloud, 25.0 * (1.5 + ratio))
             ours = shear_shapes(cloud)
-            rows += [
-                worst(
-                    f"η_s/μ_f = {ratio:g}, {integrator}: {name}, worst of μ_f γ̇ R/γ to {numbers[-1]:g}",
-                    ours[:, k],
-                    expected[:, k],
-                    ODE,
-                    ALLOWED[k],
-                )
-                for k, name in enumerate(NAMES)
-            ]
-        curves.append(Curve(numbers, ours[:, 0], f"foamprb, η_s/μ_f = {ratio:g}", colour=colour))
-        curves.append(Curve(numbers, expected[:, 0], "solve_ivp" if colour == 0 else "", "reference", colour))
+            title = f"η_s/μ_f = {ratio:g}, {integrator}: {{}}, worst of μ_f γ̇ R/γ to {numbers[-1]:g}"
+            rows += worst_of_each(title, NAMES, ours, expected, ODE, ALLOWED)
+        labels = f"foamprb, η_s/μ_f = {ratio:g}", "solve_ivp" if colour == 0 else ""
+        curves += compared(numbers, ours[:, 0], expected[:, 0], labels, colour)
         slope = (19.0 * ratio + 16.0) / (16.0 * ratio + 16.0)
         curves.append(Curve(numbers, slope * numbers, f"Taylor, η_s/μ_f = {ratio:g}", "guide", colour))
         rows.append(

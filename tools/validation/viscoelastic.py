@@ -6,10 +6,10 @@ import numpy as np
 
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from validation.case import Curve, Figure, Floats, Outcome, Panel, worst
+from validation.case import Curve, Figure, Floats, Outcome, Panel, compared, worst, worst_of_each
 from validation.references.roscoe import roscoe_at
 from validation.references.shear import SHEAR, inertialess_history, inertialess_rate, shear_shape
-from validation.runs import advance_to, shear_shapes, unit_cloud
+from validation.runs import advance_to, follow, shear_shapes, unit_cloud
 
 ROSCOE = "Roscoe (1967), viscoelastic sphere, steady algebraic solution"
 ODE = "inertialess equations by solve_ivp"
@@ -39,22 +39,11 @@ def steady(quick: bool) -> Outcome:
         end = 20.0 * (1.5 + ratio) * float(Ca.max())
         for integrator in ("stokes", "rosenbrock"):
             ours = _steady(integrator, Ca, ratio, max(end, 20.0))
-            rows += [
-                worst(
-                    f"η_s/μ_f = {ratio:g}, {integrator}: {name}, worst of Ca = {Ca[0]:g} to {Ca[-1]:g}",
-                    ours[:, k],
-                    roscoe[:, k],
-                    ROSCOE,
-                    ALLOWED[k],
-                )
-                for k, name in enumerate(NAMES)
-            ]
-        label = f"η_s/μ_f = {ratio:g}"
+            title = f"η_s/μ_f = {ratio:g}, {integrator}: {{}}, worst of Ca = {Ca[0]:g} to {Ca[-1]:g}"
+            rows += worst_of_each(title, NAMES, ours, roscoe, ROSCOE, ALLOWED)
+        labels = f"foamprb, η_s/μ_f = {ratio:g}", "Roscoe (1967)" if colour == 0 else ""
         for curves, k in ((shapes, 0), (angles, 3)):
-            curves.append(Curve(Ca, ours[:, k], f"foamprb, {label}", colour=colour))
-            curves.append(
-                Curve(Ca, roscoe[:, k], "Roscoe (1967)" if colour == 0 else "", "reference", colour)
-            )
+            curves += compared(Ca, ours[:, k], roscoe[:, k], labels, colour)
 
     times = np.linspace(0.25, 5.0 if quick else 15.0, 20 if quick else 60)
     Ca_t, ratio_t = 0.4, 5.0
@@ -69,22 +58,12 @@ def steady(quick: bool) -> Outcome:
         cloud = unit_cloud(
             analytic.shear(1.0), Ca_t, 1e-6, 0.05, Models(integrator=integrator, tolerance=1e-6), eta=ratio_t
         )
-        path = []
-        for t in times:
-            advance_to(cloud, float(t))
-            path.append(shear_shapes(cloud)[0])
-        ours = np.array(path)
+        ours = follow(cloud, times, shear_shapes)[:, 0]
         history.append(Curve(times, ours[:, 0], f"foamprb, {integrator}", colour=colour))
-        rows += [
-            worst(
-                f"η_s/μ_f = {ratio_t:g}, Ca = {Ca_t:g}, {integrator}: {NAMES[k]}, worst of all times",
-                ours[:, k],
-                expected[:, k],
-                ODE,
-                10.0 * ALLOWED[k],
-            )
-            for k in (0, 2, 3)
-        ]
+        title = f"η_s/μ_f = {ratio_t:g}, Ca = {Ca_t:g}, {integrator}: {{}}, worst of all times"
+        for k in (0, 2, 3):
+            found = title.format(NAMES[k]), ours[:, k], expected[:, k]
+            rows.append(worst(*found, ODE, 10.0 * ALLOWED[k]))
     figure = Figure(
         "viscoelastic",
         f"Kelvin–Voigt spheres: steady deformation and angle, and the start with Ca = {Ca_t:g} and "

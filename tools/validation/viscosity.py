@@ -16,7 +16,7 @@ from foamprb.cloud.viscosity import BirdCarreau, PowerLaw
 from foamprb.flow import analytic
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
 from validation.references.shear import inertialess_rate, shear_shape, steady_shear
-from validation.runs import NEARLY_INCOMPRESSIBLE, REST, advance_to, gradients, measures, shear_shapes
+from validation.runs import NEARLY_INCOMPRESSIBLE, REST, advance_to, follow, gradients, measures, shear_shapes
 
 K, N, TAU, A = 0.5, 0.6, 1.0, 1e-3
 """Pa sⁿ, 1; stress at the wall of the pipe, Pa, and its radius, m."""
@@ -81,11 +81,8 @@ def _pipe(integrators: Sequence[str]) -> list[Row]:
 def _on_the_way(law: PowerLaw, models: Models, start: float, times: Floats) -> Floats:
     """Return D of a body on its way to the sink, (n,)."""
     x, dt = np.array([(start, 0.0, 0.0)]), float(times[0]) / 4.0
-    cloud, found = _bodies(analytic.function(sink_velocity), x, law, models, dt), []
-    for t in times:
-        advance_to(cloud, float(t))
-        found.append(shear_shape(gradients(cloud.particles)[0][0], np.eye(3))[0])
-    return np.array(found)
+    cloud = _bodies(analytic.function(sink_velocity), x, law, models, dt)
+    return follow(cloud, times, lambda c: shear_shape(gradients(c.particles)[0][0], np.eye(3))[0])
 
 
 def _sink(quick: bool, integrators: Sequence[str]) -> tuple[list[Row], Figure]:

@@ -12,7 +12,7 @@ from foamprb.cloud.state import Particles, spheres
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row
+from validation.case import Figure, Floats, Outcome, Panel, Row, compared
 from validation.references import wall as ref
 
 STRESSLET = "stresslet of the solid's side, and its image"
@@ -53,8 +53,8 @@ def lift(quick: bool) -> Outcome:
             for h, k, other, (_, allowed) in zip(heights, ours, theirs, starts, strict=True):
                 title = f"Ca = 0.1, h = {h:.2f}R: v h²/(γ̇R³)"
                 rows.append(Row(title, float(k), float(other), AROUND, allowed, relative=True))
-        curves.append(Curve(heights, ours, f"foamprb, Ca = {Ca:g}", colour=colour))
-        curves.append(Curve(heights, np.array(theirs), f"Ca = {Ca:g}, around the body", "reference", colour))
+        labels = f"foamprb, Ca = {Ca:g}", f"Ca = {Ca:g}, around the body"
+        curves += compared(heights, ours, np.array(theirs), labels, colour)
     panel = Panel("h/R", "v h²/(γ̇ R³)", curves)
     figure = Figure("wallLift", "Lift on soft spheres in shear over a wall", [panel])
     remark = (

@@ -87,8 +87,8 @@ def diagonal_response(axes: Floats) -> Floats:
     return np.asarray(n * np.array([[2 * x, -y, -z], [-x, 2 * y, -z], [-x, -y, 2 * z]]))
 
 
-def traction_stress(F: Floats, l_f: Floats, l_s: Floats, traction: str = "roscoe") -> Floats:
-    """Return Roscoe's (or Jeffery's) σ̃/μ_f of a body with deformation gradient F, p = 0, inertial frame.
+def traction_stress(F: Floats, l_f: Floats, l_s: Floats) -> Floats:
+    """Return Roscoe's σ̃/μ_f of a body with deformation gradient F, p = 0, inertial frame.
 
     (25) to (27) and Appendix B, with 2 dev d_s − 4/3 tr(d_s) I for the printed 2 d_s.
 
@@ -100,8 +100,6 @@ def traction_stress(F: Floats, l_f: Floats, l_s: Floats, traction: str = "roscoe
     U, axes, _ = np.linalg.svd(F)
     d_f, w_f = symmetric_and_skew(U.T @ l_f @ U)
     d_s, w_s = symmetric_and_skew(U.T @ l_s @ U)
-    if traction == "jeffery":
-        d_s = np.zeros((3, 3))
     e_s = d_s - np.trace(d_s) / 3.0 * np.eye(3)
     d, w = d_f - np.trace(d_f) / 3.0 * np.eye(3) - e_s, w_f - w_s
     g = integrals(axes)
