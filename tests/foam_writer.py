@@ -116,6 +116,16 @@ def put_scalar(folder: Path, name: str, units: str, value: float) -> None:
     )
 
 
+def put_zones(case: Path, **zones) -> None:
+    """Write zones of cells, by their names."""
+    text = "".join(
+        f"{name} {{ type cellZone; cellLabels List<label> {len(cells)}({' '.join(map(str, cells))}); }}\n"
+        for name, cells in zones.items()
+    )
+    path = case / "constant/polyMesh/cellZones"
+    path.write_text(header("regIOobject", path.name) + f"{len(zones)}\n(\n{text})\n")
+
+
 def save(path: Path, content: bytes, form: Format) -> None:
     if form.compressed:
         path.with_name(path.name + ".gz").write_bytes(gzip.compress(content, mtime=0))

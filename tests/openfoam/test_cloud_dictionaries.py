@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import gzip
 import re
-import shutil
 from pathlib import Path
 
 import pytest
+from foam_tutorials import tutorial
 
 from foamprb.errors import InputError
 from foamprb.settings.settings import read_settings
 
 pytestmark = pytest.mark.openfoam
 
-TUTORIALS = Path("/usr/share/doc/openfoam-examples/examples")
 HOPPER = "lagrangian/icoUncoupledKinematicParcelFoam/hopper"
 DRAG, SOLID = "particleForces/{}Drag is not known", "youngsModulus is not known: use solid"
 DENSE = ["coupled is 'true'", "U.air is not known: use U", "rhoInf is missing", "solid is missing",
@@ -43,15 +41,9 @@ EXPECTED = {
 
 @pytest.mark.parametrize("name", EXPECTED)
 def test_a_tutorials_dictionary_is_answered_at_once(name: str, tmp_path: Path) -> None:
-    source = TUTORIALS / name
-    if not source.is_dir():
-        pytest.skip(f"no {source}")
-    for folder in ("constant", "system"):
-        shutil.copytree(source / folder, tmp_path / folder)
-    for zipped in tmp_path.rglob("*.gz"):
-        zipped.with_suffix("").write_bytes(gzip.decompress(zipped.read_bytes()))
+    case = tutorial(name, tmp_path / "case")
     with pytest.raises(InputError) as caught:
-        read_settings(tmp_path, Path("constant/kinematicCloudProperties"))
+        read_settings(case, Path("constant/kinematicCloudProperties"))
     first, *lines = str(caught.value).split("\n")
     assert first == f"{len(EXPECTED[name])} mistakes:"
     for text in EXPECTED[name]:

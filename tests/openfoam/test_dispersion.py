@@ -9,37 +9,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from foam_tutorials import tutorial
 from foam_writer import header
-from parcels import G, numbers
+from parcels import CLOUD, TRANSPORT, G, control_dict, numbers
 from scipy import stats
 
 from foamprb import prepare
 
 pytestmark = pytest.mark.openfoam
 
-TUTORIAL = Path("/usr/share/doc/openfoam-examples/examples/incompressible/simpleFoam/pitzDaily")
 N, END, DT = 4000, 0.02, 1e-4
-CLOUD = """
-    solution
-    {
-        active true; coupled false; transient yes; cellValueSourceCorrection off; maxCo 0.3;
-        interpolationSchemes { rho cell; U cellPoint; mu cell; }
-        integrationSchemes { U Euler; }
-        sourceTerms { schemes { } }
-    }
-    constantProperties
-    {
-        parcelTypeId 1; rhoMin 1e-15; minParcelMass 1e-30; rho0 1000; youngsModulus 1e8; poissonsRatio 0.35;
-    }
-    subModels
-    {
-        particleForces { sphereDrag; }
-        injectionModels { #include "injectionModels" }
-        dispersionModel MODEL; surfaceFilmModel none; stochasticCollisionModel none; collisionModel none;
-        patchInteractionModel localInteraction;
-        localInteractionCoeffs { patches ( PATCHES ); }
-    }
-    cloudFunctions { }"""
 SOFT = f"""
     solution
     {{
@@ -59,6 +38,8 @@ SOFT = f"""
         patchInteractionModel localInteraction;
         localInteractionCoeffs {{ patches ( PATCHES ); }}
     }}"""
+INTERACTION = "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( PATCHES ); }"
+PARCELS = CLOUD.replace("INTERACTION", INTERACTION)
 PATCHES = '"(upper|lower)Wall" { type rebound; e 1; mu 0; } "inlet|outlet" { type escape; }'
 FILES = {
     "constant/injectionModels": """
@@ -68,12 +49,8 @@ FILES = {
             positionsFile "positions"; U0 (8 0 0);
             sizeDistribution { type fixedValue; fixedValueDistribution { value 2e-6; } }
         }""",
-    "constant/transportProperties": """
-        rhoInf rhoInf [1 -3 0 0 0 0 0] 1.2; transportModel Newtonian; nu nu [0 2 -1 0 0 0 0] 1e-5;""",
-    "system/controlDict": f"""
-        application icoUncoupledKinematicParcelFoam; startFrom startTime; startTime 0; stopAt endTime;
-        endTime {END}; deltaT {DT}; writeControl runTime; writeInterval {END}; writeFormat ascii;
-        writePrecision 12; timeFormat general; timePrecision 8; runTimeModifiable false;""",
+    "constant/transportProperties": TRANSPORT,
+    "system/controlDict": control_dict(END, DT),
 }
 
 
@@ -81,16 +58,9 @@ def run(case: Path, command: str) -> None:
     subprocess.run([command], cwd=case, check=True, capture_output=True)
 
 
-def copied(source: Path, target: Path) -> None:
-    shutil.copytree(source, target)
-    for path in target.rglob("*.gz"):
-        subprocess.run(["gunzip", str(path)], check=True)
-
-
 def solved(folder: Path) -> Path:
     """The tutorial's flow after some hundred iterations, 0.1 m thick: no parcel comes to front or back."""
-    case = folder / "flow"
-    copied(TUTORIAL, case)
+    case = tutorial("incompressible/simpleFoam/pitzDaily", folder / "flow")
     mesh = case / "system/blockMeshDict"
     mesh.write_text(re.sub(r" (-?)0\.5\)", r" \g<1>50)", mesh.read_text()))
     control = case / "system/controlDict"
@@ -117,7 +87,7 @@ def prepared(flow: Path, case: Path, model: str) -> Path:
     for path, text in FILES.items():
         (case / path).write_text(header("dictionary", Path(path).name) + text)
     for path, text, patches in (
-        ("constant/kinematicCloudProperties", CLOUD, f"{PATCHES} frontAndBack {{ type none; }}"),
+        ("constant/kinematicCloudProperties", PARCELS, f"{PATCHES} frontAndBack {{ type none; }}"),
         ("constant/softCloudProperties", SOFT, PATCHES),
     ):
         (case / path).write_text(

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from foam_tutorials import tutorial
 from paths import ROOT
 
 from foamprb import open_run
@@ -18,7 +19,6 @@ from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
-CAVITY = Path("/usr/share/doc/openfoam-examples/examples/incompressible/icoFoam/cavity/cavity")
 NOBODY = 65534
 ORDINARY: dict[str, Any] = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
 """OpenFOAM makes no system calls for root."""
@@ -27,12 +27,8 @@ ORDINARY: dict[str, Any] = {"user": NOBODY, "group": NOBODY, "extra_groups": []}
 @pytest.fixture
 def case() -> Iterator[Path]:
     """The cavity, where an ordinary user can come."""
-    if not CAVITY.is_dir():
-        pytest.skip(f"no {CAVITY}")
     with tempfile.TemporaryDirectory() as folder:
-        case = Path(folder) / "cavity"
-        subprocess.run(["cp", "-r", CAVITY, case], check=True)
-        subprocess.run(["gunzip", "-rq", case], check=False)
+        case = tutorial("incompressible/icoFoam/cavity/cavity", Path(folder) / "cavity")
         if ORDINARY:
             for path in (Path(folder), case, *case.rglob("*")):
                 os.chown(path, NOBODY, NOBODY)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import gzip
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+from foam_tutorials import tutorial
 
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
-TUTORIALS = Path("/usr/share/doc/openfoam-examples/examples/incompressible")
 LAGRANGIAN = "../lagrangian"
 MESHERS = {
     "icoFoam/cavity/cavity": ["blockMesh"],
@@ -32,12 +31,7 @@ MESHERS = {
 
 @pytest.mark.parametrize("name", MESHERS)
 def test_a_tutorial_passes_a_dry_run(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    case = tmp_path / "case"
-    if not (TUTORIALS / name).is_dir():
-        pytest.skip(f"no {name}")
-    shutil.copytree(TUTORIALS / name, case)
-    for zipped in case.rglob("*.gz"):
-        zipped.with_suffix("").write_bytes(gzip.decompress(zipped.read_bytes()))
+    case = tutorial(f"incompressible/{name}", tmp_path / "case")
     if not (case / "0").exists():
         shutil.copytree(case / "0.orig", case / "0")
     subprocess.run(MESHERS[name], cwd=case, check=True, capture_output=True)

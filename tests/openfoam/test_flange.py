@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import gzip
 import shutil
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 import pyvista
 import vtk
+from foam_tutorials import TUTORIALS, tutorial
 
 from foamprb import Cloud, Escape, Medium, Models, Status, Stick, read_case, spheres
 
 pytestmark = pytest.mark.openfoam
 
-TUTORIALS = Path("/usr/share/doc/openfoam-examples/examples")
 OPENINGS = ("flange_patch2", "flange_patch4")
 RADIUS = 5e-5
 HEADER = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
@@ -28,13 +26,7 @@ boundaryField { ".*" { type zeroGradient; } }
 
 @pytest.fixture(scope="module")
 def case(tmp_path_factory):
-    tutorial = TUTORIALS / "mesh/snappyHexMesh/flange"
-    if not tutorial.exists():
-        pytest.skip("OpenFOAM's tutorials are not here")
-    case = tmp_path_factory.mktemp("mesh") / "flange"
-    shutil.copytree(tutorial, case)
-    for file in case.rglob("*.gz"):
-        file.with_suffix("").write_bytes(gzip.decompress(file.read_bytes()))
+    case = tutorial("mesh/snappyHexMesh/flange", tmp_path_factory.mktemp("mesh") / "flange")
     surface = case / "constant/triSurface"
     surface.mkdir(parents=True, exist_ok=True)
     shutil.copy(TUTORIALS / "resources/geometry/flange.stl.gz", surface)

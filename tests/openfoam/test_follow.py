@@ -6,9 +6,9 @@ import re
 import shutil
 import subprocess
 import threading
-from pathlib import Path
 
 import pytest
+from foam_tutorials import tutorial
 from foam_writer import header
 from transient_case import SETTINGS
 
@@ -16,7 +16,6 @@ from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
-CAVITY = Path("/usr/share/doc/openfoam-examples/examples/incompressible/icoFoam/cavity/cavity")
 CHANGES = {
     "system/blockMeshDict": [(r"\(20 20 1\)", "(60 60 1)")],
     "system/controlDict": [
@@ -33,11 +32,7 @@ RUN = [
 
 @pytest.fixture
 def case(tmp_path):
-    if not CAVITY.is_dir():
-        pytest.skip(f"no {CAVITY}")
-    case = tmp_path / "cavity"
-    subprocess.run(["cp", "-r", CAVITY, case], check=True)
-    subprocess.run(["gunzip", "-rq", case], check=False)
+    case = tutorial("incompressible/icoFoam/cavity/cavity", tmp_path / "cavity")
     for name, changes in CHANGES.items():
         for pattern, text in changes:
             edit(case / name, pattern, text)

@@ -166,18 +166,6 @@ def test_nodes_read_a_case_with_cut_cyclic_patches(addressed, tool, cases, tmp_p
         np.testing.assert_array_equal(part.sample(x[rows], part.own_hosts(numbers)[1], 0.0)[0], u[rows])
 
 
-def test_particles_go_round_in_a_cyclic_channel(tool, cases):
-    flow = read_case(cases("cyclic"))
-    p = spheres([[1e-3, 1e-3, 1e-4]], d=5e-6, rho=1000.0, mu=1.0)
-    p.v[:] = (0.45, 0.0, 0.0)
-    air, models = Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0)), Models(integrator="rosenbrock")
-    cloud = Cloud(p, flow, air, tool.interactions(flow, Rebound()), 1e-4, models, threads=1)
-    cloud.advance(1000)
-    way = 0.45 * 0.1 + 1e-3
-    assert p.status[0] == Status.ACTIVE
-    assert p.x[0] == pytest.approx([way % 0.01, 1e-3, 1e-4], abs=1e-4)
-
-
 def test_foam_to_vtk_gives_the_flow_of_the_case(tool, cases, tmp_path):
     case = shutil.copytree(cases("hexahedra"), tmp_path / "pipe")
     tool.run(case, "postProcess", "-func", "grad(U)", "-latestTime")

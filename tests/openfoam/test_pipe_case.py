@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-import csv
 import shutil
 import subprocess
 
 import numpy as np
 import pytest
 from paths import PIPE
+from pipe_case import copy_of_pipe, fates
 
-from foamprb import Cloud, Medium, Models, Status, patch_interactions, read_case, spheres
+from foamprb import read_case
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
-
-CASE = PIPE
-
-D = 5e-6
-
-
-def fates(case):
-    with (case / "postProcessing/softCloud/fates.csv").open() as file:
-        return list(csv.DictReader(file))
 
 
 def test_committed_flow_is_what_a_live_run_gives(live):
@@ -39,10 +30,7 @@ def test_committed_flow_is_what_a_live_run_gives(live):
 
 
 def test_foamprb_gives_the_same_fates_on_both(live, tmp_path):
-    committed = tmp_path / "pipe"
-    shutil.copytree(
-        PIPE, committed, ignore=shutil.ignore_patterns("postProcessing", "coarse", "medium", "fine")
-    )
+    committed = copy_of_pipe(tmp_path)
     for case in (committed, live):
         assert main(["run", "-case", str(case)]) == 0
     ours, theirs = fates(committed), fates(live)
@@ -65,18 +53,3 @@ def test_openfoams_own_tools_read_the_committed_result(tmp_path):
     subprocess.run(
         ["postProcess", "-func", "mag(U)", "-latestTime"], cwd=case, capture_output=True, check=True
     )
-
-
-def test_the_quasi_rigid_particle_lands_within_a_third_of_a_percent(live):
-    """Against 8989 diameters of the exact pipe, touching by its centre as there."""
-    flow = read_case(live)
-    start = [[0.0, -1.65e-3, 0.0]]
-    mu = 1.208 * 1.491e-5
-    particles = spheres(start, d=D, rho=2560.0, mu=mu * 923.8 / 1e-4)
-    walls = patch_interactions(flow)
-    air = Medium(mu, 1.208, (0.0, -9.81, 0.0))
-    cloud = Cloud(particles, flow, air, walls, 2e-5, Models(touching="centre", integrator="paper"))
-    cloud.advance(15_000)
-    assert particles.status[0] == Status.STUCK
-    assert particles.x[0, 0] / D == pytest.approx(8989, rel=3e-3)
-    assert particles.t[0] == pytest.approx(0.2327, rel=3e-3)

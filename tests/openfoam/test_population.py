@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from foam_writer import header
-from parcels import G, numbers
+from parcels import CLOUD, TRANSPORT, G, control_dict, numbers
 from scipy import stats
 
 from foamprb import prepare
@@ -63,40 +63,19 @@ FILES = {
             { name part; type cellSet; action new; source boxToCell; box (0.1 0.1 0.1) (0.62 0.7 0.9); }
             { name part; type cellZoneSet; action new; source setToCellZone; set part; }
         );""",
-    "system/controlDict": """
-        application icoUncoupledKinematicParcelFoam; startFrom startTime; startTime 0; stopAt endTime;
-        endTime 1e-6; deltaT 1e-6; writeControl timeStep; writeInterval 1; writeFormat ascii;
-        writePrecision 16; timeFormat general; timePrecision 8; runTimeModifiable false;""",
+    "system/controlDict": control_dict(1e-6, 1e-6),
     "system/fvSchemes": """
         ddtSchemes { default Euler; } gradSchemes { default Gauss linear; } divSchemes { default none; }
         laplacianSchemes { default none; } interpolationSchemes { default linear; }
         snGradSchemes { default none; }""",
     "system/fvSolution": "",
     "constant/turbulenceProperties": "simulationType laminar;",
-    "constant/transportProperties": """
-        rhoInf rhoInf [1 -3 0 0 0 0 0] 1.2; transportModel Newtonian; nu nu [0 2 -1 0 0 0 0] 1e-5;""",
-    "constant/kinematicCloudProperties": """
-        solution
-        {
-            active true; coupled false; transient yes; cellValueSourceCorrection off; maxCo 0.3;
-            interpolationSchemes { rho cell; U cellPoint; mu cell; }
-            integrationSchemes { U Euler; }
-            sourceTerms { schemes { } }
-        }
-        constantProperties
-        {
-            parcelTypeId 1; rhoMin 1e-15; minParcelMass 1e-30; rho0 1000; youngsModulus 1e8;
-            poissonsRatio 0.35;
-        }
-        subModels
-        {
-            particleForces { sphereDrag; }
-            injectionModels { #include "injectionModels" }
-            dispersionModel none; surfaceFilmModel none; stochasticCollisionModel none; collisionModel none;
-            patchInteractionModel standardWallInteraction;
-            standardWallInteractionCoeffs { type rebound; e 1; mu 0; }
-        }
-        cloudFunctions { }""",
+    "constant/transportProperties": TRANSPORT,
+    "constant/kinematicCloudProperties": CLOUD.replace("MODEL", "none").replace(
+        "INTERACTION",
+        "patchInteractionModel standardWallInteraction; "
+        "standardWallInteractionCoeffs { type rebound; e 1; mu 0; }",
+    ),
     "constant/softCloudProperties": """
         solution { deltaT 1e-6; endTime 1e-6; }
         constantProperties

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+from foam_tutorials import tutorial
 from foam_writer import header
 
 from foamprb import prepare
@@ -16,7 +16,6 @@ from foamprb.flow.rotating import RotatingFlow
 
 pytestmark = pytest.mark.openfoam
 
-TUTORIAL = Path("/usr/share/doc/openfoam-examples/examples/incompressible/simpleFoam/mixerVessel2D")
 CLOUD = """
     solution { rotatingZones HOW; deltaT 1e-4; endTime 0.02; integrationSchemes { shape stokes; } }
     constantProperties
@@ -46,10 +45,7 @@ def run(case: Path, *command: str) -> str:
 
 @pytest.fixture(scope="module")
 def case(tmp_path_factory):
-    case = tmp_path_factory.mktemp("mixer") / "case"
-    shutil.copytree(TUTORIAL, case)
-    for path in case.rglob("*.gz"):
-        run(case, "gunzip", str(path))
+    case = tutorial("incompressible/simpleFoam/mixerVessel2D", tmp_path_factory.mktemp("mixer") / "case")
     (case / "system/blockMeshDict").write_text(run(case, "m4", "system/blockMeshDict.m4"))
     control = case / "system/controlDict"
     control.write_text(re.sub(r"(endTime|writeInterval) +\d+;", r"\1 150;", control.read_text()))

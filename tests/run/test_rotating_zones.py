@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from foam_writer import header
+from foam_writer import header, put_zones
 from pipe_case import edit, message, short_case, time_folder
 
 from foamprb.cli import main
@@ -14,10 +14,7 @@ from foamprb.flow.read.openfoam import Case
 def case(tmp_path):
     case = short_case(tmp_path)
     n = Case(case).mesh(time_folder(case).name).mesh.n_cells
-    (case / "constant/polyMesh/cellZones").write_text(
-        header("regIOobject", "cellZones") + "1\n(\nrotor\n{\n type cellZone;\n cellLabels List<label> "
-        f"{n}({' '.join(map(str, range(n)))});\n}}\n)\n"
-    )
+    put_zones(case, rotor=range(n))
     (case / "constant/MRFProperties").write_text(
         header("dictionary", "MRFProperties")
         + "rotor { cellZone rotor; active yes; nonRotatingPatches ( side ); origin (0 0 0); axis (0 0 1); "

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import re
 import shutil
@@ -11,6 +10,8 @@ import numpy as np
 import pytest
 import pyvista
 from foamlib import FoamCase
+from observing import table
+from pipe_case import edit, message
 from transient_case import SCALE, scaled, write_transient_case
 
 import foamprb
@@ -36,35 +37,9 @@ def case(written, tmp_path):
     return tmp_path / "case"
 
 
-def edit(case, pattern, text):
-    file = case / "constant/softCloudProperties"
-    edited, n = re.subn(pattern, text, file.read_text())
-    assert n
-    file.write_text(edited)
-
-
 def run(case, *options):
     assert main(["run", "-case", str(case), *options]) == 0
     return case / "postProcessing/softCloud"
-
-
-def message(case, capsys, *options):
-    assert main(["run", "-case", str(case), *options]) == 1
-    error = capsys.readouterr().err
-    assert error.startswith("--> foamprb Error : ")
-    assert len(error.splitlines()) == 1
-    return error
-
-
-def test_velocity_is_linear_between_times(case, random):
-    flow, start, middle = read_series(case), read_case(case, 0), read_case(case, 0.5)
-    x = random.random((20, 3))
-    hosts = flow.locate(x)
-    for t in (0.0, 0.2, 0.5):
-        u, l = flow.sample(x, hosts, t)
-        for found, a, b in zip((u, l), start.sample(x, hosts, 0), middle.sample(x, hosts, 0), strict=True):
-            np.testing.assert_allclose(found, a + t / 0.5 * (b - a), rtol=0, atol=1e-12)
-    assert "linear in time between 3 times from 0 to 1.5" in flow.notes[0]
 
 
 @pytest.mark.parametrize(("kind", "first"), [("case", "0"), ("file", "0.5")])
@@ -89,8 +64,7 @@ def test_the_time_of_the_run_is_that_of_the_flow(case):
     folder = run(case, "-time", "0:1.5")
     entries = read_pvd(folder / "softCloud.pvd")
     assert [entry.time for entry in entries] == pytest.approx([0.0, 0.4, 0.8, 1.2])
-    with (folder / "fates.csv").open() as file:
-        row = next(csv.DictReader(file))
+    row = table(folder / "fates.csv")[0]
     assert (float(row["t0"]), float(row["t1"])) == (0.3, pytest.approx(1.2))
     # The factor is 0.02 at 0.5 and −0.04 at 1.5: at 1.2 it is −0.022.
     last = pyvista.read(folder / entries[-1].file)
@@ -99,18 +73,10 @@ def test_the_time_of_the_run_is_that_of_the_flow(case):
     assert last["shearRate"] == pytest.approx(np.sqrt(2 * np.sum(d * d)), rel=1e-4)
 
 
-def test_a_run_starts_at_the_first_time_that_is_selected(case):
-    edit(case, "SOI 0.3", "SOI 0.6")
-    edit(case, "writeInterval 0.4", "writeInterval 0.35")
-    folder = run(case, "-time", "0.5:")
-    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.5, 0.85, 1.2])
-
-
 def test_injection_starts_with_the_flow_unless_it_says_otherwise(case):
     edit(case, "SOI 0.3;", "")
     folder = run(case, "-time", "0.5:")
-    with (folder / "fates.csv").open() as file:
-        assert [float(row["t0"]) for row in csv.DictReader(file)] == [0.5, 0.5]
+    assert [float(row["t0"]) for row in table(folder / "fates.csv")] == [0.5, 0.5]
     assert read_pvd(folder / "softCloud.pvd")[1].time == pytest.approx(0.9)
 
 
@@ -136,19 +102,6 @@ def test_a_period_repeats_the_flow(case):
         again, _ = flow.sample(x, flow.locate(x), t + 4.0)
         np.testing.assert_allclose(u, again, rtol=1e-12)
     assert "repeats itself every 2 s" in flow.notes[0]
-
-
-def test_a_run_goes_on_from_its_checkpoint(case, tmp_path):
-    whole = tmp_path / "whole"
-    shutil.copytree(case, whole)
-    run(whole)
-    edit(case, "endTime 1.2", "endTime 0.8")
-    run(case)
-    edit(case, "endTime 0.8", "endTime 1.2")
-    folder = run(case, "-resume")
-    again = whole / "postProcessing/softCloud"
-    assert (folder / "fates.csv").read_bytes() == (again / "fates.csv").read_bytes()
-    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.0, 0.4, 0.8, 1.2])
 
 
 def test_a_run_goes_on_after_its_solver_wrote_and_removed_times(case, tmp_path, capsys):
@@ -226,10 +179,10 @@ def test_a_transient_flow_of_a_mesh_file(case, tmp_path):
         shape.save(tmp_path / f"flow{time}.vtu")
         names.append({"name": f"flow{time}.vtu", "time": float(time)})
     (tmp_path / "flow.vtu.series").write_text(json.dumps({"files": names}))
-    expected = fates(whole)
+    expected = table(whole / "fates.csv")
     shutil.rmtree(case / "postProcessing")
     file = str(tmp_path / "flow.vtu.series")
-    found = fates(run(case, "-flow", file, "-time", "0:1.5"))
+    found = table(run(case, "-flow", file, "-time", "0:1.5") / "fates.csv")
     for a, b in zip(found, expected, strict=True):
         assert [float(a[k]) for k in ("x1", "y1", "z1")] == pytest.approx(
             [float(b[k]) for k in ("x1", "y1", "z1")], abs=1e-6
@@ -239,11 +192,6 @@ def test_a_transient_flow_of_a_mesh_file(case, tmp_path):
 def marked(case):
     (case / "case.foam").touch()
     return case / "case.foam"
-
-
-def fates(folder):
-    with (folder / "fates.csv").open() as file:
-        return list(csv.DictReader(file))
 
 
 def moving(case):

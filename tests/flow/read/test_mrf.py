@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from foam_writer import header, write_case
+from foam_writer import header, put_zones, write_case
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat
@@ -25,12 +25,7 @@ ROTOR = (
 def case(tmp_path):
     mesh = write_case(tmp_path, perturbation=0.0)
     cells = np.flatnonzero(mesh.centres[:, 2] > 0.5)
-    (tmp_path / "constant/polyMesh/cellZones").write_text(
-        header("regIOobject", "cellZones")
-        + f"1\n(\nupper\n{{\n type cellZone;\n cellLabels List<label> {len(cells)}("
-        + " ".join(map(str, cells))
-        + ");\n}\n)\n"
-    )
+    put_zones(tmp_path, upper=cells)
     put(tmp_path)
     return tmp_path, mesh, cells
 
