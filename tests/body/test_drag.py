@@ -63,7 +63,6 @@ def test_resistance_grows_with_the_body_and_lies_between_spheres(axes):
     assert (found <= 6 * np.pi * max(axes) * (1 + 1e-12)).all()
     # The longer an axis, the smaller the resistance along it.
     assert (np.argsort(found) == np.argsort(-np.array(axes))).all() or len(set(axes)) < 3
-    assert (resistances(brenner_prolate, *axes) <= found * (1 + 1e-12)).all() or True
 
 
 @given(stretches)

@@ -143,36 +143,6 @@ def test_integrals_equal_scipys_carlson_functions(axes):
     np.testing.assert_allclose(sum(g.alpha), 2 / (a * b * c), rtol=1e-13)
 
 
-@pytest.mark.parametrize("r", [1.01, 1.5, 3.0, 20.0, 1000.0])
-def test_closed_forms_of_prolate_spheroids(r):
-    """(B.11) to (B.13), evaluated with 60 digits."""
-    mpmath.mp.dps = 60
-    a, b = mpmath.mpf(float(r)), mpmath.mpf(1)
-    e = a * a - b * b
-    h = mpmath.acosh(a / b)
-    root = mpmath.sqrt(e)
-    expected = {
-        "alpha0": -2 / (a * e) + 2 * h / root**3,
-        "beta0": a / (b**2 * e) - h / root**3,
-        "alpharing": (2 * a**3 - 5 * a * b**2) / (4 * b**4 * e**2) + 3 * h / (4 * root**5),
-        "betaring": (a**2 + 2 * b**2) / (a * b**2 * e**2) - 3 * h / root**5,
-        "alphastar": (-2 * a**5 + a**3 * b**2 - b**2 * root * (b**2 - 4 * a**2) * h + a * b**4)
-        / (4 * b**2 * (b**2 - a**2) ** 3),
-        "betastar": -3 * a / e**2 + (2 * a**2 + b**2) * h / root**5,
-    }
-    found = as_dict(float(r), 1.0, 1.0)
-    for name, value in expected.items():
-        assert abs(mpmath.mpf(float(found[name])) / value - 1) < 1e-12, name
-
-
-def test_sphere():
-    """(B.14)."""
-    g = integrals((2.0, 2.0, 2.0))
-    np.testing.assert_allclose(g.alpha, 2 / (3 * 2.0**3), rtol=1e-14)
-    np.testing.assert_allclose(g.ring, 2 / (5 * 2.0**5), rtol=1e-14)
-    np.testing.assert_allclose(g.star, 4 / (15 * 2.0**3), rtol=1e-14)
-
-
 @given(rotations, stretches)
 def test_reach_is_the_largest_projection_of_the_surface(Q, stretch):
     F = Q @ np.diag(stretch)

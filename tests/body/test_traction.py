@@ -67,29 +67,6 @@ def test_dilation_is_resisted_as_by_an_expanding_sphere(axes):
     np.testing.assert_allclose(s, -4 / 3 * 0.9 * np.eye(3).ravel(), atol=1e-13)
 
 
-def test_torque_on_a_rotating_sphere():
-    """8π μ R³ Ω: σ̃ vol₀ is the moment of the traction, its skew part half the torque."""
-    w_f = skew((0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    R = 1.7
-    s = roscoe((R, R, R), integrals((R, R, R)), w_f, flat(np.zeros(9)))
-    np.testing.assert_allclose((s[3] - s[1]) * 4 / 3 * np.pi * R**3, 8 * np.pi * R**3, rtol=1e-14)
-
-
-@pytest.mark.parametrize("r", [1.2, 2.0, 5.0])
-def test_free_rigid_spheroid_follows_jefferys_orbit(r):
-    """Zero torque at w_s12 − w_f12 = −(a²−b²)/(a²+b²) d_f12."""
-    beta = (r * r - 1) / (r * r + 1)
-    gamma = 1.3
-    l_f = (0.0, gamma, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    w12 = gamma / 2 - beta * gamma / 2
-    l_s = (0.0, w12, 0.0, -w12, 0.0, 0.0, 0.0, 0.0, 0.0)
-    axes = (r, 1.0, 1.0)
-    # The body turns so that its long axis, if along x₁, does so slowest: dφ/dt = −γ̇ b²/(a²+b²).
-    np.testing.assert_allclose(w12, gamma / (r * r + 1), rtol=1e-14)
-    s = roscoe(axes, integrals(axes), l_f, l_s)
-    np.testing.assert_allclose(s[1] - s[3], 0.0, atol=1e-13)
-
-
 @pytest.mark.parametrize("e", [0.1, 0.5, 0.9, 0.99])
 def test_stresslet_of_rigid_prolate_spheroids(e):
     """S = 20/3 π μ a³ (X^M, Y^M, Z^M) E for the three strains (Kim & Karrila 1991, table 3.4)."""

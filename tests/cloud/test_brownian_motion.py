@@ -120,19 +120,6 @@ def test_a_sphere_near_a_wall_diffuses_with_its_hindered_mobilities(integrator, 
     assert (moved**2).mean(axis=0) == pytest.approx(expected, rel=4.0 * np.sqrt(2.0 / n))
 
 
-def test_shapes_come_to_their_weight():
-    """Mean stored energy of 5/2 kT, of five shears, and a little less as they are not small."""
-    n, mu = 1000, 50.0
-    p = beads(n, mu=mu)
-    dt = 0.1 * 1.5 * MU_F / mu
-    carried(p, 100, dt)
-    F = p.F.reshape(-1, 3, 3)
-    energy = 0.5 * mu * (np.einsum("nij,nij->n", F, F) - 3.0) * 4.0 / 3.0 * np.pi * R**3 / KT
-    expected = ref.mean_shape_energy(KT / (mu * 4.0 / 3.0 * np.pi * R**3))
-    assert expected == pytest.approx(2.5, rel=0.01)
-    assert energy.mean() == pytest.approx(expected, rel=4.0 * np.sqrt(0.4 / n) + 0.03)
-
-
 def test_numbers_depend_on_the_particle_and_the_step_alone():
     """Not on the threads, nor on how steps are taken in turns, nor on the seed of others."""
     whole = carried(beads(100), 6, 1e-4)

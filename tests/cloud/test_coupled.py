@@ -132,19 +132,6 @@ def test_an_interaction_of_a_coupled_patch_is_refused():
     assert [i.code for i in patch_interactions(flow)] == [4, 4, *(i.code for i in walls[2:])]
 
 
-def test_patches_apart_are_not_coupled():
-    shape = block(3, 0.0)
-    floor, lid, sides = box_patches(shape)
-    patches = [
-        floor._replace(type="cyclicAMI", neighbour="lid"),
-        lid._replace(type="cyclicAMI", neighbour="floor"),
-        sides,
-    ]
-    mesh = build_mesh(shape, patches)
-    assert mesh.couplings == ()
-    assert [patch.neighbour for patch in mesh.patches] == ["", "", ""]
-
-
 def test_beyond_a_symmetry_plane_the_mirror_image_goes_on():
     shape = block(4, 0.2)
     patches = [p._replace(type="symmetryPlane") if p.name == "floor" else p for p in box_patches(shape)]

@@ -7,7 +7,6 @@ import pytest
 from mesh_shapes import block, box_patches
 from scipy.stats import kstest, norm
 
-from foamprb.body.turbulence import BETA_STAR
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Mirror, Rebound
@@ -105,20 +104,6 @@ def test_an_eddys_velocity_is_of_three_deviates_or_of_a_length_and_a_direction(l
     assert eddy_velocity(xi, DOWN_OR_UP, slope) == pytest.approx(np.sign(last) * np.array([0.0, -0.9, 1.2]))
 
 
-def test_tracers_disperse_as_taylor_says():
-    """Of eddies of a fixed life T, one after the other: σ² (⌊t/T⌋ T² + (t − ⌊t/T⌋ T)²)."""
-    n, dt = 3000, 0.1
-    p = tracers(n)
-    cloud = cloud_of(p, box(), dt)
-    for steps in (5, 5, 15, 25):
-        cloud.advance(steps)
-        t = cloud.time
-        whole = np.floor(t + 1e-9)
-        expected = SIGMA**2 * (whole + (t - whole) ** 2)
-        variance = ((p.x - 0.5) ** 2).mean() / expected
-        assert variance == pytest.approx(1.0, abs=4.0 * np.sqrt(2.0 / (3 * n))), t
-
-
 @pytest.mark.parametrize("dt", [0.45, 0.7, 3.0])
 def test_dispersion_does_not_depend_on_the_step(dt):
     """σ² T t in the long run, also where an eddy lives for less than a step."""
@@ -126,19 +111,6 @@ def test_dispersion_does_not_depend_on_the_step(dt):
     p = carried(tracers(n), box(), steps, dt)
     variance = ((p.x - 0.5) ** 2).mean() / (SIGMA**2 * steps * dt)
     assert variance == pytest.approx(1.0, abs=4.0 * np.sqrt(2.0 / (3 * n)) + 0.01)
-
-
-def test_settling_bodies_leave_eddies_sooner():
-    """A slip w takes it through an eddy in C_μ^¾ k^{3/2}/(ε w): the dispersion is smaller in that ratio."""
-    n, steps, dt = 3000, 200, 0.01
-    rho, g = 2000.0, 9.81
-    d = np.sqrt(18.0 * 1e-3 * 5.0 * SIGMA / ((rho - 1000.0) * g))
-    heavy = Medium(1e-3, 1000.0, (0.0, 0.0, -g))
-    p = carried(tracers(n, rho=rho, d=d), box(), steps, dt, medium=heavy)
-    share = BETA_STAR**0.75 * np.sqrt(K) / (5.0 * SIGMA)
-    # The first eddy is met at rest.
-    variance = ((p.x[:, :2] - 0.5) ** 2).mean() / (SIGMA**2 * share * steps * dt)
-    assert variance == pytest.approx(1.0, abs=4.0 * np.sqrt(1.0 / n) + 0.05)
 
 
 def test_results_do_not_depend_on_threads_nor_on_turns_nor_on_order():

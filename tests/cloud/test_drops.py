@@ -1,4 +1,4 @@
-"""Drops after Maffettone and Minale: steady shapes, settling, stress and breakup."""
+"""Drops after Maffettone and Minale: breakup; `tools/validation/drops.py` has their shapes and settling."""
 
 from __future__ import annotations
 
@@ -15,43 +15,18 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import FailedParticlesWarning, InputError
 
 MU, RATE, R = 1e-3, 100.0, 5e-6
-# λ, Ca, D and θ, deg: LSODA at 1e-11 for the equation of S.
-STEADY = np.array([
-    (1.0, 0.1, 0.109709, 38.8305), (1.0, 0.2, 0.221505, 33.1853), (1.0, 0.3, 0.338202, 28.3626),
-    (5.0, 0.1, 0.103956, 29.4918), (5.0, 0.2, 0.173528, 19.8735), (5.0, 0.3, 0.225599, 14.5020),
-    (0.1, 0.1, 0.102871, 41.2914), (0.1, 0.2, 0.212816, 37.7031), (0.1, 0.3, 0.338278, 34.3335),
-])  # fmt: skip
-SMALL, TORN = 9, 10
 
 
-def test_drops_in_shear():
-    """Steady shapes; a small one settles by Hadamard and Rybczyński and has Taylor's stress; one breaks."""
-    ratio = np.append(STEADY[:, 0], (3.0, 1.0))
-    Ca = np.append(STEADY[:, 1], (1e-3, 3.0))
-    p = drops(np.zeros((11, 3)), d=2 * R, rho=1200.0, gamma=MU * RATE * R / Ca, eta=ratio * MU)
-    medium = Medium(MU, 1000.0, (0.0, 0.0, -9.81))
-    cloud = Cloud(p, analytic.shear(RATE), medium, [], 2e-3, Models(material="drop"))
+def test_a_drop_breaks_up():
+    p = drops(np.zeros((2, 3)), d=2 * R, rho=1e3, gamma=MU * RATE * R / np.array([3.0, 0.1]), eta=MU)
+    cloud = cloud_of(p)
     assert cloud.models.integrator == "stokes"
     with pytest.warns(FailedParticlesWarning, match="stretched"):
         cloud.advance(1000)
-
-    F = p.F[:SMALL].reshape(-1, 3, 3)
-    squares, axes = np.linalg.eigh(F @ F.transpose(0, 2, 1))
-    long, short = np.sqrt(squares[:, 2]), np.sqrt(squares[:, 0])
-    np.testing.assert_allclose((long - short) / (long + short), STEADY[:, 2], atol=1e-6)
-    angle = np.degrees(np.arctan(axes[:, 1, 2] / axes[:, 0, 2]))
-    np.testing.assert_allclose(angle, STEADY[:, 3], atol=1e-4)
-    np.testing.assert_allclose(np.linalg.det(F), 1.0, atol=1e-14)
-
-    stokes = 2.0 / 9.0 * (1200.0 - 1000.0) * -9.81 * R * R / MU
-    assert p.v[SMALL, 2] == pytest.approx(stokes * 12.0 / 11.0, rel=1e-4)
-    values = measure(context(p, cloud.flow, MU, cloud.time))
-    assert values["capillaryNumber"][SMALL] == pytest.approx(1e-3)
-    shear_stress = values["stresslet"][SMALL, 3] / (4.0 / 3.0 * np.pi * R**3)
-    assert shear_stress == pytest.approx(0.5 * MU * RATE * 17.0 / 4.0, rel=1e-4)
-
-    assert (p.status[TORN], p.reason[TORN]) == (Status.FAILED, Reason.STRETCHED)
-    assert "breaks up" in explain(p.reason[TORN], cloud.models, cloud.limits)
+    assert (p.status[0], p.reason[0]) == (Status.FAILED, Reason.STRETCHED)
+    assert p.status[1] == Status.ACTIVE
+    assert "breaks up" in explain(p.reason[0], cloud.models, cloud.limits)
+    assert measure(context(p, cloud.flow, MU, cloud.time))["capillaryNumber"][1] == pytest.approx(0.1)
 
 
 def cloud_of(p, **models):

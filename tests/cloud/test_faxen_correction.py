@@ -50,15 +50,6 @@ def test_a_sphere_lags_in_a_pipe_by_two_thirds_of_its_radius_squared(integrator)
     assert np.abs(p.v[:, 1:]).max() < 1e-9 * U
 
 
-def test_a_soft_body_migrates_no_more_in_a_pipe_with_it_than_without():
-    """In a unidirectional flow the correction is along the flow."""
-    flow, x = analytic.pipe(1e-4, 1e-3), (0.0, 5e-5, 0.0)
-    p, q = (carried(x, flow, models=m, steps=200, mu=0.4) for m in (CURVED, ()))
-    assert np.ptp(p.F) > 0.1
-    assert q.x[0, 0] - p.x[0, 0] > 2e-7
-    assert np.abs(p.x[0, 1:] - q.x[0, 1:]).max() < 1e-15
-
-
 def test_a_body_moves_as_fast_as_the_mean_over_the_mapped_sphere():
     """In a flow that is quadratic in all coordinates; a light body, without inertia."""
     flow = analytic.function(_quadratic)

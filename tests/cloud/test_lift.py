@@ -9,7 +9,7 @@ from types import FunctionType
 import numpy as np
 import pytest
 
-from foamprb.body.lift import PIPE, PLANE_CHANNEL, balances, lift_coefficient
+from foamprb.body.lift import PIPE, PLANE_CHANNEL, balances
 from foamprb.cloud.block import ROWS, Medium, at
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DuctLift, Gravity, coefficients, compose, forces_on
@@ -33,27 +33,16 @@ LEAST = replace(CHANNEL, shearRate=0.0)
 """No lift, in the loop that is compiled for both."""
 
 
-def advance(sign=1.0, integrator="stokes", dt=1e-9, steps=1, rho=1e-6, rate=RATE):
+def advance(integrator="stokes", dt=1e-9, steps=1, rho=1e-6, rate=RATE):
     """Return the slip of a sphere that settles along a shear flow, m/s."""
     # Without inertia of the body: light, in a strong field of gravity.
     p = spheres([(0.0, 0.0, 0.0)], d=2.0 * R, rho=rho, mu=1e5, poissons_ratio=0.4999)
     flow = analytic.shear(rate)
-    water = Medium(MU, RHO, (-sign * LOAD / (RHO - rho), 0.0, 0.0))
+    water = Medium(MU, RHO, (-LOAD / (RHO - rho), 0.0, 0.0))
     models = Models(integrator=integrator, forces=(Gravity(), LEAST), surroundings=(SaffmanMeiLift(),))
     cloud = Cloud(p, flow, water, [Escape()] * len(flow.patches), dt, models, threads=1)
     cloud.advance(steps)
     return p.v[0] - (rate * p.x[0, 1], 0.0, 0.0)
-
-
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_leading_sphere_drifts_to_the_slower_fluid(sign):
-    """0.2709 of its slip by Saffman, times Mei's factor; to the faster fluid if it lags."""
-    v = advance(sign=sign)
-    drag = 6.0 * math.pi * MU * R
-    lift = lift_coefficient(math.hypot(v[0], v[1]), RATE, R, RHO, MU) * RATE
-    assert v[1] / v[0] == pytest.approx(-lift / drag, rel=1e-4)
-    assert v[1] / v[0] == pytest.approx(-0.2709, rel=4e-3)
-    assert v[0] == pytest.approx(sign * 1e-3 / (1.0 + (lift / drag) ** 2), rel=1e-4)
 
 
 def test_a_sphere_with_inertia_comes_to_the_same_slip():

@@ -116,23 +116,6 @@ class TestSize:
         assert reasons(cloud) == [Reason.TOO_LARGE]
         assert 0.02 < 0.01 * np.linalg.norm(p.F[0].reshape(3, 3), 2) < 0.03
 
-    def test_the_width_is_that_between_walls_and_openings(self):
-        from mesh_shapes import block, box_patches
-
-        from foamprb.flow.mesh.mesh import build_mesh
-        from foamprb.flow.meshflow import MeshFlow
-
-        shape = block(2, 0.0)
-        mesh = build_mesh(shape, box_patches(shape))
-        mesh.points[:, 2] *= 0.01
-        nodes = np.zeros((len(mesh.nodes), 3))
-        flow = MeshFlow(mesh, nodes, np.zeros((len(nodes), 3, 3)))
-        assert flow.width == pytest.approx(0.01)
-        names = [patch._replace(type="empty" if patch.name in ("floor", "lid") else "wall")
-                 for patch in mesh.patches]  # fmt: skip
-        object.__setattr__(mesh, "patches", tuple(names))
-        assert MeshFlow(mesh, nodes, np.zeros((len(nodes), 3, 3))).width == pytest.approx(1.0)
-
 
 class TestCells:
     @staticmethod
@@ -171,15 +154,6 @@ class TestCells:
         assert 0.97 < longest[0] < 1.02
         assert longest[1] < 1.0
         assert "(maxCells is 1)" in explain(p.reason[0], models, limits)
-
-    def test_without_the_limit_a_body_may_be_many_cells_wide(self):
-        flow = self.flow(False)
-        p = spheres([[0.5, 0.5, 0.5]], d=50.0, rho=1e6, mu=1e3)
-        walls = [Escape() for _ in flow.patches]
-        models, limits = Models(), Limits(maxSize=1e3)
-        cloud = Cloud(p, flow, OIL, walls, 1e-2, models, 1, limits=limits)
-        Stepper(cloud).advance(10)
-        assert p.status[0] == Status.ACTIVE
 
 
 class TestCost:

@@ -36,17 +36,6 @@ def bodies(n, height=1.0):
     return spheres(np.tile([0.0, 0.0, height], (n, 1)), d=2 * R, rho=1000.0, mu=1e4, poissons_ratio=0.4999)
 
 
-def test_mean_square_displacement():
-    """2 v²/(2D)² (2Dt − 1 + exp(−2Dt)), to four standard errors and the step's ¾ D Δt of the speed."""
-    n, t = 2000, 0.5
-    p = bodies(n)
-    cloud_of(p, rotationalDiffusivity=D_R).advance(round(t / DT))
-    squares = ((p.x - (0.0, 0.0, 1.0)) ** 2).sum(axis=1)
-    x = 2.0 * D_R * t
-    expected = 2.0 * (V / (2.0 * D_R)) ** 2 * (x - 1.0 + np.exp(-x)) * (1.0 + 1.5 * D_R * DT)
-    assert squares.mean() == pytest.approx(expected, abs=4.0 * squares.std() / np.sqrt(n))
-
-
 def test_a_swimmer_turns_in_shear_and_leaves_walls():
     """Half the vorticity for a sphere; a spheroid has its direction along its axis; a wall mirrors it."""
     p = bodies(3)

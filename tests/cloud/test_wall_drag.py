@@ -133,16 +133,6 @@ def test_steps_may_be_long_against_the_time_in_which_drag_stops_it():
     assert np.log2(errors[:-1, 0] / errors[1:, 0]).min() > 1.7
 
 
-def test_with_little_inertia_it_goes_as_without():
-    """St of 1e-3, and steps of 27 τ: to 4e-4 R, the error of the places that `stokes` finds."""
-    g = weight(1e-3) * SLOPE
-    end, expected = fallen(3.0, g, lowest=1.3)
-    p, q = (carried(bodies(3.0), g, end / 200, 200, integrator=name) for name in ("rosenbrock", "stokes"))
-    assert state(p)[:2] == pytest.approx(expected[:2], abs=1e-6 * R)
-    assert state(p)[:2] == pytest.approx(state(q)[:2], abs=6e-4 * R)
-    assert state(p)[2:] == pytest.approx(state(q)[2:], rel=1e-3)
-
-
 @pytest.mark.parametrize(("h", "ratios"), [(2.0, (1.6, 1.0, 0.8)), (1.7, (1.2, 1.0, 0.9))])
 def test_settling_soft_ellipsoid_in_shear_follows_its_equations(h, ratios):
     """The lighter at the same weight, in proportion to γ̇τ; to 2e-3, the error of steps of `stokes`."""

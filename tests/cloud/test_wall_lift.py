@@ -6,8 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from mesh_shapes import block, box_patches, pipe, pipe_patches
-from validation.references import wall as ref
+from mesh_shapes import block, box_patches
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -16,7 +15,6 @@ from foamprb.cloud.state import concatenate, spheres
 from foamprb.cloud.surroundings import wall_lift
 from foamprb.cloud.surroundings.wall_lift import WallLift, nearest_walls
 from foamprb.cloud.tracker import Models
-from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.flow.mesh.mesh import build_mesh
@@ -41,69 +39,8 @@ def carried(p, steps, *, model=None, medium=OIL, flow=None, integrator="stokes",
     return p
 
 
-def lift_coefficient(p):
-    return p.v[:, 2] * p.x[:, 2] ** 2 / (RATE * R**3)
-
-
-def test_a_soft_body_far_above_a_wall_in_shear_rises_as_its_stresslet_says():
-    """To (R/h)², 4e-4 at 50R, of the next order."""
-    Ca = np.array([0.01, 0.1, 0.2, 0.4, 1.0])
-    p = carried(particles([50.0] * len(Ca), Ca), 1200)
-    expected = [ref.lift_coefficient(c) for c in Ca]
-    assert lift_coefficient(p) == pytest.approx(expected, rel=2.5e-3)
-    assert expected[0] == pytest.approx(225.0 / 224.0 * 0.01, rel=1e-3)
-
-
-def test_its_height_grows_with_the_cube_root_of_time():
-    start, steps = 20.0, 20000
-    p = carried(particles(start, Ca=0.4), steps, dt=0.1 / RATE)
-    risen = p.x[0, 2] / R - start
-    expected = ref.lifted_height(start, ref.lift_coefficient(0.4), 0.1 * steps) - start
-    assert expected > 1.5
-    # 5/3 (R/h)² of the point stresslet is not there.
-    assert risen == pytest.approx(expected, rel=0.01)
-
-
-def test_a_stiff_sphere_lags_behind_the_shear():
-    """By (5/16) γ̇ R³/h², from its stresslet 10/3 π μ γ̇ R³."""
-    p = carried(particles(20.0, Ca=1e-3), 20, dt=1e-2 / RATE)
-    lag = RATE * p.x[0, 2] - p.v[0, 0]
-    assert lag == pytest.approx(5.0 / 16.0 * RATE * R / 20.0**2, rel=0.01)
-
-
-@pytest.mark.parametrize(
-    ("h", "tolerance"), [(10.0, 2e-3), (5.0, 4e-3), (3.0, 1e-2), (2.0, 0.04), (1.5, 0.08)]
-)
-def test_lift_and_rates_are_those_of_the_stokes_flow_around_the_body(h, tolerance):
-    """In the shape that it has after a time, against the method of fundamental solutions."""
-    Ca = 0.1
-    p = carried(particles(h, Ca), 200)
-    F = p.F[0].reshape(3, 3)
-    height = p.x[0, 2] / R
-    body = ref.Ellipsoid(F, height).free_motion(F @ F.T / Ca, ref.SHEAR_OVER_WALL)
-    assert p.v[0, 2] / (RATE * R) == pytest.approx(body.v[2], rel=tolerance)
-    l = p.A[0].reshape(3, 3) @ np.linalg.inv(F) / RATE
-    np.testing.assert_allclose(l, body.l, atol={3.0: 2e-3, 2.0: 0.01, 1.5: 0.03}.get(h, 1e-3))
-
-
 def settling_speed():
     return 2.0 / 9.0 * R**2 * 1000.0 * 9.81 / MU_F
-
-
-@pytest.mark.parametrize("h", [10.0, 3.0, 1.5, 1.1])
-def test_a_stiff_sphere_settles_towards_a_wall_as_brenner_says(h):
-    heavy = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
-    # Until it has taken on the strain that the wall asks of it: before, it falls faster.
-    p = carried(particles(h, 1e-4, rho=2000.0), 80, medium=heavy, flow=STILL, dt=1e-6)
-    assert -p.v[0, 2] * ref.brenner_drag(h) == pytest.approx(settling_speed(), rel=6e-3)
-
-
-@pytest.mark.parametrize(("h", "drag"), ref.GOLDMAN_COX_BRENNER)
-def test_a_stiff_sphere_settles_along_a_wall_as_goldman_cox_and_brenner_say(h, drag):
-    """Within 1.5 %: theirs may turn not, this one may."""
-    along = Medium(MU_F, 1000.0, (9.81, 0.0, 0.0))
-    p = carried(particles(h, 1e-4, rho=2000.0), 20, medium=along, flow=STILL, dt=1e-6)
-    assert p.v[0, 0] * drag == pytest.approx(settling_speed(), rel=0.015)
 
 
 def test_without_mobility_it_settles_as_if_alone():
@@ -111,27 +48,6 @@ def test_without_mobility_it_settles_as_if_alone():
     p = carried(particles(1.5, 1e-4, rho=2000.0), 20, medium=heavy, flow=STILL, dt=1e-6,
                 model=WallLift(mobility=False))  # fmt: skip
     assert -p.v[0, 2] == pytest.approx(settling_speed(), rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("h", "miss", "slow"), [(5.0, 5e-3, 1e-3), (3.0, 0.01, 1e-3), (2.0, 0.03, 5e-3), (1.3, 0.1, 0.05)]
-)
-def test_a_soft_sphere_that_settles_falls_and_deforms_as_in_the_stokes_flow_around_it(h, miss, slow):
-    """Along and across the wall at once, from round, in one short step: faster than a rigid sphere."""
-    g = np.array([0.6, 0.0, -0.8]) * 1e4
-    mu, force = 1e4, 4.0 / 3.0 * np.pi * R**3 * 1000.0 * g
-    p = carried(
-        spheres([(0.0, 0.0, h * R)], d=2.0 * R, rho=2000.0, mu=mu, poissons_ratio=0.4999),
-        1, medium=Medium(MU_F, 1000.0, tuple(g)), flow=STILL, dt=1e-12,
-    )  # fmt: skip
-    l = p.A[0].reshape(3, 3) @ np.linalg.inv(p.F[0].reshape(3, 3))
-    scale = np.linalg.norm(force) / (MU_F * R**2)
-    exact = ref.Ellipsoid(np.eye(3), h).free_motion(
-        np.eye(3), np.zeros((3, 3)), force / np.linalg.norm(force)
-    )
-    strain, expected = 0.5 * (l + l.T) / scale, 0.5 * (exact.l + exact.l.T)
-    assert abs(strain - expected).max() < miss * abs(expected).max()
-    assert p.v[0, ::2] / (scale * R) == pytest.approx(exact.v[::2], rel=slow)
 
 
 def test_lift_is_the_same_with_a_little_inertia():
@@ -199,75 +115,6 @@ def test_a_body_between_two_walls_is_pushed_to_the_middle():
 
 def still(mesh):
     return MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
-
-
-def look(flow, x, cut, chosen):
-    """The walls around points, as lists of (h, n)."""
-    names = [index for index, yes in enumerate(chosen) if yes]
-    arrays = flow.arrays(0.0, (), cut, names)
-    kernel = link(flow.kernels["walls"])
-    hosts = flow.locate(np.asarray(x))
-    found = []
-    for point, host in zip(x, hosts, strict=True):
-        p = kernel(arrays, host, tuple(point), cut, np.array(chosen, dtype=np.int8))
-        found.append([(h, n) for h, n in (p[0:2], p[2:4], p[4:6]) if h < np.inf])
-    return found
-
-
-@pytest.mark.parametrize("kind", ["hexahedra", "tetrahedra", "polyhedra"])
-def test_walls_of_a_box_are_its_faces(kind):
-    grid = block(4, kind=kind)
-    flow = still(build_mesh(grid, box_patches(grid)))
-    chosen = [patch.type == "wall" for patch in flow.patches]
-    random = np.random.default_rng(0)
-    x = random.uniform(0.02, 0.98, (100, 3))
-    for point, found in zip(x, look(flow, x, 0.3, chosen), strict=True):
-        planes = [(point[0], (1, 0, 0)), (1 - point[0], (-1, 0, 0)), (point[1], (0, 1, 0)),
-                  (1 - point[1], (0, -1, 0)), (point[2], (0, 0, 1))]  # fmt: skip
-        expected = sorted((h, n) for h, n in planes if h < 0.3)
-        assert [h for h, _ in sorted(found)] == pytest.approx([h for h, _ in expected], abs=1e-6)
-        for (_, n), (_, m) in zip(sorted(found), expected, strict=True):
-            assert n == pytest.approx(m, abs=1e-6)
-
-
-def test_the_wall_of_a_pipe_is_one_where_it_is_near():
-    grid = pipe(8)
-    flow = still(build_mesh(grid, pipe_patches(grid)))
-    chosen = [patch.type == "wall" for patch in flow.patches]
-    random = np.random.default_rng(1)
-    r, angle = 1.0 - random.uniform(0.05, 0.3, 50), random.uniform(0, 2 * np.pi, 50)
-    x = np.stack([random.uniform(0.2, 0.8, 50), r * np.cos(angle), r * np.sin(angle)], axis=1)
-    for point, found in zip(x, look(flow, x, 0.5, chosen), strict=True):
-        ((h, n),) = found
-        radius = np.hypot(*point[1:])
-        assert h == pytest.approx(1.0 - radius, abs=0.03)
-        assert np.dot(n[1:], -point[1:]) / radius > 0.97
-    exact = analytic.pipe(1.0, 1.0)
-    ((one, other),) = look(exact, x[:1], 5.0, [1, 0, 0])
-    assert one[0] + other[0] == pytest.approx(2.0)
-    assert np.array(one[1]) == pytest.approx(-np.array(other[1]))
-
-
-def test_an_edge_is_a_wall_where_no_face_is_as_near():
-    """An L-shaped channel: two blocks of a box of 2 × 2 are solid on the right above."""
-    from mesh_shapes import grid as make_grid
-
-    points, cells = [], []
-    for origin in ((0, 0, 0), (1, 0, 0), (0, 1, 0)):
-        part = block(3, perturbation=0.0)
-        first = sum(len(q) for q in points)
-        points.append(np.asarray(part.points) + origin)
-        cells.append(part.cells.reshape(-1, 9)[:, 1:] + first)
-    points, cells = np.concatenate(points), np.concatenate(cells)
-    _, unique, place = np.unique(np.round(points, 9), axis=0, return_index=True, return_inverse=True)
-    shape = make_grid(points[unique], [(12, place.reshape(-1)[cells])])
-    flow = still(build_mesh(shape, box_patches(shape)))
-    chosen = [patch.name == "sides" for patch in flow.patches]
-    x = np.array([[0.8, 0.9, 0.5], [0.95, 0.5, 0.5]])
-    (edge,), face = look(flow, x, 0.25, chosen)
-    assert edge[0] == pytest.approx(np.hypot(0.2, 0.1))
-    assert edge[1] == pytest.approx((-0.2 / edge[0], -0.1 / edge[0], 0.0))
-    assert face == []
 
 
 def test_only_chosen_patches_count():

@@ -200,15 +200,6 @@ class TestZones:
         with pytest.raises(InputError, match=r"broken or cut short|zones could be read"):
             read_back(text[: data.draw(st.integers(0, end))])
 
-    def test_equal_labels_may_be_written_once(self):
-        text = zones_file({"a": [0]}).replace(b"1\n(\n0\n)", b"3{4}")
-        np.testing.assert_array_equal(read_back(text)["a"], [4, 4, 4])
-
-    def test_a_count_that_is_wrong_is_refused(self):
-        text = zones_file({"a": [1, 2, 3]}).replace(b"3\n(\n1", b"4\n(\n1")
-        with pytest.raises(InputError, match="a list of 4 entries, not 3, expected"):
-            read_back(text)
-
 
 class TestCone:
     def release(self, **changes):
