@@ -10,7 +10,7 @@ import pytest
 import pyvista
 from observing import column, table
 from paths import PIPE
-from pipe_case import copy_of_pipe, edit, short_case
+from pipe_case import copy_of_pipe, edit
 
 from foamprb import execute, open_run, prepare
 from foamprb.cli import main
@@ -65,25 +65,6 @@ def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch
     assert {"plane/crossings.csv", "spread/exposure.csv", "fates.csv", "tracks/tracks.vtp"} <= {*results[0]}
     assert len(open_run(case).table("plane/crossings")["id"]) > 0
     assert results[0] == results[1]
-
-
-def test_a_stopped_run_goes_on_with_the_rebounds_it_saw(tmp_path, monkeypatch):
-    """Stopped between two writings: the same table as of a run never stopped, in any number of calls."""
-    tables = []
-    for name in ("whole", "parts"):
-        case = short_case(tmp_path / name)
-        edit(case, r"type\s+stick;", "type rebound; e 0.5; mu 0.1;")
-        edit(case, r"cloudFunctions\s*\{\}", BLOCK)
-        edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
-        if name == "parts":
-            monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 1000)
-            job = prepare(case, threads=2)
-            with pytest.raises(RunStopped):
-                execute(job, stop=lambda job=job: job.cloud.step > 61)
-        assert main(["run", "-case", str(case), "-resume"]) == 0
-        tables.append((case / "postProcessing/softCloud/impacts/wall.csv").read_bytes())
-    assert tables[0] == tables[1]
-    assert tables[0].count(b"rebound") > 3
 
 
 def test_looking_changes_nothing(cases):

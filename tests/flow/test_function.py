@@ -10,10 +10,6 @@ import numpy as np
 import pytest
 
 from foamprb import analytic
-from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.state import spheres
-from foamprb.cloud.tracker import Models
 
 A, B, C, K = 0.02, 0.03, 0.05, 700.0
 
@@ -83,20 +79,6 @@ def test_what_a_function_captures_is_a_part_of_it():
     point = np.array([[0.0, 2.0, 0.0]])
     assert [sampled(sheared(s), point)[0][0, 0] for s in (1.0, 3.0, 1.0)] == [2.0, 6.0, 2.0]
     assert [sampled(sheared(s), point)[1][0, 0, 1] for s in (1.0, 3.0)] == pytest.approx([1.0, 3.0], rel=1e-9)
-
-
-def test_bodies_deform_in_it_as_in_the_same_flow_in_closed_form():
-    def deformed(flow):
-        particles = spheres(np.zeros((3, 3)), d=5e-6, rho=1000.0, mu=1.0)
-        water = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
-        cloud = Cloud(particles, flow, water, (), 1e-3, Models(integrator="stokes"))
-        cloud.advance(20)
-        return cloud.particles.F
-
-    exact = deformed(analytic.shear(200.0))
-    own = deformed(analytic.function(lambda x, y, z: (200.0 * y, 0.0, 0.0)))
-    assert np.abs(exact - np.eye(3).ravel()).max() > 0.1
-    np.testing.assert_allclose(own, exact, rtol=0, atol=1e-8)
 
 
 class Field:

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import write_case
 from mesh_shapes import block, box_patches
 from small_clouds import assert_same
-from unsteady_flow import changing_flow, sample_changing
+from unsteady_flow import changing_flow
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
@@ -20,7 +19,6 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import select_times
 from foamprb.flow.series import SeriesFlow, series_of
 from foamprb.flow.timeline import one_period
 
@@ -75,41 +73,6 @@ def cloud_in(flow, dt, integrator="paper", start=0.0, n=3, spread=0.0, tolerance
     return Cloud(p, flow, WATER, walls, dt, models, start=start, **options)
 
 
-def test_what_is_linear_in_time_is_met_exactly(mesh, random):
-    flow, exact = in_files(mesh, [0.0, 0.3, 1.0], growth=2.0), in_closed_form(growth=2.0)
-    x = random.random((50, 3))
-    for t in (0.0, 0.1, 0.3, 0.31, 1.0):
-        hosts = flow.locate(x)
-        u, l = flow.sample(x, hosts, t)
-        u_exact, l_exact = exact.sample(x, np.zeros(50), t)
-        np.testing.assert_allclose(u, u_exact, rtol=0, atol=1e-13)
-        np.testing.assert_allclose(l, l_exact, rtol=0, atol=1e-13)
-        sampled = flow.kernels["sample"](flow.arrays(), hosts[0], tuple(x[0]), t)
-        slope = sample_changing(exact.arrays(t, ()), 0, tuple(x[0]), t)[2]
-        np.testing.assert_allclose(sampled[2], slope, rtol=1e-12)
-
-
-def test_turbulence_that_is_linear_in_place_and_time_is_met_exactly(mesh, random):
-    """k, ε and their gradients, eight numbers that have nothing to do with each other."""
-    times, n = [0.0, 0.3, 1.0], mesh.n_points + mesh.n_cells
-    base, slope, growth = random.random(8), random.standard_normal((3, 8)), random.standard_normal(8)
-
-    def exact(x, t):
-        return base + x @ slope + t * growth
-
-    still = np.zeros((n, 3)), np.zeros((n, 3, 3))
-    flow = SeriesFlow(mesh, times, lambda i: (*still, exact(mesh.nodes, times[i])), turbulent=True)
-    steady = MeshFlow(mesh, *still, turbulence=exact(mesh.nodes, 0.4))
-    np.testing.assert_array_equal(flow.turbulence_at_nodes(), exact(mesh.nodes, 0.0))
-    flow.load(0.0, 1.0)
-    for t in (0.0, 0.1, 0.3, 0.4, 1.0):
-        for x in random.random((20, 3)):
-            host = flow.locate(x[None])[0]
-            for known in (flow, steady) if t == 0.4 else (flow,):
-                found = known.kernels["turbulence"](known.arrays(), host, tuple(x), t)
-                np.testing.assert_allclose(np.hstack(found), exact(x, t), rtol=0, atol=1e-13)
-
-
 @pytest.mark.parametrize("integrator", ["rosenbrock", "stokes"])
 def test_particles_go_through_files_as_through_the_flow_itself(mesh, integrator):
     moved = [
@@ -162,18 +125,6 @@ def test_the_answer_does_not_depend_on_how_the_work_is_split(mesh, integrator, d
     assert_same(whole, moved([steps], keep=len(times)))
 
 
-def test_a_run_that_is_taken_up_again_ends_the_same(mesh):
-    times = np.linspace(0.0, 1.0, 11).tolist()
-    whole = cloud_in(in_files(mesh, times, 5.0), 0.02, "rosenbrock", spread=0.8)
-    whole.advance(50)
-    first = cloud_in(in_files(mesh, times, 5.0), 0.02, "rosenbrock", spread=0.8)
-    first.advance(23)
-    p = first.particles.take(np.arange(first.particles.size))
-    second = Cloud(p, in_files(mesh, times, 5.0), WATER, first.interactions, 0.02, first.models, step=23)
-    second.advance(27)
-    assert_same(whole.particles, second.particles)
-
-
 def test_a_periodic_flow_goes_as_the_same_written_out(mesh):
     one = (0.1 + np.array([0.0, 0.15, 0.2, 0.35])).tolist()
     period = 0.5
@@ -218,27 +169,17 @@ def test_a_particle_appears_with_the_velocity_of_the_fluid_at_that_time(mesh):
         np.testing.assert_allclose(p.x[k] - CENTRE, (0.5 - t) * u, rtol=1e-6, atol=1e-9)
 
 
-def test_velocity_on_a_patch_is_that_of_the_time(mesh):
-    flow = in_files(mesh, [0.0, 1.0], growth=1.0)
-    before, after = flow.patch_faces("lid", 0.0).velocity, flow.patch_faces("lid", 0.5).velocity
-    np.testing.assert_allclose(after, 1.5 * before, rtol=1e-12, atol=1e-15)
-
-
 def test_beyond_its_times_a_flow_is_not_known(mesh):
     flow = in_files(mesh, [0.5, 1.0])
     cloud = cloud_in(flow, 0.1, start=0.5)
     cloud.advance(5)
     with pytest.raises(InputError, match=r"the flow is known from 0.5 s to 1 s, not from 1 s to 1.1 s"):
         cloud.advance(1)
-    with pytest.raises(InputError, match=r"known from 0.5 s"):
-        flow.load(0.4, 0.6)
     p = spheres(np.tile(CENTRE, (3, 1)), d=2e-3, rho=1e3, mu=1.0, t0=[0.6, 0.7, 0.65])
     with pytest.raises(
         InputError, match=r"2 of 3 particles would appear before the start of the run at 0.7 s"
     ):
         Cloud(p, flow, WATER, cloud.interactions, 0.1, start=0.7)
-    with pytest.raises(InputError, match="do not rise"):
-        in_files(mesh, [0.0, 1.0, 1.0])
 
 
 def test_a_time_that_cannot_be_read_stops_the_run_when_it_is_needed(mesh):
@@ -253,70 +194,9 @@ def test_a_time_that_cannot_be_read_stops_the_run_when_it_is_needed(mesh):
     assert cloud.step == 20
 
 
-@pytest.mark.parametrize("times", [[0.0, 0.1, 0.2], [0.0, 0.4], [0.0, 0.3, 0.6]])
-def test_times_that_do_not_fill_the_period_are_refused(mesh, times):
-    with pytest.raises(InputError, match=r"the period of 1.5 s from 0 to 1.5 s: correct the period\."):
-        in_files(mesh, times, period=1.5)
-
-
 def test_times_that_fill_the_period_are_proposed(mesh):
     with pytest.raises(InputError, match=r"of 1 s from 0 to 1 s: -time 3:4 selects such times\."):
         in_files(mesh, [0.0, 2.5, 3.0, 3.25, 3.5, 3.75, 4.0], period=1.0)
-
-
-@pytest.fixture(scope="module")
-def case(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("series") / "case"
-    write_case(folder)
-    return folder
-
-
-@pytest.mark.parametrize(
-    ("selection", "chosen"),
-    [
-        (None, ("0", "0.5", "1e1")),
-        ("0.5", ("0.5",)),
-        ("latestTime", ("1e1",)),
-        (":0.5", ("0", "0.5")),
-        ("0.5:", ("0.5", "1e1")),
-        ("0.1:9", ("0.5",)),
-        ("10, 0", ("0", "1e1")),
-        ("0:0.2 0.5:10", ("0", "0.5", "1e1")),
-        (":", ("0", "0.5", "1e1")),
-    ],
-)
-def test_times_are_selected_as_by_openfoam(case, selection, chosen):
-    assert select_times(case, selection) == chosen
-
-
-@pytest.mark.parametrize(
-    ("selection", "message"),
-    [
-        ("0.6:9", "no time in 0.6:9; the times go from 0 to 1e1"),
-        ("0.6", "no time 0.6; the times are 0, 0.5, 1e1"),
-        ("a:b", "'a:b' is no range of times, such as"),
-        ("1:2:3", "time '1:2:3' is neither a number nor latestTime"),
-    ],
-)
-def test_times_that_are_not_there_are_named(case, selection, message):
-    with pytest.raises(InputError, match=message):
-        select_times(case, selection)
-
-
-def test_between_two_times_every_component_is_their_mean_by_time():
-    """Of velocity and gradient; the numbers at the nodes are of no meaning, and all different."""
-    shape = block(2, 0.2)
-    mesh = build_mesh(shape, box_patches(shape))
-    random, n = np.random.default_rng(2), len(mesh.nodes)
-    fields = [(random.normal(size=(n, 3)), random.normal(size=(n, 3, 3))) for _ in range(2)]
-    series = SeriesFlow(mesh, [0.0, 2.0], lambda k: fields[k])
-    x = random.uniform(0.1, 0.9, (20, 3))
-    hosts = series.locate(x)
-    (u0, l0), (u1, l1) = (MeshFlow(mesh, *field).sample(x, hosts, 0.0) for field in fields)
-    u, l = series.sample(x, hosts, 0.5)
-    np.testing.assert_allclose(u, 0.75 * u0 + 0.25 * u1, atol=1e-13)
-    np.testing.assert_allclose(l, 0.75 * l0 + 0.25 * l1, atol=1e-13)
-    assert np.unique(np.round(l, 6)).size == l.size
 
 
 def tables(mesh, times, turbulent=True, **options):

@@ -17,7 +17,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import planes_among
 from foamprb.flow.walk import nearest_point
 from foamprb.flow.wall_lists import WallTree, edges_out, wall_tree
-from foamprb.flow.walls import gap, nearest_wall
+from foamprb.flow.walls import gap
 
 
 def around_a_corner():
@@ -127,29 +127,6 @@ def test_edges_count_where_they_stick_out_or_end():
 def listed(near):
     """Names of the triangles in lists for touching, whether their planes are there already or not."""
     return np.maximum(near, -1 - near)
-
-
-def test_the_gap_is_the_same_from_a_tree_as_from_a_list(flow, monkeypatch):
-    """To the last bit, the triangle too, for bodies that are long."""
-    walls = solid(flow)
-    R, reach = 0.05, 0.6
-    names = np.flatnonzero(np.isin(flow.mesh.triangle_patch, walls)).astype(np.int32)
-    monkeypatch.setattr("foamprb.flow.wall_lists.MOST_LISTED", 2)
-    arrays = flow.arrays(reach, walls)
-    assert (np.diff(arrays.near_start) <= 2).all()
-    whole = arrays._replace(near=names)
-    ours, theirs = link(gap), link(nearest_wall)
-    random, used = np.random.default_rng(1), 0
-    for x, host in places(flow, 200):
-        U, _, V = np.linalg.svd(random.standard_normal((3, 3)))
-        F = tuple((U @ np.diag([2.0, 1.0, 0.5]) @ V).ravel())
-        cell = arrays.tets[host, 0] - arrays.n_points
-        begin, end = arrays.near_start[cell], arrays.near_start[cell + 1]
-        if begin < end and arrays.near[begin] < 0:
-            used += 1
-            assert ours(arrays, host, tuple(x), F, R) == theirs(whole, 0, len(names), tuple(x), F, R)
-    assert used > 50
-    flow.arrays(0.9 * reach, walls)
 
 
 def test_the_gap_is_the_same_where_one_triangle_stands_for_all_in_its_plane(flow):

@@ -53,12 +53,6 @@ def test_velocity_gradient_and_acceleration_against_bessel_functions(alpha, rand
     assert np.all(l[:, 1:] == 0)
 
 
-def test_on_the_wall_the_fluid_rests():
-    for t in (0.0, 0.3):
-        u, _ = flow().sample(np.array([[0.0, 0.0, RADIUS]]), np.zeros(1, dtype=np.int32), t)
-        assert abs(u[0, 0]) < 1e-16
-
-
 def test_where_the_series_fails_it_is_refused():
     with pytest.raises(ValueError, match=r"Womersley number 31\.3 > 30"):
         analytic.womersley(RADIUS, RADIUS**2 * OMEGA / 31.3**2, PERIOD, AMPLITUDE)

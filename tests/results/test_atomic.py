@@ -1,26 +1,12 @@
 import errno
 import os
 import re
-import signal
-import subprocess
-import sys
-import textwrap
-import time
 from pathlib import Path
 
 import pytest
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import atomic_write, drop_cache, only_writer, remove_unfinished, write_text
-
-
-def test_whole_file_is_written(tmp_path: Path) -> None:
-    path = tmp_path / "new" / "table.csv"
-    with atomic_write(path) as temporary:
-        temporary.write_text("a\n")
-        assert not path.exists()
-    assert path.read_text() == "a\n"
-    assert list(path.parent.iterdir()) == [path]
 
 
 def test_replaces_old_file(tmp_path: Path) -> None:
@@ -72,50 +58,6 @@ def test_file_has_the_permissions_of_any_new_file(tmp_path: Path) -> None:
     with atomic_write(path) as temporary:
         temporary.write_text("")
     assert path.stat().st_mode == plain.stat().st_mode
-
-
-WRITERS = {
-    "table.csv": """
-        from foamprb.results.tables import write_table
-        write_table(path, {f"c{i}": np.random.default_rng(i).random(2_000_000) for i in range(20)})
-    """,
-    "cloud.vtp": """
-        from foamprb.results.vtk import PointCloud, write_snapshot
-        values = np.random.default_rng(0).random((3_000_000, 9))
-        snapshot = PointCloud(0.0, values[:, :3].copy(), {f"F{i}": values for i in range(5)})
-        write_snapshot(path, snapshot)
-    """,
-}
-
-
-@pytest.mark.parametrize("name", WRITERS)
-def test_killed_process_keeps_old_file(tmp_path: Path, name: str) -> None:
-    path = tmp_path / name
-    path.write_text("old")
-    script = "import sys, numpy as np\nfrom pathlib import Path\npath = Path(sys.argv[1])\n"
-    with subprocess.Popen(
-        [sys.executable, "-c", script + textwrap.dedent(WRITERS[name]), str(path)]
-    ) as writer:
-        try:
-            wait_for_megabyte(tmp_path, writer)
-        finally:
-            writer.send_signal(signal.SIGKILL)
-    assert writer.returncode == -signal.SIGKILL
-    assert path.read_text() == "old"
-    assert len(list(tmp_path.iterdir())) == 2
-
-    remove_unfinished([path])
-    assert list(tmp_path.iterdir()) == [path]
-
-
-def wait_for_megabyte(folder: Path, writer: subprocess.Popen[bytes]) -> None:
-    """Wait until the process has written some of its temporary file."""
-    for _ in range(6000):
-        if any(file.stat().st_size > 1_000_000 for file in folder.glob(".*.tmp")):
-            return
-        assert writer.poll() is None, "the writer ended before it could be killed"
-        time.sleep(0.01)
-    pytest.fail("the writer wrote nothing")
 
 
 def test_remove_unfinished_takes_temporary_files_only(tmp_path: Path) -> None:

@@ -35,12 +35,6 @@ def go_on(case: Path, *options: str) -> None:
     assert main(["run", "-case", str(case), "-resume", *options]) == 0
 
 
-def test_a_stopped_run_goes_on_with_other_threads(stopped, truth):
-    assert "fates.csv" not in results(stopped)
-    go_on(stopped, "-threads", "3")
-    assert results(stopped) == truth
-
-
 def test_walls_and_molecules_go_on_where_they_were(case, monkeypatch):
     """Numbers are those of the particle and the step, and the forces those of the place: nothing is kept."""
     edit(case, r"shape\s+paper;", "shape stokes;")

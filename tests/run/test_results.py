@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import json
 import re
 import sys
 import threading
@@ -48,15 +47,6 @@ def observe(case: Path, *functions: str) -> None:
 
 def names(folder: Path) -> set[str]:
     return {str(file.relative_to(folder)) for file in folder.rglob("*") if file.is_file()}
-
-
-def test_the_manifest_lists_every_file_but_itself(case):
-    observe(case, TRACKS, HITS)
-    run(case)
-    listed = json.loads((folder_of(case) / "manifest.json").read_text())["files"]
-    assert listed == sorted(listed)
-    assert {*listed} == names(folder_of(case)) - {"manifest.json"}
-    assert {"paths/tracks.vtp", "hits/wall.csv", "fates.csv", "checkpoint/0.006.checkpoint"} < {*listed}
 
 
 def test_results_go_into_another_folder(case, tmp_path, truth, capsys):
@@ -158,14 +148,6 @@ def test_leftovers_of_a_killed_run_are_removed(option, stopped, truth):
     assert not (folder_of(stopped) / "softCloud_000004").exists()
 
 
-def test_stopped_run_lists_its_files(stopped):
-    folder = folder_of(stopped)
-    assert {file.relative_to(folder).as_posix() for file in Manifest.read(folder).files} == {
-        "checkpoint/0.002.checkpoint", "checkpoint/0.003.checkpoint", "run.json", "softCloud.pvd",
-        "softCloud_000000.vtp", "softCloud_000001.vtp", "softCloud_000002.vtp", "softCloud_000003.vtp",
-    }  # fmt: skip
-
-
 DAMAGES: dict[str, Callable[[Path], object]] = {
     "garbled": lambda pvd: pvd.write_text("<VTKFile>"),
     "with names of other folders": lambda pvd: pvd.write_text(pvd.read_text().replace('"soft', '"../soft')),
@@ -182,13 +164,6 @@ def test_a_damaged_list_of_clouds_stops_no_run(option, damage, stopped, truth, c
     warned = re.search(rf"Warning : .*softCloud\.pvd: .* {note}", capsys.readouterr().out)
     assert bool(warned) == (damage != "missing")
     assert results(stopped) == truth
-
-
-def test_a_damaged_list_of_a_finished_run_stops_no_new_one(case, truth):
-    run(case)
-    (folder_of(case) / "softCloud.pvd").write_text("")
-    run(case)
-    assert results(case) == truth
 
 
 def test_a_run_with_a_damaged_manifest_goes_on_but_is_not_replaced(stopped, truth, capsys):

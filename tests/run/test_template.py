@@ -141,23 +141,6 @@ def test_the_viscosity_of_another_model_is_local(case):
     assert fluid.mu.at_rate(rate) == pytest.approx(fluid.rho * nu)
 
 
-def test_the_viscosity_is_that_of_the_local_temperature(case):
-    (case / "constant/transportProperties").unlink()
-    (case / "constant/thermophysicalProperties").write_text(
-        "thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
-    )
-    time = max((each for each in case.iterdir() if each.name.isdigit()), key=lambda each: float(each.name))
-    (time / "T").write_text(
-        header("volScalarField", "T") + "dimensions [0 0 0 1 0 0 0]; internalField uniform 977; "
-        'boundaryField { ".*" { type zeroGradient; } }'
-    )
-    mu = 1.458e-6 * np.sqrt(977.0) / (1.0 + 110.4 / 977.0)
-    comment = f"// mu          local, by sutherland at the local T; {mu:.4g} on average"
-    assert comment in write_template(case).read_text()
-    fluid = read_settings(case).fluid
-    assert (fluid.field.name, fluid.mu.mean) == ("T", pytest.approx(mu))
-
-
 def test_a_viscosity_that_is_not_read_is_like_that_of_water(case):
     (case / "constant/transportProperties").unlink()
     (case / "constant/thermophysicalProperties").write_text(

@@ -104,12 +104,10 @@ def test_distributions(read: Reader, size: str, expected: object) -> None:
 
 
 DISTRIBUTION_MISTAKES = [
-    ("type uniform; uniformDistribution { minValue 2; maxValue 1; }", "minValue 2, which is not below"),
     (
         "type uniform; uniformDistribution { minValue 0; maxValue 1; }",
         "begins at 0. Allowed: values > 0.",
     ),
-    ("type fixedValue; fixedValueDistribution { value -1; }", "begins at -1. Allowed: values > 0."),
     ("type uniform; uniformDistribution { minValue 2; }", "uniformDistribution/maxValue is missing"),
     ("type uniform;", "sizeDistribution/uniformDistribution is missing. Allowed: a dictionary"),
     (
@@ -120,7 +118,6 @@ DISTRIBUTION_MISTAKES = [
         "type general; generalDistribution { distribution ((1 2 3)); }",
         "distribution is '((1 2 3))'. Allowed: a list of pairs",
     ),
-    ("type general; generalDistribution { distribution ((1 2)); }", "needs two pairs"),
     ("type general; generalDistribution { distribution 3; }", "Allowed: a list of pairs"),
     ("type general; generalDistribution { distribution ((1 2)) (; }", "no closing )"),
 ]

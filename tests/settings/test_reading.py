@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import re
-import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 from cloud_dictionary import CLOUD, Reader, unexpected
-from paths import PIPE
 
 from foamprb import PressureGradient, SaffmanMeiLift, VirtualMass, WallLift
 from foamprb.cloud.injection.models import ManualInjection, PatchInjection
@@ -20,9 +18,8 @@ from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
-from foamprb.flow.base import Patch
 from foamprb.run.job import _models
-from foamprb.settings.patches import PatchRule, match_patches
+from foamprb.settings.patches import PatchRule
 from foamprb.settings.settings import read_settings
 
 
@@ -93,7 +90,6 @@ def test_manual_injection(read: Reader, case: Path) -> None:
 
 MISTAKES = [
     # one word of the dictionary, what stands there instead, and what the message says
-    ("deltaT ", "deltat ", "line 5: solution/deltat is not known. Did you mean 'deltaT'?"),
     ("deltaT          2e-05;", "", "line 3: solution/deltaT is missing. Allowed: a number > 0."),
     ("2e-05", "-2e-05", "line 5: solution/deltaT is '-2e-05'. Allowed: a number > 0."),
     ("2e-05", "nan", "solution/deltaT is 'nan'"),
@@ -105,7 +101,6 @@ MISTAKES = [
         "solution/writeInterval is 3e-05. Allowed: a multiple of deltaT",
     ),
     ("deltaT ", "maxDeltaT 1e-5; deltaT ", "solution/maxDeltaT is 1e-05. Allowed: at least deltaT = 2e-05."),
-    ("deltaT ", "maxDeltaT 0; deltaT ", "solution/maxDeltaT is '0'. Allowed: a number > 0."),
     ("deltaT ", "maxDeltaT 1e300; deltaT ", "solution/maxDeltaT is 1e+300, with deltaT = 2e-05 that is"),
     (
         "deltaT ",
@@ -119,7 +114,6 @@ MISTAKES = [
         "interpolationSchemes { U cell; } deltaT ",
         "interpolationSchemes/U is 'cell'. Did you mean 'cellPoint'? Allowed: cellPoint, linear.",
     ),
-    ("rhoInf          1.208;", "", "constantProperties/rhoInf is missing"),
     ("2560", "-1", "constantProperties/rho0 is '-1'. Allowed: a number > 0, or a dictionary"),
     (
         "poissonsRatio 0.4",
@@ -145,12 +139,6 @@ MISTAKES = [
     ("1000; }", "1000; Ca 1; }", "constantProperties/solid gives shearModulus and Ca. Allowed: one of"),
     ("shearModulus 1000", "Ca 1", "constantProperties/solid/referenceShearRate is missing"),
     ("ellipsoidDrag;", "", "subModels/particleForces/ellipsoidDrag is missing. Allowed: a dictionary"),
-    (
-        "ellipsoidDrag;",
-        "sphereDrag;",
-        "line 16: subModels/particleForces/sphereDrag is not known: use ellipsoidDrag, which for a rigid "
-        "sphere is Stokes' drag.",
-    ),
     (
         "ellipsoidDrag;",
         "ellipsoidDrag { type stokes; }",
@@ -185,11 +173,6 @@ MISTAKES = [
     ("type stick", "type stick; e 1", "patches/wall/e is not known. Allowed: type."),
     ("(inlet|outlet)", "(inlet|outlet", "patches/(inlet|outlet is not a regular expression"),
     ("patches (", "touching edge; patches (", "touching is 'edge'. Allowed: centre, ellipsoid."),
-    (
-        "FoamFile",
-        "cloudFunctions { facePostProcessing { } } FoamFile",
-        "cloudFunctions/facePostProcessing/type is missing. Allowed: deformabilityCytometry, ",
-    ),
     ("FoamFile", "colour blue; FoamFile", "line 2: colour is not known. "),
 ]
 
@@ -304,21 +287,10 @@ def test_what_to_do_without_a_dictionary(case: Path) -> None:
 
 
 def test_files_that_are_missing(case: Path, read: Reader) -> None:
-    with pytest.raises(InputError, match=r"^constant/softCloudProperties: No such file or directory \(case "):
-        read_settings(case)
     (case / "constant/g").unlink()
     read()
     with pytest.raises(InputError, match=r"^constant/g: No such file"):
         read(("ellipsoidDrag;", "ellipsoidDrag; gravity;"))
-    with pytest.raises(
-        InputError, match=r"inlet/positionsFile is '\"no\"'\. Allowed: the name of an existing"
-    ):
-        read(
-            (
-                "patchInjection; patch inlet; parcelsPerSecond 1000; duration 0.1;",
-                'manualInjection; positionsFile "no";',
-            )
-        )
 
 
 def test_forces(read: Reader) -> None:
@@ -384,10 +356,8 @@ def test_viscosity(case: Path, read: Reader, text: str) -> None:
             "nu is '[0 1 -1 0 0 0 0] 1e-5', with the dimensions [0 1 -1 0 0 0 0], those of a velocity, not "
             "[0 2 -1 0 0 0 0], those of a kinematic viscosity.",
         ),
-        ("nu nu [1 -1 -1 0 0 0 0] 1e-3;", "[1 -1 -1 0 0 0 0], those of a dynamic viscosity, not [0 2 -1"),
         ("nu [1 0 0 0 0 0 2] 1e-5;", "with the dimensions [1 0 0 0 0 0 2], not [0 2 -1 0 0 0 0], those of"),
         ("nu [0 2 -1] 1e-5;", "whose dimensions cannot be read"),
-        ('nu #calc "1e-5";', "nu is '#calc \"1e-5\"', which is not evaluated: write the value itself."),
         ("transportModel Newtonian;", "transportProperties: nu is missing"),
         (
             "transportModel CrossPowerlaw; nu 1e-5;",
@@ -432,14 +402,9 @@ def test_cloud_functions(read: Reader) -> None:
 FUNCTION_MISTAKES = [
     ("f { type particleTrack; }", "f/type is 'particleTrack'. Did you mean 'particleTracks'?"),
     (
-        "f { type particleTracks; maxSamples 5; }",
-        "f/trackInterval is missing. Allowed: an integer >= 1.",
-    ),
-    (
         "f { type particleTracks; trackInterval 0; maxSamples 5; }",
         "is '0'. Allowed: an integer >= 1.",
     ),
-    ("f { type particleTracks; trackInterval 1.5; maxSamples 5; }", "is '1.5'. Allowed: an integer"),
     ("f { type patchPostProcessing; patches wall; }", "patches is 'wall'. Allowed: a list of words"),
     (
         "f { type particleCollector; mode polygon; origin (0 0 0); normal (1 0 0); }",
@@ -464,7 +429,6 @@ FUNCTION_MISTAKES = [
     ("fates.csv { type particleHistogram; }", "the results have a file of that name"),
     ("checkpoint { type particleHistogram; }", "the results have a file of that name"),
     ("softCloud_000000 { type particleHistogram; }", "the results have a file of that name"),
-    ("f;", "cloudFunctions/f/type is missing"),
 ]
 
 
@@ -488,29 +452,3 @@ def test_names_that_are_no_words_are_refused(case: Path, read: Reader) -> None:
 
 
 # The case in the tree
-
-
-def test_the_pipes_settings(tmp_path: Path) -> None:
-    shutil.copytree(PIPE / "constant", tmp_path / "constant", ignore=shutil.ignore_patterns("polyMesh"))
-    settings = read_settings(tmp_path)
-    Ca = {
-        injection.name: settings.fluid.mu
-        * (injection.solid.referenceShearRate or 0.0)
-        / injection.solid.shearModulus
-        for injection in settings.injections
-    }
-    expected = {"Ca00001": 0.0001, "Ca025": 0.25, "Ca05": 0.5, "Ca075": 0.75, "Ca1": 1.0, "inlet": 0.5}
-    assert Ca == pytest.approx(expected)
-    *points, inlet = (injection.model for injection in settings.injections)
-    assert isinstance(inlet, PatchInjection)
-    assert inlet.U0 is None
-    assert inlet.parcelsPerSecond * inlet.duration == pytest.approx(300.0)
-    for point in points:
-        assert isinstance(point, ManualInjection)
-        np.testing.assert_array_equal(read_positions(point.positionsFile).x, [[0.0, -0.00165, 0.0]])
-    assert settings.gravity == (0.0, -9.81, 0.0)
-    match_patches(
-        settings.patches,
-        [Patch("inlet", "patch"), Patch("outlet", "patch"), Patch("wall", "wall")],
-        settings.file,
-    )

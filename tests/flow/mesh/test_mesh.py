@@ -18,12 +18,10 @@ from mesh_shapes import (
     pipe_patches,
     polyhedra,
 )
-from scipy.spatial.transform import Rotation
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
-from foamprb.flow.mesh.boundary import PatchSurface, Transform
 from foamprb.flow.mesh.coupling import couple
 from foamprb.flow.mesh.faces import choose_bases
 from foamprb.flow.mesh.mesh import build_mesh
@@ -83,20 +81,6 @@ def test_boundary_triangles_cover_the_boundary_and_know_their_tetrahedron():
     assert np.all(np.einsum("ti,ti->t", inside - a, mesh.triangle_normals) > 0.0)
 
 
-def test_a_warped_face_is_cut_for_the_better_tetrahedra():
-    points = np.array([[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)])
-    points[7] = (0.4, 0.4, 0.45)
-    mesh = build_mesh(grid(points, [(12, np.array([[0, 1, 3, 2, 4, 5, 7, 6]]))]))
-    top = [set(face) for face in mesh.triangles.tolist() if set(face) <= {4, 5, 6, 7}]
-    assert {4, 7} <= top[0] & top[1]
-    assert mesh.inverted == 0
-
-
-def test_inverted_tetrahedra_are_counted():
-    mesh = build_mesh(block(3, 2.5))
-    assert mesh.inverted == np.count_nonzero(volumes(mesh) <= 0.0) > 0
-
-
 def test_the_faces_of_a_cell_around_another_turn_outwards():
     """A cell like a U, its middle outside it, and the cell that fills the U."""
     outline = np.array([(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)], dtype=float)
@@ -112,29 +96,6 @@ def test_the_faces_of_a_cell_around_another_turn_outwards():
     assert np.sum(volumes(mesh)) == pytest.approx(9.0)
     outward = mesh.boundary_centres - np.array([1.5, 1.5, 0.5])
     assert np.all(np.einsum("fi,fi->f", outward, mesh.boundary_areas) > 0.0)
-
-
-def test_faces_of_six_vertices():
-    angle = np.arange(6) * np.pi / 3.0
-    ring = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(6)])
-    points = np.concatenate([ring, ring + np.array([0, 0, 1]), ring + np.array([0, 0, 2])])
-    faces = [[[*range(6)], [*range(6, 12)], *([k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6] for k in range(6))]]
-    mesh = build_mesh(polyhedra(points, [faces[0], [[p + 6 for p in face] for face in faces[0]]]))
-    assert len(mesh.tets) == 2 * (4 + 4 + 6 * 2)
-    assert mesh.volumes == pytest.approx(1.5 * np.sqrt(3.0) * np.ones(2))
-    assert mesh.centres == pytest.approx(np.array([[0.0, 0.0, 0.5], [0.0, 0.0, 1.5]]))
-
-
-def test_patches_keep_name_type_and_order():
-    shape = pipe(4)
-    patches = pipe_patches(shape)
-    mesh = build_mesh(shape, patches)
-    assert mesh.patches == (Patch("inlet", "patch"), Patch("outlet", "patch"), Patch("wall", "wall"))
-    assert np.array_equal(mesh.patch_start, [0, 48, 96, 160])
-    for index, patch in enumerate(patches):
-        own = mesh.boundary_centres[mesh.patch_start[index] : mesh.patch_start[index + 1]]
-        assert own == pytest.approx(patch.surface.cell_centers().points, abs=0.03)
-    assert np.all(mesh.boundary_areas[:48, 0] < 0.0)
 
 
 def test_single_precision_points_are_matched():
@@ -296,67 +257,6 @@ def test_cyclic_patches_without_faces_are_coupled_all_the_same():
     assert list(named) == patches
     assert [(c.patch, c.other, len(c.faces)) for c in couplings] == [(0, 1, 0), (1, 0, 0)]
     assert all(np.array_equal(c.turn, np.eye(3)) and not c.shift.any() for c in couplings)
-
-
-AXIS, ARM = np.array([2.0, -1.0, 2.0]) / 3.0, np.array([2.0, 2.0, -1.0]) / 3.0
-CENTRE, THETA = np.array([0.3, -0.7, 1.1]), 1.0
-
-
-def rectangle(x, a, b):
-    """Centre, area vector and surface of the one with its middle at x and the sides a and b."""
-    points = np.array([x - a - b, x + a - b, x + a + b, x - a + b])
-    return x, 4.0 * np.cross(a, b), pyvista.PolyData(points, [4, 0, 1, 2, 3])
-
-
-def coupled(one, other, transform):
-    """The motion from one rectangle to another, and back."""
-    names = ("left", "right")
-    patches = [Patch(name, "cyclicAMI", names[1 - k]) for k, name in enumerate(names)]
-    centres, areas, shapes = zip(one, other, strict=True)
-    surfaces = [
-        PatchSurface(p.name, p.type, s, p.neighbour, transform) for p, s in zip(patches, shapes, strict=True)
-    ]
-    named, couplings = couple(patches, np.arange(3), np.array(centres), np.array(areas), surfaces, "mesh")
-    assert list(named) == patches
-    assert [(c.patch, c.other, *c.faces, *c.partners) for c in couplings] == [(0, 1, 0, 1), (1, 0, 1, 0)]
-    there, back = couplings
-    np.testing.assert_allclose(there.turn @ back.turn, np.eye(3), rtol=0, atol=1e-15)
-    np.testing.assert_allclose(there.turn @ back.shift, -there.shift, rtol=0, atol=1e-15)
-    return there
-
-
-@pytest.mark.parametrize("length", [0.5, -2.0])
-@pytest.mark.parametrize("stated", [None, 1.001 * THETA, -1.001 * THETA])
-@pytest.mark.parametrize("side", ["of a sector", "that winds about the axis"])
-def test_interfaces_by_a_rotation_are_coupled_by_that_which_is_stated(side, stated, length):
-    """About an oblique axis beside the origin; the sense is that in which the faces lie."""
-    along = AXIS if side == "of a sector" else np.cross(AXIS, ARM)
-    x = CENTRE + 1.5 * ARM + 0.4 * AXIS
-    turn = Rotation.from_rotvec(THETA * AXIS).as_matrix()
-    one = rectangle(x, 0.5 * ARM, 0.5 * along)
-    other = rectangle(CENTRE + turn @ (x - CENTRE), turn @ (0.5 * along), turn @ (0.5 * ARM))
-    transform = Transform("rotational", None, tuple(length * AXIS), tuple(CENTRE), stated)
-    found = coupled(one, other, transform)
-    expected = Rotation.from_rotvec((THETA if stated is None else abs(stated)) * AXIS).as_matrix()
-    np.testing.assert_allclose(found.turn, expected, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(found.shift, CENTRE - expected @ CENTRE, rtol=0, atol=1e-12)
-
-
-@pytest.mark.parametrize("stated", [None, 1.001, -1.001])
-def test_interfaces_by_a_translation_are_coupled_by_that_which_is_stated(stated):
-    way = np.array([0.2, -1.0, 3.0])
-    one = rectangle(CENTRE, 0.5 * ARM, 0.5 * AXIS)
-    other = rectangle(CENTRE + way, 0.5 * AXIS, 0.5 * ARM)
-    separation = None if stated is None else tuple(stated * way)
-    found = coupled(one, other, Transform("translational", separation))
-    assert np.array_equal(found.turn, np.eye(3))
-    np.testing.assert_allclose(found.shift, way * (1.0 if stated is None else 1.001), rtol=1e-14)
-
-
-def test_interfaces_of_which_nothing_is_stated_lie_in_the_same_place():
-    found = coupled(rectangle(CENTRE, 0.5 * ARM, 0.5 * AXIS), rectangle(CENTRE, AXIS, 0.5 * ARM), Transform())
-    assert np.array_equal(found.turn, np.eye(3))
-    assert not found.shift.any()
 
 
 @pytest.mark.parametrize("corners", [4, 5, 6])

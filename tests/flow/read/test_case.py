@@ -12,12 +12,9 @@ from foamprb.flow.read.case import (
     fields_of,
     mesh_files,
     mesh_folder,
-    notes_of_forms,
     processor_folders,
     regions,
     require_case,
-    require_choice,
-    require_region,
     select_time,
     select_times,
 )
@@ -71,18 +68,6 @@ def test_regions_have_a_mesh_or_are_listed(tmp_path):
     assert regions(tmp_path) == ("air", "heater", "water")
     touch(constant / "b/polyMesh/faces", constant / "a/polyMesh/faces.gz")
     assert regions(tmp_path) == ("a", "b")
-
-
-def test_a_region_that_is_not_there_is_named(tmp_path):
-    require_region(tmp_path, "", ["air"])
-    require_region(tmp_path, "air", ["air"])
-    with pytest.raises(InputError, match=r"no region aire\. Did you mean 'air'"):
-        require_region(tmp_path, "aire", ["air", "heater"])
-    with pytest.raises(InputError, match="no region air; the case is not divided into regions"):
-        require_region(tmp_path, "air", [])
-    require_choice(tmp_path, [])
-    with pytest.raises(InputError, match=r"choose one with -region\. Allowed: air, heater\."):
-        require_choice(tmp_path, ["air", "heater"])
 
 
 def test_a_case_has_a_mesh(tmp_path):
@@ -142,12 +127,6 @@ def test_fields_are_files_of_a_class_of_fields(tmp_path):
     (folder / "note").write_text("no header")
     assert fields_of(folder) == {"U": "volVectorField", "p": "volScalarField"}
     assert fields_of(tmp_path / "2") == {}
-
-
-def test_a_file_in_two_forms_is_noted(tmp_path):
-    touch(tmp_path / "a", tmp_path / "a.gz", tmp_path / "b", tmp_path / "c.gz")
-    [note] = notes_of_forms(tmp_path / name for name in "abcd")
-    assert note == f"{tmp_path / 'a'} and a.gz are both there: the plain file is read, as by OpenFOAM."
 
 
 def test_a_mesh_without_zones_has_none(tmp_path):

@@ -50,20 +50,6 @@ def write_series(folder, first=1.0):
     return path
 
 
-def test_flat_cells_are_left_out_and_told(tmp_path):
-    """Triangles on a side, as some meshers leave them among the cells."""
-    shape = flowing("tetrahedra")
-    side = shape.extract_surface(algorithm=None)
-    both = shape.merge(side.cast_to_unstructured_grid())
-    both.cell_data["U"] = np.zeros((both.n_cells, 3))
-    both.save(tmp_path / "flow.vtu")
-    flow = read_mesh_file(tmp_path / "flow.vtu")
-    assert flow.mesh.n_cells == shape.n_cells
-    assert any(
-        f"{side.n_cells} points, lines and surfaces among the cells are left out" in n for n in flow.notes
-    )
-
-
 def apart(shape, shift=0.0):
     """The same cells, each with points of its own."""
     cells = [shape.extract_cells([k]) for k in range(shape.n_cells)]
@@ -349,37 +335,6 @@ def test_broken_series(text, message, tmp_path):
         read_mesh_file(tmp_path / "case.vtm.series")
 
 
-def test_patches_end_at_edges(tmp_path):
-    flowing().save(tmp_path / "flow.vtu")
-    flow = read_mesh_file(tmp_path / "flow.vtu", division=Division(feature_angle=30.0))
-    assert [patch.type for patch in flow.patches] == ["wall"] * 6
-    assert np.diff(flow.mesh.patch_start).tolist() == [9] * 6
-    for index in range(6):
-        normals = flow.mesh.triangle_normals[flow.mesh.triangle_patch == index]
-        assert np.all(normals == normals[0])
-    whole = read_mesh_file(tmp_path / "flow.vtu", division=Division(feature_angle=100.0))
-    assert [patch.name for patch in whole.patches] == ["boundary0"]
-
-
-def test_patches_by_an_array_on_surface_cells(tmp_path):
-    points, hexes = corners(2, 0.1)
-    low = hexes[points[hexes].mean(axis=1)[:, 2] < 0.5][:, :4]
-    high = hexes[points[hexes].mean(axis=1)[:, 2] > 0.5][:, 4:]
-    shape = grid(points, [(12, hexes), (9, low), (9, high)])
-    shape.cell_data["U"] = np.ones((16, 3))
-    shape.cell_data["CellEntityIds"] = np.repeat([7, 1, 2], [8, 4, 4])
-    shape.save(tmp_path / "flow.vtu")
-    flow = read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityIds"))
-    assert {patch.name for patch in flow.patches} == {"boundary", "boundary1", "boundary2"}
-    assert np.all(flow.patch_faces("boundary1", 0.0).vertices[..., 2] == 0.0)
-    assert np.all(flow.patch_faces("boundary2", 0.0).vertices[..., 2] == 1.0)
-    assert len(flow.patch_faces("boundary", 0.0).areas) == 32
-    with pytest.raises(InputError, match=r"no cell array CellEntityId\. Did you mean 'CellEntityIds'"):
-        read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityId"))
-    with pytest.raises(InputError, match="cell array U is not an array of integers"):
-        read_mesh_file(tmp_path / "flow.vtu", division=Division(array="U"))
-
-
 def test_physical_groups_of_gmsh_name_the_patches(tmp_path):
     points, hexes = corners(1, 0.0)
     mesh = meshio.Mesh(
@@ -435,23 +390,6 @@ def test_a_cell_that_names_a_wrong_point_is_told_by_the_boundary(tmp_path):
             flow = read_mesh_file(tmp_path / "flow.vtu", division=division)
             assert flow.mesh.inverted == 0
             assert ("more than two boundary faces meet" in flow.notes[0]) == wrong
-
-
-def test_pieces_of_a_parallel_file_are_joined(tmp_path):
-    shape = flowing()
-    left = shape.cell_centers().points[:, 0] < 0.34
-    for k, part in enumerate((left, ~left)):
-        shape.extract_cells(np.flatnonzero(part)).save(tmp_path / f"flow_{k}.vtu")
-    arrays = '<PDataArray type="Float64" Name="U" NumberOfComponents="3"/>'
-    (tmp_path / "flow.pvtu").write_text(
-        '<?xml version="1.0"?><VTKFile type="PUnstructuredGrid" version="1.0" header_type="UInt32">'
-        f'<PUnstructuredGrid GhostLevel="0"><PCellData>{arrays}</PCellData><PPoints>'
-        '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>'
-        '<Piece Source="flow_0.vtu"/><Piece Source="flow_1.vtu"/></PUnstructuredGrid></VTKFile>'
-    )
-    flow = read_mesh_file(tmp_path / "flow.pvtu")
-    assert flow.mesh.n_points == 64
-    assert len(flow.mesh.boundary_centres) == 54
 
 
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9, 0.97])
