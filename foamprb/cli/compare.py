@@ -6,10 +6,6 @@ import argparse
 import logging
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "write a page about several runs: fates, deposition, times, deformation"
 
@@ -24,7 +20,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--noBrowser", action="store_true", help="write the page, do not open it")
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.report.compare import write_comparison
     from foamprb.view.runs import open_runs

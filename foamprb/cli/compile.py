@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "compile the particle loops before the first run"
 
@@ -15,7 +11,7 @@ def declare(_parser: argparse.ArgumentParser) -> None:
     """Add no options."""
 
 
-def execute(_: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(_: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.run.compilation import compile_all
 

@@ -10,7 +10,6 @@ from foamprb.errors import InputError
 
 if TYPE_CHECKING:
     from foamprb.body.estimate import AcrossForces
-    from foamprb.parallel.ranks import Ranks
 
 Fact: TypeAlias = tuple[str, float, str]
 """Name, value and remark of a line."""
@@ -48,7 +47,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
         stiffness.add_argument(option, dest=name, type=float, metavar=metavar, help=text)
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     print("\n".join(lines(arguments)))
     return 0

@@ -5,12 +5,8 @@ from __future__ import annotations
 import argparse
 import logging
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_cloud, add_flow, fraction, source_of
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "write the results for OpenFOAM, or as one VTKHDF file"
 
@@ -37,7 +33,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow with the mesh [latest]")
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.export import export as write
 

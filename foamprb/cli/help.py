@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "explain an entry, a dictionary or a type of the settings"
 
@@ -16,7 +12,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("entry", nargs="?", metavar="ENTRY", help="deltaT, solution/deltaT, patchInjection")
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.settings.help import explain
 

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_flow, source_of
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "show the contents of a case"
 
@@ -18,7 +14,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add_flow(parser)
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.flow.read.flows import describe_source
 

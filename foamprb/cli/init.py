@@ -5,12 +5,8 @@ from __future__ import annotations
 import argparse
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_flow, source_of
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "write an initial constant/softCloudProperties for this case"
 
@@ -23,7 +19,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.run.template import write_template
 

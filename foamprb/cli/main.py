@@ -38,7 +38,7 @@ class Command(Protocol):
     def declare(self, parser: argparse.ArgumentParser, /) -> None:
         """Add the options of the command."""
 
-    def execute(self, arguments: argparse.Namespace, ranks: Ranks | None, /) -> int:
+    def execute(self, arguments: argparse.Namespace, /) -> int:
         """Execute the command; return the exit status."""
 
 
@@ -185,17 +185,17 @@ def _interrupted_between_imports() -> Iterator[None]:
 
 
 def _do(words: Sequence[str], ranks: Ranks | None) -> int:
-    """Execute the command line."""
+    """Execute the command line; a run with ``-parallel`` has the ranks among its arguments."""
     for word in words:
         if not word.isprintable() and word != word.encode(errors="replace").decode():
             raise InputError(f"{word}: a name that is not UTF-8, which VTK cannot open. Rename it.")
     if words and not words[0].startswith("-") and words[0] not in COMMANDS:
         raise InputError(f"unknown command '{words[0]}'. {suggestion(words[0], COMMANDS)}")
-    parsed = _parser().parse_args(words)
+    parsed = _parser().parse_args(words, argparse.Namespace(ranks=ranks))
     if parsed.command is None:
         _parser().print_help()
         return 1
-    return COMMANDS[parsed.command].execute(parsed, ranks)
+    return COMMANDS[parsed.command].execute(parsed)
 
 
 def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_case, add_cloud
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "show the bodies of a run in ParaView"
 
@@ -19,7 +15,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add_cloud(parser)
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.show import start_paraview
 

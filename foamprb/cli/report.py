@@ -5,13 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_cloud, add_flow, source_of
 from foamprb.errors import InputError
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "write a page about a run and its results"
 
@@ -26,7 +22,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--noBrowser", action="store_true", help="write the page, do not open it")
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.report.report import write_report
     from foamprb.view.show import open_in_browser

@@ -54,7 +54,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--dry-run", action="store_true", help="check the input, print the plan and exit")
 
 
-def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.run.job import prepare
     from foamprb.run.log import log_description, log_dry_run
@@ -62,6 +62,7 @@ def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
+    ranks: Ranks | None = arguments.ranks
     start_from: StartFrom | None = None
     if arguments.resume or arguments.overwrite:
         start_from = "latestTime" if arguments.resume else "startTime"

@@ -12,7 +12,6 @@ from foamprb.errors import InputError, RunInterrupted, RunStopped
 if TYPE_CHECKING:
     from foamprb.flow.base import Flow
     from foamprb.flow.read.source import FlowSource
-    from foamprb.parallel.ranks import Ranks
     from foamprb.settings.solution import StartFrom
 
 PURPOSE = "run a case for all combinations of values of some entries"
@@ -31,7 +30,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--outsideLibs", action="store_true", help="run also Python files of libs outside the case")
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.run.sweep import execute_run, read_study, require_entries
     from foamprb.view.report.compare import write_comparison

@@ -7,13 +7,9 @@ import re
 import sys
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_cloud, add_flow, source_of
 from foamprb.errors import InputError
-
-if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
 
 PURPOSE = "show the bodies of a run: a page for any browser"
 
@@ -44,7 +40,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--dark", action="store_true", help="dark background of a picture or film")
 
 
-def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.colours import DARK, LIGHT
     from foamprb.view.show import Request, film_of, open_in_browser, picture_of, write_page

@@ -94,7 +94,7 @@ def test_an_import_is_finished_before_an_interruption(tmp_path, monkeypatch, cap
     (tmp_path / "slow_module.py").write_text(text)
     monkeypatch.syspath_prepend(tmp_path)
 
-    def execute(_arguments, _ranks):
+    def execute(_arguments):
         importlib.import_module("slow_module")
         time.sleep(1.0)
 
