@@ -75,7 +75,7 @@ def test_a_spheroid_diffuses_and_turns_as_perrin_says(ratio):
 
 def test_heights_over_a_wall_come_to_boltzmanns():
     """With the hindered mobility, heights come to exp(−W h/kT) in steps √(2 D Δt) of a tenth of kT/W."""
-    n = 1000
+    n = 250
     p = beads(n, rho=RHO_OF_SCALE_R)
     random = np.random.default_rng(3)
     # At equilibrium, in which it is to stay: gaps over R are exponential.
@@ -110,7 +110,7 @@ def test_steps_too_long_for_the_scale_of_heights_are_warned_of():
 @pytest.mark.parametrize("h", [3.0, 1.3])
 def test_a_sphere_near_a_wall_diffuses_with_its_hindered_mobilities(integrator, h):
     """Along and across it in a short time, with inertia as without; to four times the standard error."""
-    n, dt = 1000, 1e-4 * R**2 / D
+    n, dt = 250, 1e-4 * R**2 / D
     p = beads(n, height=h * R)
     models = (WallLift(cutOff=20.0), BrownianMotion(T=T, shape=False))
     carried(p, 2, dt, flow=analytic.shear_over_wall(0.0), models=models, integrator=integrator)
