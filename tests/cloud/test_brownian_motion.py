@@ -43,11 +43,10 @@ def carried(p, steps, dt, *, flow=STILL, medium=WATER, models=MOLECULES, threads
     return p
 
 
-@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
-def test_a_sphere_diffuses_as_einstein_says(integrator):
+def test_a_sphere_with_inertia_diffuses_as_einstein_says():
     """Variance of each component to four times its standard error, √(2/n); no correlation."""
     n, steps, dt = 4000, 5, 1e-3
-    p = carried(beads(n), steps, dt, integrator=integrator, models=(BrownianMotion(T=T, shape=False),))
+    p = carried(beads(n), steps, dt, integrator="rosenbrock", models=(BrownianMotion(T=T, shape=False),))
     moments = p.x.T @ p.x / n / (2.0 * D * steps * dt)
     np.testing.assert_allclose(moments, np.eye(3), atol=4.0 * np.sqrt(2.0 / n))
     assert np.abs(p.x.mean(axis=0)).max() < 4.0 * np.sqrt(2.0 * D * steps * dt / n)

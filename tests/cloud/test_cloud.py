@@ -203,24 +203,6 @@ class TestBookkeeping:
 
 
 class TestWalls:
-    def falling(self, interaction, v, mu=1e-9):
-        """A heavy stiff sphere in nearly no fluid, without gravity, moving towards the wall of a pipe."""
-        p = spheres([[0.1, -RADIUS + 4 * D, 0.0]], d=D, rho=2560.0, mu=10.0)
-        p.v[:] = v
-        medium = Medium(mu, 1e-9, (0.0, 0.0, 0.0))
-        interactions = (interaction, Escape(), Escape())
-        return Cloud(p, analytic.pipe(RADIUS, 0.0, 1.0), medium, interactions, 1e-5, PAPER)
-
-    @pytest.mark.parametrize(("e", "mu"), [(1.0, 0.0), (0.6, 0.3), (0.0, 1.0)])
-    def test_rebound_keeps_the_restituted_velocity(self, e, mu):
-        cloud = self.falling(Rebound(e, mu), (0.02, -0.05, 0.0))
-        cloud.advance(60)
-        np.testing.assert_allclose(
-            cloud.particles.v[0], [(1 - mu) * 0.02, e * 0.05, 0.0], rtol=2e-4, atol=1e-7
-        )
-        assert cloud.particles.status[0] == Status.ACTIVE
-        assert cloud.particles.counts()[Status.FAILED] == 0
-
     @pytest.mark.parametrize("integrator", ["paper", "rosenbrock", "stokes"])
     def test_a_body_at_rest_on_a_bouncing_wall_does_not_sink_into_it(self, integrator):
         """Without restitution it stays in touch and slides; its centre keeps its distance."""
@@ -233,24 +215,6 @@ class TestWalls:
         assert p.x[0, 0] > 0.05
         # Free fall in that time would be forty diameters.
         assert RADIUS - np.hypot(p.x[0, 1], p.x[0, 2]) == pytest.approx(D / 2, rel=0.05)
-
-    def test_rebound_turns_back_where_the_surface_touches(self):
-        cloud = self.falling(Rebound(), (0.0, -0.05, 0.0))
-        lowest = 0.0
-        for _ in range(60):
-            cloud.advance(1)
-            lowest = min(lowest, cloud.particles.x[0, 1])
-        assert lowest == pytest.approx(-RADIUS + D / 2, abs=0.05 * 1e-5)
-
-    def test_a_particle_sticks_at_the_moment_of_contact(self):
-        """In free flight, after 3.5 diameters at 0.05 m/s, which is no whole number of steps."""
-        cloud = self.falling(Stick(), (0.0, -0.05, 0.0))
-        cloud.dt = 1.3e-5
-        cloud.advance(60)
-        p = cloud.particles
-        assert p.status[0] == Status.STUCK
-        assert p.t[0] == pytest.approx(3.5 * D / 0.05, rel=1e-4)
-        assert p.x[0, 1] == pytest.approx(-RADIUS + D / 2, abs=1e-4 * D)
 
     def test_a_particle_released_in_touch_with_a_sticky_wall_stays_there(self):
         cloud = pipe_cloud(0.1, x=(0.05, -RADIUS + 0.4 * D, 0.0))

@@ -33,11 +33,10 @@ def carried(p, calls=(100,), integrator="stokes", **fates):
     return p
 
 
-@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
-def test_a_body_ruptures_at_a_known_extension(integrator):
+def test_with_inertia_a_body_ruptures_at_a_known_extension():
     """At ln λ/ε̇, to a step; a stiff one does not reach the stretch, and its dose is μ γ̇ t."""
     p = carried(
-        fluid_like(2, mu=np.array([1e-9, 1.0])), integrator=integrator, ruptured=FateLimits(stretch=2)
+        fluid_like(2, mu=np.array([1e-9, 1.0])), integrator="rosenbrock", ruptured=FateLimits(stretch=2)
     )
     assert (p.status[0], p.reason[0]) == (Status.RUPTURED, Reason.STRETCH_REACHED)
     assert 0.0 <= p.t[0] - np.log(2.0) / RATE < 1.001 * DT

@@ -136,22 +136,6 @@ FLUID = (Gravity(), PressureGradient(), VirtualMass(Cvm=0.5))
 """Forces with the acceleration of the fluid."""
 
 
-def test_body_without_density_difference_follows_the_fluid_with_its_acceleration():
-    """In a vortex a neutral particle stays on its circle with pressure gradient and virtual mass, only so."""
-    omega = 50.0
-    turn = omega * np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    radius = []
-    for forces in ((Gravity(),), FLUID):
-        p = spheres([[1e-2, 0.0, 0.0]], d=2e-4, rho=1000.0, mu=1e3)
-        p.v[:] = [0.0, omega * 1e-2, 0.0]
-        models = Models(integrator="paper", forces=forces)
-        c = Cloud(p, analytic.linear(turn), Medium(1e-3, 1000.0, REST), (), 5e-6, models, threads=1)
-        advance_to(c, 0.2)
-        radius.append(np.hypot(*p.x[0, :2]) / 1e-2)
-    assert radius[0] > 1.1
-    np.testing.assert_allclose(radius[1], 1.0, atol=2e-3)
-
-
 @pytest.mark.parametrize("integrator", ["paper", "rosenbrock"])
 def test_virtual_mass_slows_the_start_and_not_the_end(integrator):
     """(m + ½ m_f) dv/dt = (m − m_f) g − 6πμRv of a sphere."""

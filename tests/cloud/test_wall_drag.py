@@ -91,18 +91,6 @@ def state(p):
     return np.array([p.x[0, 0], p.x[0, 2], p.v[0, 0], p.v[0, 2]])
 
 
-@pytest.mark.parametrize(
-    ("number", "place", "speed"), [(0.1, 3e-5, 3e-4), (1.0, 3e-4, 2e-3), (10.0, 2e-3, 0.03)]
-)
-def test_a_sphere_falls_onto_a_slope_as_its_equation_of_motion_says(number, place, speed):
-    """From rest at 4R to a gap of 0.1R, with steps of the default tolerance; the faster, the fewer."""
-    g = weight(number) * SLOPE
-    end, expected = fallen(4.0, g, lowest=1.1)
-    p = carried(bodies(4.0), g, end / 20, 20)
-    assert state(p)[:2] == pytest.approx(expected[:2], abs=place * R)
-    assert state(p)[2:] == pytest.approx(expected[2:], rel=speed)
-
-
 def test_it_does_so_with_order_three():
     """What lies beside the wall's normal and what lies along it, of a sphere that stays round."""
     g = weight(1.0) * SLOPE

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.special import jv
-from strategies import flat, square
 
 from foamprb import analytic
-from foamprb.body import stokes
-from foamprb.body.ellipsoid import integrals
-from foamprb.body.material import MATERIALS, piola
-from foamprb.body.tensor import principal_frame
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Stick
@@ -85,29 +79,3 @@ def test_a_heavy_rigid_sphere_lags_behind_the_flow_on_the_axis(integrator, steps
     assert abs(lag) < 0.9 * scale
     np.testing.assert_allclose(cloud.particles.v[0], [v, 0, 0], rtol=0, atol=tolerance * scale)
     np.testing.assert_allclose(cloud.particles.x[0], [x, 0, 0], rtol=0, atol=tolerance * scale * PERIOD)
-
-
-def test_a_soft_particle_is_sheared_to_and_fro():
-    """Against the nine ordinary differential equations without inertia, integrated independently."""
-    r, mu = 1.4e-3, 0.1
-
-    def rate(t, y):
-        F = y[:9].reshape(3, 3)
-        Q, axes = principal_frame(flat(F))
-        Q, g = square(Q), integrals(axes)
-        u, slope, _ = exact(r, t)
-        gradient = np.zeros((3, 3))
-        gradient[0, 1] = slope
-        tau = square(piola(MATERIALS["neoHooke"], flat(F), mu, 0.0, 0.0)) @ F.T
-        sigma, l_f = Q @ tau @ Q.T / WATER.mu, Q @ gradient @ Q.T
-        l_s = stokes.velocity_gradient(stokes.mobility(axes, g, 0.0), flat(sigma), flat(l_f))
-        return np.append((Q.T @ square(l_s) @ Q @ F).ravel(), u)
-
-    found = solve_ivp(
-        rate, (0.0, PERIOD), np.append(np.eye(3).ravel(), 0.0), method="LSODA", rtol=1e-9, atol=1e-11
-    )
-    cloud = cloud_at(r, "stokes", 0.01, d=3e-5, rho=RHO, mu=mu)
-    cloud.advance(100)
-    np.testing.assert_allclose(cloud.particles.F[0], found.y[:9, -1], rtol=0, atol=2e-5)
-    np.testing.assert_allclose(cloud.particles.x[0, 0], found.y[9, -1], rtol=1e-5)
-    assert np.abs(cloud.particles.F[0] - np.eye(3).ravel()).max() > 0.1

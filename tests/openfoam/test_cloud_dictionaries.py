@@ -19,10 +19,11 @@ DENSE = ["coupled is 'true'", "U.air is not known: use U", "rhoInf is missing", 
          "isotropyModel is 'stochastic'"]  # fmt: skip
 PAIRS = [SOLID, "poissonsRatio is not known: use solid", DRAG.format("sphere"),
          "collisionModel is 'pairCollision'"]  # fmt: skip
+UNKNOWN = ["parcelTypeId is not known", "minParcelMass is not known"]
 EXPECTED = {
     f"{HOPPER}/hopperInitialState": [*PAIRS, "patchInteractionModel is 'none'"],
     f"{HOPPER}/hopperEmptying": [*PAIRS, "patchInteractionModel is 'none'", "injectionModels is empty"],
-    "lagrangian/icoUncoupledKinematicParcelDyMFoam/mixerVesselAMI2D": [*PAIRS, "coupled is 'true'"],
+    "lagrangian/icoUncoupledKinematicParcelDyMFoam/mixerVesselAMI2D": [*PAIRS, *UNKNOWN, "coupled is 'true'"],
     "lagrangian/MPPICFoam/column": [*DENSE, DRAG.format("ErgunWenYu"), "nParticle is '750'",
                                     "packingModel is 'implicit'"],
     "lagrangian/MPPICFoam/cyclone": [*DENSE, DRAG.format("ErgunWenYu"), "massTotal is '40'",
@@ -31,7 +32,7 @@ EXPECTED = {
                                               "cellValueSourceCorrection is 'on'"],
     "lagrangian/MPPICFoam/Goldschmidt": [*DENSE, DRAG.format("PlessisMasliyah"),
                                          "packingModel is 'explicit'"],
-    "lagrangian/DPMFoam/Goldschmidt": ["coupled is 'true'", "U.air is not known: use U",
+    "lagrangian/DPMFoam/Goldschmidt": [*UNKNOWN, "coupled is 'true'", "U.air is not known: use U",
                                        "rhoInf is missing", SOLID,
                                        "poissonsRatio is not known: use solid", DRAG.format("ErgunWenYu"),
                                        "Did you mean 'standardWallInteractionCoeffs'",

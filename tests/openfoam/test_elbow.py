@@ -40,20 +40,3 @@ def test_fates_are_alike(runs):
     assert n == 60
     for pair in runs:
         assert elbow.fates(*pair) >= n - 2
-
-
-def test_the_mean_of_the_cells_on_the_finer_mesh_is_that_of_the_cell():
-    """A flow that is linear has its value at the centre as mean over a triangle."""
-    plane = elbow.Plane(
-        np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.5]]),
-        np.array([[0, 1, 2], [0, 2, 3]]),
-        {"wall": np.array([[0, 1], [1, 2]])},
-        (0.0, 1.0),
-    )
-    fine = plane.refined()
-    areas = elbow.area(fine.points, fine.triangles)
-    assert areas.min() > 0.0
-    np.testing.assert_allclose(areas.reshape(-1, 4), elbow.area(*plane[:2])[:, None].repeat(4, 1) / 4.0)
-    np.testing.assert_allclose(fine.centres.reshape(-1, 4, 2).mean(axis=1), plane.centres)
-    assert len(fine.edges["wall"]) == 4
-    assert np.linalg.norm(np.diff(fine.points[fine.edges["wall"]], axis=1), axis=2).sum() == 3.0

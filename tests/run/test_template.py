@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import header, put_scalar, write_case
+from foam_writer import header, put_scalar, put_zones, write_case
 from paths import PIPE
 
 from foamprb.cli import main
@@ -260,10 +260,7 @@ def test_a_laminar_flow_is_offered_no_eddies(tmp_path):
 def test_rotating_zones_are_named(tmp_path, omega, zone, expected, capsys):
     mesh = write_case(tmp_path, perturbation=0.0)
     cells = np.flatnonzero(mesh.centres[:, 2] > 0.5)
-    (tmp_path / "constant/polyMesh/cellZones").write_text(
-        header("regIOobject", "cellZones") + f"1 (upper {{ type cellZone; cellLabels List<label> {len(cells)}"
-        f"({' '.join(map(str, cells))}); }})"
-    )
+    put_zones(tmp_path, upper=cells)
     (tmp_path / "constant/MRFProperties").write_text(
         header("dictionary", "MRFProperties")
         + f"rotor {{ cellZone {zone}; origin (0.5 0.5 0); axis (0 0 1); omega {omega}; }}"
