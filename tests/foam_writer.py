@@ -108,6 +108,32 @@ def write_case(
     return mesh
 
 
+SLOPE = np.array([2.0, -3.0, 0.5])
+KINDS = {1: "Scalar", 3: "Vector", 6: "SymmTensor", 9: "Tensor"}
+
+
+def put_linear(folder, mesh, name="T", at=SLOPE, begin=-1.0, dimensions="[0 0 0 1 0 0 0]"):
+    """``begin`` + at · x, with values on all patches; ``at`` is (3,) or (components, 3)."""
+    at = np.reshape(at, (-1, 3))
+    kind = KINDS[len(at)]
+    inner = kind[0].lower() + kind[1:]
+
+    def listed(x):
+        rows = (" ".join(f"{v:.17g}" for v in row) for row in begin + x @ at.T)
+        text = " ".join(row if len(at) == 1 else f"({row})" for row in rows)
+        return f"nonuniform List<{inner}> {len(x)}({text})"
+
+    starts = mesh.patch_start
+    patches = " ".join(
+        f"{patch.name} {{ type fixedValue; value {listed(mesh.boundary_centres[a:b])}; }}"
+        for patch, a, b in zip(mesh.patches, starts, starts[1:], strict=False)
+    )
+    (folder / name).write_text(
+        header(f"vol{kind}Field", name) + f"dimensions {dimensions}; "
+        f"internalField {listed(mesh.centres)}; boundaryField {{ {patches} }}"
+    )
+
+
 def put_scalar(folder: Path, name: str, units: str, value: float) -> None:
     """Write a uniform field at a time; units are the first three exponents."""
     (folder / name).write_text(

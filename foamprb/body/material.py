@@ -3,7 +3,8 @@
 A solid has a shear modulus μ, Lamé's λ and, optionally, a third parameter k. The Kirchhoff stress follows
 from the derivatives of the energy, τ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I. It and its tangent are formed in
 :mod:`foamprb.body.rosenbrock`. A new solid consists of its energy, its derivatives and a line in
-:data:`MATERIALS`; :func:`add_material` adds a user's solid, for which the energy is sufficient.
+:data:`MATERIALS`; :func:`add_material` adds a user's solid, for which its energy or its
+stress is sufficient.
 
 The rest shape is an ellipsoid, the image of the sphere of equal volume under a symmetric F₀, det F₀ = 1. The
 deformation gradient F refers to that sphere throughout. Only the elastic stress depends on F₀, through
@@ -13,7 +14,7 @@ b_e = F M Fᵀ with M = F₀⁻² (:func:`finger`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf, isinf
+from math import inf, isinf, nan
 from types import FunctionType
 from typing import NamedTuple
 
@@ -33,10 +34,13 @@ from foamprb.body.tensor import (
     log_ratio,
     scale,
     sym,
+    to_frame,
     transpose,
 )
 
 Derivatives = Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], tuple[Scalar, Scalar, Scalar]]
+
+Stress = Callable[[Tensor, Scalar, Scalar, Scalar, Scalar], Tensor]
 
 
 class Parameter(NamedTuple):
@@ -48,7 +52,7 @@ class Parameter(NamedTuple):
 
 
 class Material(NamedTuple):
-    """Isotropic hyperelastic solid."""
+    """Isotropic elastic solid."""
 
     energy: Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], Scalar]
     """Stored energy per undeformed volume w₀(I₁, I₂, J, μ, λ, k), J/m³."""
@@ -63,6 +67,9 @@ class Material(NamedTuple):
     """Whether it is a drop, whose shape follows :mod:`foamprb.body.morphology`; μ is then σ/R."""
     membrane: bool = False
     """Whether it is a capsule, whose μ is that of :func:`modulus_of_capsule`."""
+    stress: Stress | None = None
+    """Kirchhoff stress τ(b, J, μ, λ, k), Pa, in place of the energy: nine numbers row by row, from the
+    elastic b and J = det F. An incompressible form has the same stress up to a pressure, at J = 1."""
 
 
 def neo_hooke_energy(I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar) -> Scalar:
@@ -149,6 +156,18 @@ MATERIALS: dict[str, Material] = {
 """Solids by their names in the settings."""
 
 
+def no_energy(I1: Scalar, _I2: Scalar, _J: Scalar, _mu: Scalar, _lame: Scalar, _k: Scalar) -> Scalar:
+    """Return NaN: a solid that is given by its stress may have no energy."""
+    return nan * I1
+
+
+def no_derivatives(
+    I1: Scalar, _I2: Scalar, _J: Scalar, _mu: Scalar, _lame: Scalar, _k: Scalar
+) -> tuple[Scalar, Scalar, Scalar]:
+    """Return NaN; see :func:`no_energy`."""
+    return nan * I1, nan * I1, nan * I1
+
+
 _STEP = 1e-30
 
 
@@ -169,9 +188,10 @@ energy = neo_hooke_energy
 
 def add_material(
     name: str,
-    energy: Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], Scalar],
+    energy: Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], Scalar] | None = None,
     derivatives: Derivatives | None = None,
     *,
+    stress: Stress | None = None,
     parameter: Parameter | None = None,
     dilation: Callable[[Scalar, Scalar, Scalar], Scalar] | None = None,
     isochoric: bool = True,
@@ -182,22 +202,33 @@ def add_material(
     ----------
     name
         A word.
-    energy, derivatives, parameter, dilation, isochoric
-        See :class:`Material`. The functions are compiled. They must be plain ones of module level, of
-        arithmetic, numpy functions and :func:`foamprb.body.tensor.log_ratio`. Without ``derivatives`` the
-        energy is differentiated by complex steps; it must then be analytic (no ``abs``, ``max``, ``where``).
+    energy, derivatives, stress, parameter, dilation, isochoric
+        See :class:`Material`; energy or stress. The functions are compiled. They must be plain ones of
+        module level, of arithmetic, numpy functions and :func:`foamprb.body.tensor.log_ratio`. Without
+        ``derivatives`` the energy is differentiated by complex steps; it must then be analytic (no ``abs``,
+        ``max``, ``where``).
 
     Raises
     ------
     ValueError
-        If the name is taken, a function is not plain, the derivatives are not those of the energy, the solid
-        is not free of stress at rest, or ``mu`` is not its shear modulus there.
+        If the name is taken, a function is not plain, the derivatives are not those of the energy, the stress
+        is not that of an isotropic solid, the solid is not free of stress at rest, or ``mu`` is not its shear
+        modulus there.
     """
     if name in MATERIALS:
         raise ValueError(f"the solid {name} exists already")
-    for function in (energy, derivatives, dilation):
+    if (energy is None) == (stress is None):
+        raise ValueError(f"solid {name}: it needs an energy or a stress")
+    for function in (energy, derivatives, dilation, stress):
         if function is not None and (not isinstance(function, FunctionType) or function.__closure__):
             raise ValueError(f"solid {name}: {function!r} is not a plain function of module level")
+    if stress is not None:
+        # The derivatives are those of a solid without resistance: its loop does not read them.
+        material = Material(no_energy, no_derivatives, parameter, None, isochoric, stress=stress)
+        _check_stress(name, stress, _some_parameter(material))
+        MATERIALS[name] = material
+        return material
+    assert energy is not None
     if derivatives is None:
         scope = {**globals(), "energy": energy}
         derivatives = FunctionType(_complex_step.__code__, scope, _complex_step.__name__)
@@ -207,12 +238,36 @@ def add_material(
     return material
 
 
+def _some_parameter(material: Material) -> float:
+    """Return a third parameter with which a solid is tried."""
+    if material.parameter is None:
+        return 0.0
+    lower, upper = material.parameter.lower, material.parameter.upper
+    # A range without an end is probed far from its start, where a limit of stretch, say, is no obstacle.
+    return lower + 100.0 if isinf(upper) else 0.5 * (lower + upper)
+
+
+def _check_stress(name: str, stress: Stress, k: float) -> None:
+    mu, lame, h = 1.0, 3.0, 1e-6
+    at_rest = np.array(stress(_IDENTITY, 1.0, mu, lame, k))
+    if at_rest.shape != (9,) or not np.abs(at_rest).max() < 1e-9:
+        raise ValueError(f"solid {name}: at rest its stress is {at_rest} mu, not nine times 0")
+    sheared = stress((1.0, h, 0.0, h, 1.0, 0.0, 0.0, 0.0, 1.0), 1.0, mu, lame, k)
+    if not abs(sheared[1] / h - mu) < 1e-5:
+        raise ValueError(f"solid {name}: its shear modulus at rest is {sheared[1] / h:.6g} mu, not mu")
+    # A turn about an axis that is none of the frame's.
+    Q = (2 / 3, -1 / 3, 2 / 3, 2 / 3, 2 / 3, -1 / 3, -1 / 3, 2 / 3, 2 / 3)
+    b = (1.3, 0.1, -0.2, 0.1, 0.9, 0.15, -0.2, 0.15, 1.1)
+    turned = stress(to_frame(Q, b), 1.1, mu, lame, k)
+    if not np.allclose(turned, to_frame(Q, stress(b, 1.1, mu, lame, k)), rtol=1e-9, atol=1e-9):
+        raise ValueError(f"solid {name}: its stress does not turn with b, as that of an isotropic solid")
+
+
+_IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+
+
 def _check_material(name: str, material: Material) -> None:
-    mu, lame, k = 1.0, 3.0, 0.0
-    if material.parameter is not None:
-        lower, upper = material.parameter.lower, material.parameter.upper
-        # A range without an end is probed far from its start, where a limit of stretch, say, is no obstacle.
-        k = lower + 100.0 if isinf(upper) else 0.5 * (lower + upper)
+    mu, lame, k = 1.0, 3.0, _some_parameter(material)
     w1, w2, wJ = material.derivatives(3.0, 3.0, 1.0, mu, lame, k)
     stress = 2.0 * w1 + 4.0 * w2 + wJ
     if not abs(stress) < 1e-9:

@@ -24,7 +24,8 @@ eta
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -187,6 +188,38 @@ def extra_elasticity_by_dilation(
         cross, cross, 2.0 * phi * z + normal,
     )  # fmt: skip
     return Elasticity(squares, slopes, (shear, shear, shear))
+
+
+def elasticity_by_stress(
+    squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
+) -> Elasticity:
+    """Return :func:`elasticity` of a solid that is given by its stress, also for :func:`extra_elasticity`.
+
+    A shear component of the stress is proportional to that of b, as the solid is isotropic.
+    """
+    (x, y, z), h, n = squares, _DIFFERENCE, 0.0 * J
+    (g, Jh), per = _strained(J), _PER_DIFFERENCE
+    tau = solid_stress((x, h, h, h, y, h, h, h, z), J, mu, lame, k)
+    t = solid_stress((x, n, n, n, y, n, n, n, z), J, mu, lame, k)
+    tx = solid_stress((x * g, n, n, n, y, n, n, n, z), Jh, mu, lame, k)
+    ty = solid_stress((x, n, n, n, y * g, n, n, n, z), Jh, mu, lame, k)
+    tz = solid_stress((x, n, n, n, y, n, n, n, z * g), Jh, mu, lame, k)
+    normal, cross, shear = 16.0 / 15.0 * tension, -8.0 / 15.0 * tension, 0.8 * tension
+    slopes = (
+        (tx[0] - t[0]) * per + normal, (ty[0] - t[0]) * per + cross, (tz[0] - t[0]) * per + cross,
+        (tx[4] - t[4]) * per + cross, (ty[4] - t[4]) * per + normal, (tz[4] - t[4]) * per + cross,
+        (tx[8] - t[8]) * per + cross, (ty[8] - t[8]) * per + cross, (tz[8] - t[8]) * per + normal,
+    )  # fmt: skip
+    return Elasticity(squares, slopes, (tau[5] * per + shear, tau[2] * per + shear, tau[1] * per + shear))
+
+
+solid_stress: Callable[[Tensor, Scalar, Scalar, Scalar, Scalar], Tensor] = kirchhoff
+
+
+def functions_by_stress(stress: Callable[..., Tensor]) -> dict[str, Callable[..., Any]]:
+    """Return the functions of a solid that is given by its stress, by the names that they bind."""
+    elasticities = dict.fromkeys(("elasticity", "extra_elasticity"), elasticity_by_stress)
+    return {"solid_stress": stress, "kirchhoff": stress, "extra_stress": stress, **elasticities}
 
 
 def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:

@@ -181,6 +181,8 @@ class Scratch(NamedTuple):
     """Sink for prefetched values; keeps the compiler from removing the prefetch."""
     stride: Any
     """(LANES,) tracking steps to the end of the stretch."""
+    fields: Any = ()
+    """Arrays of the fields of the case that forces need, see :func:`foamprb.flow.fields.blend_fields`."""
 
 
 SHELF, LABELS, COUNTS = 15 * LANES, 8, 5

@@ -20,6 +20,7 @@ from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import as_slice, path_stokes_number, shape_stokes_number
 from foamprb.cloud.motion import SEEN, longest_of
+from foamprb.cloud.needs import check_needs
 from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
 from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
@@ -28,6 +29,7 @@ from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
 from foamprb.flow.base import Flow
+from foamprb.flow.fields import columns_of
 from foamprb.flow.loaded import LoadedFlow, loaded_fields
 
 __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
@@ -224,6 +226,7 @@ class Cloud:
             chosen = automatic(max(self.stokes_numbers), self.models.material)
             self.models = replace(self.models, integrator=chosen)
         check(self.models, tense)
+        check_needs(self.models.forces, columns_of(self.flow))
         around = (*model_of(self.medium.mu), *self.models.surroundings)
         for model in around:
             model.check(self.flow.patches)
@@ -246,6 +249,7 @@ class Cloud:
             shaped=any(self.at_homes(_is_shaped)),
             tense=tense,
             patches=self.flow.patches,
+            columns=columns_of(self.flow),
         )
 
     @property
@@ -585,10 +589,11 @@ class Stepper:
     def _carry(self, flow: Any, steps: int, stop: Callable[[], bool]) -> Outcome:
         """Advance with the arguments of the flow's kernels, once."""
         cloud = self.cloud
-        given = flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop
+        fields = loaded_fields(cloud.flow)
+        given = flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop, fields
         if self._observer is None:
             return cloud.tracker.advance(*given)
-        seen = LoadedFlow(cloud.tracker.kernels, flow, loaded_fields(cloud.flow))
+        seen = LoadedFlow(cloud.tracker.kernels, flow, fields)
         until = cloud.start + (cloud.step + steps) * cloud.dt
         self._observer.before_steps(seen, cloud.time, until)
         outcome = cloud.tracker.advance(*given)

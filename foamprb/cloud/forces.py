@@ -7,6 +7,7 @@ A new force is a class below, which declares its entries and names a plain funct
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields, make_dataclass
 from inspect import signature
@@ -90,6 +91,16 @@ class Force:
     evaluate: ClassVar[Callable[..., tuple[Vector, Scalar]]]
     """``evaluate(inputs, *coefficients)``: the force per mass of the particle, m/s², and the inertia that it
     adds, in masses of the particle."""
+
+    name: ClassVar[str] = ""
+    """Name of a user's force."""
+    needs: ClassVar[tuple[str, ...]] = ()
+    """Names of further values, which follow ``inputs`` in its arguments; see :func:`add_force`."""
+
+    @property
+    def needed_fields(self) -> tuple[str, ...]:
+        """Names of the fields of the case that it needs, and of their gradients as ``grad(E)``."""
+        return tuple(name for name in self.needs if name not in STATE)
 
     @property
     def coefficients(self) -> tuple[Any, ...]:
@@ -236,8 +247,6 @@ FORCES: dict[str, type[Force]] = {
 class UserForce(Force):
     """A force that :func:`add_force` has added."""
 
-    name: ClassVar[str]
-
     def __reduce__(self) -> Any:
         """Return how another process, which has run the same file, restores it."""
         return _restored, (self.name, {field.name: getattr(self, field.name) for field in fields(self)})
@@ -253,7 +262,19 @@ SAMPLE = Inputs(
 """Arguments with which a user's force is tried."""
 
 
-def add_force(name: str, evaluate: Callable[..., tuple[Vector, Scalar]]) -> type[Force]:
+STATE: dict[str, Any] = {
+    "u": (0.1, 0.2, 0.3),
+    "grad(u)": (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, -6.0),
+    "v": (0.3, 0.2, 0.1),
+    "F": (1.0, 0.1, 0.2, 0.3, 1.0, 0.4, 0.5, 0.6, 1.0),
+    "mu": 1e-3,
+}
+"""Values that a force may need beside fields of the case, with those with which it is tried."""
+
+
+def add_force(
+    name: str, evaluate: Callable[..., tuple[Vector, Scalar]], needs: Sequence[str] = ()
+) -> type[Force]:
     """Add a force to :data:`FORCES`, for selection by its name in ``particleForces``.
 
     Parameters
@@ -262,10 +283,15 @@ def add_force(name: str, evaluate: Callable[..., tuple[Vector, Scalar]]) -> type
         A word.
     evaluate
         ``evaluate(inputs, *entries)`` returns the force per mass of the particle, ((x, y, z) in m/s², inertia
-        in masses of the particle, in most cases 0.0), from :class:`Inputs` and numbers. Its further
-        parameters are the entries of the force's dictionary; one with a default may be left out, and a
-        hint ``Annotated[float, Positive]`` restricts it. It is compiled: a plain function of module level,
-        of arithmetic and numpy functions, with :func:`foamprb.select` in place of ``if``.
+        in masses of the particle, in most cases 0.0), from :class:`Inputs`, the values that it ``needs``,
+        and numbers. The last parameters are the entries of the force's dictionary; one with a default may
+        be left out, and a hint ``Annotated[float, Positive]`` restricts it. It is compiled: a plain function
+        of module level, of arithmetic and numpy functions, with :func:`foamprb.select` in place of ``if``.
+    needs
+        Names of further values, in the order of the parameters after ``inputs``: ``u``, m/s, and
+        ``grad(u)``, ∂u_i/∂x_j row by row, 1/s, of the fluid; ``mu``, its viscosity, Pa s; ``v``, velocity of
+        the particle, m/s; ``F``, its deformation gradient row by row; fields of the case, and ``grad(E)``
+        for the gradient of a scalar or a vector E, row by row.
 
     Returns
     -------
@@ -274,7 +300,8 @@ def add_force(name: str, evaluate: Callable[..., tuple[Vector, Scalar]]) -> type
     Raises
     ------
     ValueError
-        If the name is taken, or the function is not plain, fails, or returns something else.
+        If the name is taken, or the function is not plain, fails, or returns something else. With fields
+        of the case it is tried as soon as these are known.
     """
     if name in FORCES:
         raise ValueError(f"the force {name} exists already")
@@ -282,6 +309,14 @@ def add_force(name: str, evaluate: Callable[..., tuple[Vector, Scalar]]) -> type
         raise ValueError(f"force {name}: {evaluate!r} is not a plain function of module level")
     hints = get_type_hints(evaluate, include_extras=True)
     _, *parameters = signature(evaluate).parameters.values()
+    for need in needs:
+        if need in Inputs._fields:
+            raise ValueError(f"force {name}: it needs {need}, which is inputs.{need}")
+        if not re.fullmatch(r"[\w.:]+|grad\([\w.:]+\)", need):
+            raise ValueError(f"force {name}: it needs {need!r}. Allowed: names, and gradients as grad(E)")
+    if len(parameters) < len(needs):
+        raise ValueError(f"force {name}: it needs {len(needs)} values and has {len(parameters)} parameters")
+    parameters = parameters[len(needs) :]
     entries: list[Any] = []
     for p in parameters:
         hint = hints.get(p.name, float)
@@ -291,16 +326,23 @@ def add_force(name: str, evaluate: Callable[..., tuple[Vector, Scalar]]) -> type
         entries.append((p.name, hint, own))
     kind: type[Force] = make_dataclass(
         name, entries, bases=(UserForce,), frozen=True, kw_only=True,
-        namespace={"evaluate": staticmethod(evaluate), "name": name},
+        namespace={"evaluate": staticmethod(evaluate), "name": name, "needs": tuple(needs)},
     )  # fmt: skip
+    if STATE.keys() >= set(needs):
+        _try(name, tried(kind))
+    FORCES[name] = kind
+    return kind
+
+
+def _try(name: str, force: Force) -> None:
+    """Evaluate a force without fields; raise ValueError if it fails or returns something else."""
     try:
-        (x, y, z), inertia = found = evaluate(SAMPLE, *tried(kind).coefficients)
+        given = SAMPLE, *(STATE[need] for need in force.needs), *force.coefficients
+        (x, y, z), inertia = found = type(force).evaluate(*given)
     except Exception as error:
         raise ValueError(f"force {name}: {type(error).__name__}: {error}") from error
     if not all(isinstance(number, Real) and math.isfinite(number) for number in (x, y, z, inertia)):
         raise ValueError(f"force {name}: it returns {found}, not ((x, y, z), inertia) of finite numbers")
-    FORCES[name] = kind
-    return kind
 
 
 T = TypeVar("T")
@@ -327,7 +369,7 @@ def acceleration(block: Any, i: int, medium: Medium, J: Scalar) -> tuple[Vector,
 
     m (1 + Σ C) dv/dt = Σ f + f_D with the forces f and the inertia m C that each adds.
     """
-    f, inertia = sum_of_forces(_inputs_of(block, i, medium, J), medium.coefficients)
+    f, inertia = sum_of_forces(block, i, _inputs_of(block, i, medium, J), medium.coefficients)
     return scale_vector(1.0 / inertia, f), inertia
 
 
@@ -338,17 +380,26 @@ def forces_on(block: Any, i: int, medium: Medium, J: Scalar, Du_Dt: Vector) -> t
     """
     inputs = _inputs_of(block, i, medium, J)
     where = inputs.medium, inputs.x, inputs.R, inputs.t
-    f, inertia = sum_of_forces(Inputs(inputs.J, inputs.rho, Du_Dt, *where), medium.coefficients)
+    f, inertia = sum_of_forces(block, i, Inputs(inputs.J, inputs.rho, Du_Dt, *where), medium.coefficients)
     still = Inputs(inputs.J, inputs.rho, scale_vector(0.0, inputs.Du_Dt), *where)
-    steady, _ = sum_of_forces(still, medium.coefficients)
+    steady, _ = sum_of_forces(block, i, still, medium.coefficients)
     return steady, f, inertia
 
 
-def compose(forces: Sequence[Force]) -> dict[str, Callable[..., Any]]:
-    """Return the sum of these forces, by the name to which it is bound."""
+def compose(
+    forces: Sequence[Force], reader_of: Callable[[Force], Callable[..., Any]] | None = None
+) -> dict[str, Callable[..., Any]]:
+    """Return the sum of these forces, by the name to which it is bound.
+
+    ``reader_of`` returns a function that reads what a force needs, see :mod:`foamprb.cloud.needs`.
+    """
     total: Callable[..., Any] = no_force
     for force in forces:
-        total = bound(_add_force, others=total, force=type(force).evaluate)
+        if force.needs and reader_of is not None:
+            read = reader_of(force)
+            total = bound(_add_needing, others=total, force=type(force).evaluate, read=read)
+        else:
+            total = bound(_add_force, others=total, force=type(force).evaluate)
     return {"sum_of_forces": total}
 
 
@@ -370,20 +421,27 @@ def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on its loads: without these,
 # last bits of the shape would depend on whether one of the forces reads them.
-def no_force(inputs: Inputs, _coefficients: Any) -> tuple[Vector, Scalar]:
+def no_force(_block: Any, _i: int, inputs: Inputs, _coefficients: Any) -> tuple[Vector, Scalar]:
     """Return a force of zero, and the inertia of the particle alone."""
     return scale_vector(0.0, inputs.Du_Dt), 1.0 + 0.0 * displaced(inputs)
 
 
-def _add_force(inputs: Inputs, coefficients: Any) -> tuple[Vector, Scalar]:
-    a, m = others(inputs, coefficients[0])
+def _add_force(block: Any, i: int, inputs: Inputs, coefficients: Any) -> tuple[Vector, Scalar]:
+    a, m = others(block, i, inputs, coefficients[0])
     b, n = force(inputs, *coefficients[1])
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2]), m + n
+
+
+def _add_needing(block: Any, i: int, inputs: Inputs, coefficients: Any) -> tuple[Vector, Scalar]:
+    a, m = others(block, i, inputs, coefficients[0])
+    b, n = force(inputs, *read(block, i, inputs.medium), *coefficients[1])
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2]), m + n
 
 
 others: Any = no_force
 force: Any = no_force
+read: Any = no_force
 
 DEFAULT: tuple[Force, ...] = (Gravity(),)
 """The forces of a cloud for which none are chosen, and of the uncompiled functions."""
-sum_of_forces: Callable[[Inputs, Any], tuple[Vector, Scalar]] = compose(DEFAULT)["sum_of_forces"]
+sum_of_forces: Callable[[Any, int, Inputs, Any], tuple[Vector, Scalar]] = compose(DEFAULT)["sum_of_forces"]

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -19,6 +20,7 @@ from foamprb.body.rosenbrock import (
     elasticity_by_dilation,
     extra_elasticity_by_dilation,
     extra_stress,
+    functions_by_stress,
     kirchhoff,
 )
 from foamprb.body.surface_tension import laplace_stress
@@ -34,6 +36,7 @@ from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import RARE, UNLISTED, PatchTable
+from foamprb.cloud.needs import needed_by, reader_of
 from foamprb.cloud.patches import MIRROR, NO_BOND, Adhere, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
@@ -44,6 +47,8 @@ from foamprb.compile.link import is_compiled, link, linked, read_by
 from foamprb.errors import InputError, closest
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
+from foamprb.flow.fields import FieldColumns, Fields, fields_on, width
+from foamprb.flow.mesh.arrays import no_mesh
 from foamprb.flow.meshflow import LONG
 
 __all__ = ["Models", "Outcome", "Tracker", "available_threads", "never"]
@@ -126,6 +131,8 @@ class Tracker:
         Whether a particle is not a sphere at rest; whether one has surface tension.
     patches
         Patches of the flow.
+    columns
+        Fields of the case with which the flow was read.
     """
 
     def __init__(
@@ -139,8 +146,9 @@ class Tracker:
         shaped: bool,
         tense: bool,
         patches: Sequence[Patch] = (),
+        columns: Sequence[FieldColumns] = (),
     ) -> None:
-        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches
+        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches, columns
         bindings: dict[str, Any] = dict(kernels)
         if models.touching == "centre":
             bindings["gap"] = gap_free
@@ -158,6 +166,8 @@ class Tracker:
             bindings |= {"kirchhoff": kirchhoff, "extra_stress": extra_stress}
         else:
             bindings["strain_by"] = strain_in_frame
+        if material.stress is not None:
+            bindings |= functions_by_stress(material.stress)
         if tense:
             bindings["interface"] = laplace_stress
         if material.liquid:
@@ -168,12 +178,14 @@ class Tracker:
         if adheres and integrator.name == "paper":
             raise InputError("adhere needs the integrator stokes or rosenbrock, not paper")
         # The others may read the viscosity.
-        around = (*model_of(medium.mu), *models.surroundings, *((Adhesion(),) if adheres else ()))
+        needed = needed_by(models.forces, columns)
+        self._columns = needed[0].columns if needed else ()
+        around = (*model_of(medium.mu), *needed, *models.surroundings, *((Adhesion(),) if adheres else ()))
         self.layout = layout = surroundings.with_rows(integrator.layout, around)
         bindings["prefetch_rows"] = layout.prefetch
         required: dict[str, Any] = {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         required |= integrator.bindings
-        required |= compose(models.forces)
+        required |= compose(models.forces, partial(reader_of, columns=columns, inertia=integrator.inertia))
         bindings |= required
         bindings |= surroundings.compose(integrator.layout, around, integrator.inertia)
         # The flow and the models offer more than every loop reads.
@@ -233,15 +245,22 @@ class Tracker:
     def compile(self, flow: Any) -> None:
         """Compile the loop for the arguments of a flow's kernels."""
         nothing = np.empty(0, dtype=np.int64)
-        scratch = self._scratch()
+        fields = fields_on(no_mesh(), np.empty((0, width(self._columns))), self._columns)
+        scratch = self._scratch(fields=fields)
         self._track(
             flow, self.table, self.medium, empty(0), nothing, 0, 0, self.dt, self.start, scratch,
             self.options,
         )  # fmt: skip
 
-    def _scratch(self, stop: Any = None, bounds: LoopLimits = LoopLimits()) -> Scratch:  # noqa: B008
+    def _scratch(
+        self,
+        stop: Any = None,
+        bounds: LoopLimits = LoopLimits(),  # noqa: B008
+        fields: Fields | None = None,
+    ) -> Scratch:
         kept = self.layout.kept, self.layout.fresh
-        return new_scratch(self.layout.rows, stop, bounds, self._room, kept)
+        scratch = new_scratch(self.layout.rows, stop, bounds, self._room, kept)
+        return scratch._replace(fields=fields.arrays) if self._columns and fields is not None else scratch
 
     def advance(
         self,
@@ -252,6 +271,7 @@ class Tracker:
         threads: int,
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
         stop: Callable[[], bool] = never,
+        fields: Fields | None = None,
     ) -> Outcome:
         """Advance particles from step ``step`` by ``steps`` steps, in place.
 
@@ -264,6 +284,8 @@ class Tracker:
         stop
             Called several times a second; the steps end early if it returns True or a signal's handler
             raises.
+        fields
+            Fields of the case at the loaded times, if the flow was read with some.
         """
         last = step + steps
         reached = np.full(p.size, step)
@@ -273,7 +295,7 @@ class Tracker:
         outcome = Outcome()
         for end in sorted({*np.unique(reached[(reached > step) & (reached < last)]).tolist(), last}):
             rows = np.flatnonzero(np.isin(p.status, self.movable) & (reached <= step))
-            part = self._carry(flow, p, rows, (step, end - step), threads, bounds, stop)
+            part = self._carry(flow, p, rows, (step, end - step), threads, bounds, stop, fields)
             outcome += part
             if not part.finished:
                 break
@@ -289,12 +311,13 @@ class Tracker:
         threads: int,
         bounds: LoopLimits,
         stop: Callable[[], bool],
+        fields: Fields | None,
     ) -> Outcome:
         """Advance the particles of some rows from a step by a number of steps."""
         halt = np.zeros(1, dtype=np.int64)
 
         def work(task: Task) -> Outcome:
-            scratch = self._scratch(halt, bounds)
+            scratch = self._scratch(halt, bounds, fields)
             mended: int = self._track(
                 flow, self.table, self.medium, p, *task, self.dt, self.start, scratch, self.options
             )

@@ -122,8 +122,8 @@ def linked(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> Collection
     return reached
 
 
-def bound(function: Callable[..., Any], **names: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a copy of a plain function, with other functions behind some of the names that it calls."""
+def bound(function: Callable[..., Any], **names: Callable[..., Any] | int) -> Callable[..., Any]:
+    """Return a copy of a plain function, with other functions or constants behind some of its names."""
     assert isinstance(function, FunctionType)
     return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
 

@@ -4,17 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from foamprb.body.tensor import Vector
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
-from foamprb.flow.walk import blend, corners, shape
+from foamprb.flow.walk import Corners, Weights, blend, corners, shape
 
-__all__ = ["FieldColumns", "FieldValues", "Fields", "by_name", "columns_of", "fields_on", "width"]
+__all__ = [
+    "FieldColumns",
+    "FieldValues",
+    "Fields",
+    "blend_fields",
+    "by_name",
+    "columns_of",
+    "field_of",
+    "fields_on",
+    "width",
+]
 
 
 class FieldColumns(NamedTuple):
@@ -38,6 +49,9 @@ class FieldValues(NamedTuple):
         return self.values[:, 0] if self.values.shape[1] == 1 else self.values
 
 
+FieldArrays: TypeAlias = tuple[MeshArrays, Floats, NDArray[np.int64], Floats, float]
+
+
 class Fields(NamedTuple):
     """Fields at the nodes of a mesh, at one or several times."""
 
@@ -52,6 +66,11 @@ class Fields(NamedTuple):
     columns: tuple[FieldColumns, ...]
     slack: float
     """Times closer than this are the same, s."""
+
+    @property
+    def arrays(self) -> FieldArrays:
+        """Arguments of :func:`blend_fields`."""
+        return self.mesh, self.table, self.first, self.times, self.slack
 
     def at(self, points: Floats, hosts: Ints, t: ArrayLike) -> dict[str, FieldValues]:
         """Return the fields at points (n, 3) in hosts (n,), −1 for none, at times t, by name; linear in t."""
@@ -95,6 +114,11 @@ def by_name(values: Floats, columns: Sequence[FieldColumns]) -> dict[str, FieldV
     }
 
 
+def field_of(name: str) -> str:
+    """Return the name of the field in ``grad(E)``; other names are those of fields."""
+    return name.removeprefix("grad(").removesuffix(")") if name.startswith("grad(") else name
+
+
 def columns_of(flow: Any) -> tuple[FieldColumns, ...]:
     """Return the fields that are sampled of a flow; flows without a case have none."""
     return getattr(flow, "field_columns", ())
@@ -116,6 +140,23 @@ def fields_on(
 def width(columns: Sequence[FieldColumns]) -> int:
     """Return the number of columns of fields."""
     return sum(c.components for c in columns)
+
+
+def blend_fields(
+    fields: FieldArrays, host: int, x: Vector, t: float
+) -> tuple[Corners, Corners, Weights, float]:
+    """Return rows of the table of fields before and after a time, their weights, and the share of the time.
+
+    Column k of the table at x and t is ``between(blend(table, k, before, w), blend(table, k, after, w))``.
+    """
+    mesh, _, first, times, slack = fields
+    k, last = 0, times.shape[0] - 1
+    while k < last - 1 and t > times[k + 1] - 2.0 * slack:
+        k += 1
+    after = min(k + 1, last)
+    length = times[after] - times[k]
+    share = (t - times[k]) / length if length > 0.0 else 0.0
+    return corners(mesh, host, first[k]), corners(mesh, host, first[after]), shape(mesh, host, x), share
 
 
 @cache

@@ -201,20 +201,37 @@ class Reconstruction:
         ``cells`` (n_cells, 3, …) and ``boundary`` (n_boundary, 3, …) are its values. Beside a front it may
         exceed their range.
         """
-        n, owner, turned = self.mesh.n_cells, self._owner[self._valued], self._images.turned
+        return self._at_nodes(*self._with_slopes(cells, boundary))
+
+    def gradient(self, cells: Floats, boundary: Floats) -> Floats:
+        """Return the gradient of a scalar, a vector or a tensor at the nodes, (n_nodes, 3, …, 3).
+
+        See :meth:`linear`. The last index is that of the derivative; gradients of linear fields are exact.
+        """
+        return self._at_nodes(self._with_slopes(cells, boundary)[1])
+
+    def _with_slopes(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
+        """Return values (n_sites, …) and least-squares gradients (n_sites, …, 3) at all sites."""
+        owner, turned = self._owner[self._valued], self._images.turned
         values = np.concatenate([cells, boundary[self._valued], turned(cells)])
         flat = values.reshape(len(values), -1)
-        found = np.zeros((n, flat.shape[1], 3))
+        found = np.zeros((self.mesh.n_cells, flat.shape[1], 3))
         self._gradient(flat, found)
         self._fill("cells", found)
         slopes = found.reshape(*cells.shape, 3)
-        of_sites = np.concatenate([slopes, slopes[owner], turned(slopes)]).reshape(len(values), -1, 3)
+        return values, np.concatenate([slopes, slopes[owner], turned(slopes)])
+
+    def _at_nodes(self, values: Floats, slopes: Floats | None = None) -> Floats:
+        """Return values at all sites, (n_sites, …), at the nodes; see :meth:`_means`."""
+        flat = values.reshape(len(values), -1)
         at_points = np.empty((self.mesh.n_points, flat.shape[1]))
         for k in range(0, flat.shape[1], 3):
             three = np.minimum(np.arange(k, k + 3), flat.shape[1] - 1)
-            at_points[:, three] = self._means(np.take(flat, three, 1), np.take(of_sites, three, 1))
+            own = None if slopes is None else np.take(slopes.reshape(*flat.shape, 3), three, 1)
+            at_points[:, three] = self._means(np.take(flat, three, 1), own)
         self._fill("points", at_points)
-        return np.concatenate([at_points.reshape(-1, *cells.shape[1:]), cells])
+        shape = values.shape[1:]
+        return np.concatenate([at_points.reshape(-1, *shape), values[: self.mesh.n_cells]])
 
     def _means(self, values: Floats, slopes: Floats | None = None) -> Floats:
         """Average values (n_sites, 3) at the mesh points, (n_points, 3), by the inverse distance.

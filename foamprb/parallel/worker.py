@@ -382,7 +382,9 @@ class Worker:
         functions = self._sampling.names_of(StepObserver)
         start, until = (tracker.start + n * tracker.dt for n in (step, step + steps))
         self._observe(functions, start, lambda f, memory, cloud: f.before_steps(memory, cloud, until))
-        outcome = tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
+        outcome = tracker.advance(
+            self._flow, self.particles, step, steps, self._threads, bounds, stop, self._sampled
+        )
         self._observe(functions, until, lambda f, memory, cloud: f.after_steps(memory, cloud))
         return self.share()._replace(outcome=outcome)
 

@@ -177,11 +177,13 @@ def prepare(
     turbulent = any(type(model).needs_turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative, viscosity=settings.fluid.field)
-    needed = dict.fromkeys(name for f in settings.functions.values() for name in f.needed_fields)
+    readers: list[Any] = [*settings.functions.values(), *settings.forces.values()]
+    needed = dict.fromkeys(name for reader in readers for name in reader.needed_fields)
     source = replace(source, sampled=tuple(needed))
     rotating = bool(rotations_of(case, source))
     compilation = Compilation()
-    if precompile:
+    # A loop whose forces read fields depends on the kinds of these.
+    if precompile and not any(force.needed_fields for force in settings.forces.values()):
         compilation.begin(*_loop(settings, rotating))
     output = None if output is None else Path(output)
     following = None

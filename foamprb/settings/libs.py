@@ -15,8 +15,8 @@ from typing import Any
 
 from foamprb.body.material import MATERIALS
 from foamprb.cloud.block import ROWS, new_block
-from foamprb.cloud.forces import FORCES, SAMPLE, tried
-from foamprb.cloud.layout import end, offsets
+from foamprb.cloud.forces import FORCES, SAMPLE, STATE, tried
+from foamprb.cloud.layout import IDENTITY, end, offsets
 from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.compile.link import link
 from foamprb.errors import InputError
@@ -147,10 +147,16 @@ def _check(file: Path, kind: str, name: str) -> None:
     if kind == "solid":
         material = MATERIALS[name]
         k = 1.0 if material.parameter is None else material.parameter.lower + 1.0
-        _compile(file, material.derivatives, 3.0, 3.0, 1.0, 1.0, 1.0, k)
+        if material.stress is None:
+            _compile(file, material.derivatives, 3.0, 3.0, 1.0, 1.0, 1.0, k)
+        else:
+            _compile(file, material.stress, IDENTITY, 1.0, 1.0, 1.0, k)
     elif kind == "force":
         force = tried(FORCES[name])
-        _compile(file, type(force).evaluate, SAMPLE, *force.coefficients)
+        # The kinds of fields are known with the case.
+        if not force.needed_fields:
+            needed = [STATE[need] for need in force.needs]
+            _compile(file, type(force).evaluate, SAMPLE, *needed, *force.coefficients)
     else:
         model = SURROUNDINGS[name]
         rows = 0 if model.rows is None else end(offsets(model.rows))

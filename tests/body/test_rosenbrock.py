@@ -81,6 +81,20 @@ def test_the_elasticity_of_a_solid_with_a_dilation_is_that_by_differences(name, 
             np.testing.assert_allclose(found.shear, expected.shear, rtol=1e-12)
 
 
+@pytest.mark.parametrize("tension", [0.0, 3.0])
+@given(stretch=mild_stretches)
+def test_the_elasticity_of_a_stress_is_that_of_the_energy(tension, stretch):
+    squares, J = tuple(s * s for s in stretch), float(np.prod(stretch))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rosenbrock, "derivatives", MATERIALS["mooneyRivlin"].derivatives)
+        arguments = squares, J, MU, LAME, 0.4, tension
+        found, expected = rosenbrock.elasticity_by_stress(*arguments), rosenbrock.elasticity(*arguments)
+    size = np.abs(expected.slopes).max()
+    np.testing.assert_allclose(found.slopes, expected.slopes, atol=1e-8 * size)
+    # Of first order in the difference.
+    np.testing.assert_allclose(found.shear, expected.shear, rtol=1e-6)
+
+
 def _bulk_of_shear(name, k):
     """By how much λ' is less than λ in the solid's volume energy."""
     return {"mooneyRivlin": 2.0 * MU * k, "gent": 2.0 * MU / (k or 1.0), "drop": -MU / 1.5}.get(name, 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import pyvista
-from foam_writer import header, write_case
+from foam_writer import header, put_linear, write_case
 from observing import column, table
 from pipe_case import END, edit, results, short_case, stop_after, time_folder
 from transient_case import write_transient_case
@@ -16,31 +16,6 @@ from foamprb.errors import InputError
 from foamprb.flow.read.flows import read_transient_flow
 from foamprb.flow.read.openfoam import Case, steady_flow
 from foamprb.flow.read.source import FlowSource
-
-SLOPE = np.array([2.0, -3.0, 0.5])
-KINDS = {1: "Scalar", 3: "Vector", 6: "SymmTensor", 9: "Tensor"}
-
-
-def put_linear(folder, mesh, name="T", at=SLOPE, begin=-1.0, dimensions="[0 0 0 1 0 0 0]"):
-    """``begin`` + at · x, with values on all patches; ``at`` is (3,) or (components, 3)."""
-    at = np.reshape(at, (-1, 3))
-    kind = KINDS[len(at)]
-    inner = kind[0].lower() + kind[1:]
-
-    def listed(x):
-        rows = (" ".join(f"{v:.17g}" for v in row) for row in begin + x @ at.T)
-        text = " ".join(row if len(at) == 1 else f"({row})" for row in rows)
-        return f"nonuniform List<{inner}> {len(x)}({text})"
-
-    starts = mesh.patch_start
-    patches = " ".join(
-        f"{patch.name} {{ type fixedValue; value {listed(mesh.boundary_centres[a:b])}; }}"
-        for patch, a, b in zip(mesh.patches, starts, starts[1:], strict=False)
-    )
-    (folder / name).write_text(
-        header(f"vol{kind}Field", name) + f"dimensions {dimensions}; "
-        f"internalField {listed(mesh.centres)}; boundaryField {{ {patches} }}"
-    )
 
 
 @pytest.mark.parametrize("components", [1, 3, 6, 9])

@@ -6,16 +6,18 @@ import csv
 import os
 import pickle
 import re
+import shutil
 import subprocess
 import sys
 
 import numpy as np
 import pytest
 import pyvista
+from foam_writer import put_linear
 from hypothesis import given
 from hypothesis import strategies as st
 from paths import ROOT
-from pipe_case import copy_of_pipe, edit, fates
+from pipe_case import END, copy_of_pipe, edit, fates, results, short_case, stop_after
 
 import foamprb
 from foamprb import Cloud, InputError, Medium, Models, analytic, spheres
@@ -25,6 +27,7 @@ from foamprb.body.tensor import log_ratio
 from foamprb.cli import main
 from foamprb.cloud.forces import FORCES, add_force
 from foamprb.cloud.surroundings.registry import SURROUNDINGS, add_surrounding
+from foamprb.flow.read.openfoam import Case
 from foamprb.settings.libs import load_libs
 
 FUNG = """
@@ -86,6 +89,51 @@ def test_solid_given_by_its_energy_alone_moves_as_the_one_with_derivatives():
         found.append(p.F[0])
     assert abs(found[0] - np.eye(3).ravel()).max() > 0.1
     np.testing.assert_allclose(found[0], found[1], atol=1e-10)
+
+
+def neo_hooke_stress(b, J, mu, lame, _k):
+    p = lame * log_ratio(J) - mu
+    return (
+        mu * b[0] + p, mu * b[1], mu * b[2],
+        mu * b[3], mu * b[4] + p, mu * b[5],
+        mu * b[6], mu * b[7], mu * b[8] + p,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
+def test_solid_given_by_its_stress_moves_as_the_one_with_an_energy(integrator):
+    """Of an ellipsoid at rest, with stokes and without resistance to dilation."""
+    add_material("own", stress=neo_hooke_stress)
+    found = []
+    for name in ("own", "neoHooke"):
+        p = spheres(np.zeros((1, 3)), d=2.0, rho=1e-3, mu=5.0, poissons_ratio=0.4)
+        if integrator == "stokes":
+            p.F[:] = p.F0[:] = (1.25, 0.0, 0.0, 0.0, 0.8, 0.0, 0.0, 0.0, 1.0)
+        models = Models(integrator=integrator, material=name)
+        cloud = Cloud(p, analytic.shear(1.0), Medium(1.0, 1.0, (0.0, 0.0, 0.0)), (), 0.1, models, threads=1)
+        cloud.advance(20)
+        found.append(p.F[0])
+    assert abs(found[0] - np.eye(3).ravel()).max() > 0.1
+    np.testing.assert_allclose(found[0], found[1], atol=1e-8)
+
+
+def skew_stress(b, J, mu, lame, k):
+    return *neo_hooke_stress(b, J, mu, lame, k)[:8], mu * (b[8] - 1.0) + 0.1 * mu * (b[8] - 1.0) * b[2]
+
+
+@pytest.mark.parametrize(
+    ("functions", "message"),
+    [
+        ({}, "it needs an energy or a stress"),
+        ({"stress": neo_hooke_stress, "energy": own_energy}, "it needs an energy or a stress"),
+        ({"stress": lambda b, *_: b}, "at rest its stress is"),
+        ({"stress": lambda b, J, mu, lame, k: neo_hooke_stress(b, J, 2.0 * mu, lame, k)}, "is 2 mu, not mu"),
+        ({"stress": skew_stress}, "does not turn with b"),
+    ],
+)
+def test_unsound_stress_is_refused(functions, message):
+    with pytest.raises(ValueError, match=message):
+        add_material("x", **functions)
 
 
 def stressed(I1, I2, J, mu, lame, k):
@@ -269,7 +317,7 @@ def test_force_and_surroundings_of_the_page_move_particles(tmp_path, capsys):
     """The slip of a rigid sphere is τ_p f + v, f = −rate² (y − y0) at its place."""
     case = copy_of_pipe(tmp_path)
     page = (ROOT / "docs/own-models.md").read_text()
-    force, model = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    force, *_, model = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     (case / "constant/trap.py").write_text(force)
     (case / "constant/field.py").write_text(model)
     edit(case, r"^solution", 'libs ("trap.py" "field.py");\nsolution')
@@ -294,3 +342,33 @@ def test_force_and_surroundings_of_the_page_move_particles(tmp_path, capsys):
     slip = cloud["U"][at] - u
     np.testing.assert_allclose(slip[:, 1], -tau * 300.0**2 * (points[:, 1] - 1e-4), rtol=2e-3)
     np.testing.assert_allclose(slip[:, 2], 0.02, rtol=1e-3)
+
+
+GAS = 'libs ("thermophoresis.py");\nsolution'
+
+
+def test_force_reads_a_field_of_a_case_and_goes_on_after_a_restart(tmp_path, capsys):
+    """The slip of a rigid sphere in T = 300 + 1e5 x is −3/2 ν ∇T/(T (2 + k))."""
+    case = short_case(tmp_path)
+    shutil.copy(ROOT / "examples/forces/thermophoresis.py", case / "constant")
+    edit(case, r"^solution", GAS)
+    edit(case, r"shape\s+paper;", "shape stokes;")
+    edit(case, r"^\s+gravity;", "thermophoresis { k 1; }")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 1
+    assert "there is no field T at time 249. Did you mean 'U'?" in capsys.readouterr().err
+    mesh = Case(case).mesh("249").mesh
+    put_linear(case / "249", mesh, at=np.array([0.0, 1e5, 0.0]), begin=300.0)
+    stop_after(case, 0.5 * END)
+    assert main(["run", "-case", str(case), "-resume"]) == 0
+    resumed = results(case)
+    assert main(["run", "-case", str(case), "-overwrite"]) == 0
+    assert results(case) == resumed
+    cloud = pyvista.read(sorted((case / "postProcessing/softCloud").glob("*.vtp"))[-1])
+    at = np.flatnonzero((cloud["Ca"] < 1e-3) & (cloud["status"] == 1))
+    points = np.asarray(cloud.points)[at]
+    flow = foamprb.read_case(case)
+    u, _ = flow.sample(points, flow.locate(points), 0.0)
+    T = 300.0 + 1e5 * points[:, 1]
+    np.testing.assert_allclose(cloud["T"][at], T, rtol=1e-9)
+    assert "grad(T)" not in cloud.point_data
+    np.testing.assert_allclose((cloud["U"][at] - u)[:, 1], -0.5 * 1.491e-5 * 1e5 / T, rtol=2e-3)

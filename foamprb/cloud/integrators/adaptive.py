@@ -314,6 +314,11 @@ def _sample_end(flow: Any, s: Scratch, i: int) -> None:
     store3(block, during.end_u, i, u)
     store9(block, during.end_l, i, l_f)
     store3(block, during.end_ut, i, u_t)
+    end_sampled(s, i, t, u, l_f)
+
+
+def end_sampled(_s: Scratch, _i: int, _t: float, _u: Vector, _l_f: Tensor) -> None:
+    """No-op: no force needs the fluid or fields at the end of a step."""
 
 
 def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:

@@ -106,7 +106,7 @@ def _offsets(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tupl
     found: dict[str, tuple[int, ...]] = {}
     first = own.rows
     for model in surroundings:
-        rows = type(model).rows
+        rows = model.rows
         if rows is not None:
             at = offsets(rows, first)
             found[type(model).rows_name] = at

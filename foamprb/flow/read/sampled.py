@@ -9,7 +9,7 @@ import numpy as np
 from foamprb.dictionary.dimensions import unit_text
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats
-from foamprb.flow.fields import FieldColumns
+from foamprb.flow.fields import FieldColumns, field_of
 from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.field import FoamField, Kind
 from foamprb.flow.read.turbulence import given_values
@@ -54,14 +54,20 @@ def kinds_of(
     found: list[Kind] = []
     for time in times if names else ():
         at_time = classes(time)
-        for name in names:
+        for name in map(field_of, names):
             kind = _KINDS.get(at_time.get(name, ""))
             if kind is None:
                 others = [other for other, word in at_time.items() if word in _KINDS]
                 what = f"no field {name}" if name not in at_time else f"{name} is a {at_time[name]}, which"
                 where = f"at time {time}" if name not in at_time else f"is not sampled (time {time})"
-                raise InputError(f"fieldSampling: {what} {where}. {suggestion(name, others)}")
+                raise InputError(
+                    f"fieldSampling and forces read fields, but there is {what} {where}. "
+                    f"{suggestion(name, others)}"
+                )
             found.append(kind)
+    for name, kind in zip(names, found, strict=False):
+        if name != field_of(name) and kind.inner not in ("scalar", "vector"):
+            raise InputError(f"{name} is needed by a force, but {field_of(name)} is no scalar and no vector.")
     return found[: len(names)]
 
 
@@ -79,7 +85,7 @@ def read_sampled(
     read
         Reads the field of a name and a kind.
     names, kinds
-        The fields, and the results of :func:`kinds_of`.
+        The fields, or ``grad(E)`` for the gradient of E, and the results of :func:`kinds_of`.
     whole, reconstruct
         Mesh of the case, and its reconstruction.
 
@@ -90,15 +96,20 @@ def read_sampled(
     """
     tables, columns = [], []
     for name, kind in zip(names, kinds, strict=True):
-        field = read(name, kind)
+        field = read(field_of(name), kind)
         cells, boundary = (_tensors(values, kind) for values in given_values(field, whole))
-        at_nodes = reconstruct.linear(cells, boundary).reshape(-1, cells[0].size)
-        if cells.ndim == 1:
+        dimensions = np.array(field.dimensions)
+        if name != field_of(name):
+            at_nodes = reconstruct.gradient(cells, boundary).reshape(-1, 3 * cells[0].size)
+            dimensions[1] -= 1
+        else:
+            at_nodes = reconstruct.linear(cells, boundary).reshape(-1, cells[0].size)
+        if cells.ndim == 1 and name == field_of(name):
             # Beside a front the extrapolation to a wall would go below zero, or above a fraction of one.
             at_nodes = at_nodes.clip(*reconstruct.ends(np.concatenate([cells, boundary])))
         table = at_nodes[:, _SIX] if kind.inner == "symmTensor" else at_nodes
         tables.append(table)
-        columns.append(FieldColumns(name, table.shape[1], unit_text(field.dimensions)))
+        columns.append(FieldColumns(name, table.shape[1], unit_text(tuple(dimensions))))
     return np.concatenate(tables, axis=1), tuple(columns)
 
 
