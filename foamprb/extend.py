@@ -1,7 +1,8 @@
-"""Names for :doc:`user-defined models </own-models>`: rows of a block of particles, and bounds of entries."""
+"""Names for :doc:`user-defined models </own-models>`: rows of a block, bounds of entries, traits."""
 
 from foamprb.cloud.block import at, load3, load9, store3, store9
 from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.surroundings.base import Remarks, Survey, Traits
 from foamprb.dictionary.constraints import Bounds, NonNegative, Positive
 
 __all__ = [
@@ -9,7 +10,10 @@ __all__ = [
     "Bounds",
     "NonNegative",
     "Positive",
+    "Remarks",
     "Row",
+    "Survey",
+    "Traits",
     "at",
     "load3",
     "load9",

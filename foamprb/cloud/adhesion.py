@@ -16,7 +16,6 @@ import numpy as np
 from foamprb.body.bonds import exponential_deviate, force_on_held_sphere, off_rate
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Scratch, at, load3, store3
-from foamprb.cloud.integrators.base import no_disturbance, no_update
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
@@ -32,7 +31,7 @@ from foamprb.cloud.motion import (
     settle,
 )
 from foamprb.cloud.patches import STICK
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.flow.analytic import sample_linear as sample
 
 __all__ = ["Adhesion"]
@@ -129,11 +128,8 @@ def let_go(flow: Any, s: Scratch, i: int, t: float, dt: float) -> None:
 class Adhesion(Surrounding):
     """Bonds of bodies with the walls on which they adhere; a cloud adds it if a patch has ``adhere``."""
 
-    rows: ClassVar = BondRows
-    rows_name: ClassVar = "bonds"
-    update: ClassVar = staticmethod(no_update)
-    disturb: ClassVar = staticmethod(no_disturbance)
-    each_step: ClassVar = False
+    rows: ClassVar = {"bonds": BondRows}
+    traits: ClassVar = Traits(each_step=False)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
         """Return what happens to bodies that touch a wall, and to those that stick."""

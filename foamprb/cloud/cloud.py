@@ -24,6 +24,7 @@ from foamprb.cloud.needs import check_needs
 from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
 from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
+from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
@@ -229,8 +230,8 @@ class Cloud:
         check_needs(self.models.forces, columns_of(self.flow))
         around = (*model_of(self.medium.mu), *self.models.surroundings)
         for model in around:
-            model.check(self.flow.patches)
-            for kernel in model.required_kernels:
+            model.walls(self.flow.patches)
+            for kernel in model.traits.kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
         self.at_homes(_begin, around)
@@ -328,8 +329,9 @@ class Cloud:
         p = self.particles
         before = p.counts()[Status.FAILED]
         medium = self.medium_there if self.models.surroundings else self.medium
+        survey = Survey(p, self.flow, medium, self.dt)
         for model in self.models.surroundings:
-            self._warn_once(type(model).__name__, model.long_step(p, self.flow, medium, self.dt))
+            self._warn_once(type(model).__name__, model.remarks(survey).long_step)
         end, reached = self.step + steps, -1
         while reached < self.step < end:
             reached = self.step
@@ -442,8 +444,9 @@ class Cloud:
     @property
     def _sight(self) -> tuple[float, list[int]]:
         """Range within which models need walls, m, and the indices of their patches."""
-        radii = max((model.wall_range for model in self.models.surroundings), default=0.0)
-        seen = {i for model in self.models.surroundings for i in model.wall_patches(self.flow.patches)}
+        found = [model.walls(self.flow.patches) for model in self.models.surroundings]
+        seen = {index for _, patches in found for index in patches}
+        radii = max((radii for radii, _ in found), default=0.0)
         return radii * self._largest, [i for i in self._solid if i in seen]
 
     def make_ready(self) -> Any:

@@ -61,7 +61,7 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.viscosity import VaryingViscosity, viscosity_at_rate, viscosity_of
 from foamprb.compile.link import link
 from foamprb.flow.base import Flow, Sampled
-from foamprb.flow.fields import Fields, FieldValues, columns_of
+from foamprb.flow.fields import Fields, FieldValues, columns_of, field_of
 
 Floats = NDArray[np.float64]
 
@@ -400,18 +400,19 @@ def name_of_field(name: str) -> str:
 
 
 def fields_at(flow: Sampled, x: Floats, hosts: NDArray[np.int32], t: Any) -> dict[str, FieldValues]:
-    """Return the sampled fields of a flow at points (n, 3) in hosts (n,), −1 for none, by name.
+    """Return the sampled fields of a flow at points (n, 3) in hosts (n,), −1 for none, by name; no gradients.
 
     The times t, s, are one for all or (n,).
     """
-    columns = columns_of(flow)
+    columns = [column for column in columns_of(flow) if column.name == field_of(column.name)]
     if not columns:
         return {}
     if len(x) == 0:
         return {name_of_field(c.name): FieldValues(np.empty((0, c.components)), c.unit) for c in columns}
     given: Any = flow
     fields: Fields = given.fields(float(np.min(t)), float(np.max(t)))
-    return {name_of_field(name): values for name, values in fields.at(x, hosts, t).items()}
+    found = fields.at(x, hosts, t)
+    return {name_of_field(c.name): found[c.name] for c in columns}
 
 
 OPTIONAL = tuple(name for name, measure in MEASURES.items() if measure.optional)

@@ -14,9 +14,8 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, between, scale
 from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, viscosity_at
 from foamprb.cloud.forces import SAMPLE, STATE, Force
-from foamprb.cloud.integrators.base import no_disturbance
 from foamprb.cloud.layout import LANES, Row
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.compile.link import bound
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.fields import FieldColumns, blend_fields, width
@@ -164,15 +163,13 @@ class Needed(Surrounding):
 
     columns: tuple[FieldColumns, ...]
 
-    rows_name: ClassVar = "needed"
-    each_step: ClassVar = False
+    traits: ClassVar = Traits(each_step=False)
     update: ClassVar = staticmethod(sample_start)
-    disturb: ClassVar = staticmethod(no_disturbance)
 
     @property
-    def rows(self) -> type[tuple[int, ...]]:  # type: ignore[override]
+    def rows(self) -> Mapping[str, type[tuple[int, ...]]]:  # type: ignore[override]
         """The same number of rows at the start and at the end of a step."""
-        return _declaration(_FLUID_ROWS + width(self.columns))
+        return {"needed": _declaration(_FLUID_ROWS + width(self.columns))}
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
         """Return the functions that sample."""

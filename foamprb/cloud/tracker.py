@@ -194,7 +194,7 @@ class Tracker:
         self.bindings = {name: bindings[name] for name in bindings if name in read or name in required}
         self.separate: tuple[Callable[..., Any], ...] = (
             *integrator.stages,
-            *(stage for model in around for stage in type(model).stages()),
+            *surroundings.stages(around, integrator.inertia),
             *integrator.rare,
             *RARE,
             *LONG,
@@ -215,7 +215,7 @@ class Tracker:
         self.dt, self.start = dt, start
         self.stride = 1
         # Surroundings may change, or draw random numbers, in each tracking step.
-        if integrator.adaptive and models.tolerance < np.inf and not any(m.each_step for m in around):
+        if integrator.adaptive and models.tolerance < np.inf and not any(m.traits.each_step for m in around):
             self.stride = models.stride
         self.options = (models.tolerance, self.stride) if integrator.adaptive else ()
         self.whole = stretch_of(self.stride)
@@ -234,7 +234,7 @@ class Tracker:
         rows = [row for part in self.layout.parts for row in rows_of(type(part)).values()]
         saved = {row.of for row in rows if row.saved} | {"status", "reason", "patch", "host"}
         # Only mirrors change shapes at rest.
-        mirrors = MIRROR in self.table.code or any(m.mirrors for m in self._made_of[0].surroundings)
+        mirrors = MIRROR in self.table.code or any(m.traits.mirrors for m in self._made_of[0].surroundings)
         return frozenset(saved if mirrors else saved - {"F0"})
 
     @property
@@ -461,10 +461,7 @@ def check(models: Models, tense: bool) -> None:
             f"{integrator.name}"
         )
     for model in models.surroundings:
-        reason = model.refuses(integrator.inertia, integrator.name)
-        if liquid and not reason:
-            reason = model.refuses_drops()
-        if reason:
+        if reason := model.refuses(integrator, liquid):
             raise InputError(reason)
         _check_names(model)
 
@@ -475,7 +472,7 @@ def _check_names(model: Surrounding) -> None:
     for integrator in INTEGRATORS.values():
         around = surroundings.compose(integrator.layout, [model], integrator.inertia)
         functions = linked(track_share, {**integrator.bindings, **around, "track": integrator.track})
-        bound.update(model.bindings(integrator.inertia))
+        bound.update(model.bindings(integrator.inertia).keys() - {"prepare"})
         known.update(*(function.__globals__ for function in functions))
     for name in sorted(bound - known):
         meant = closest(name, known)

@@ -18,10 +18,9 @@ import foamprb.body.viscosity as laws
 from foamprb.body.tensor import Scalar, inner, minus, select
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
-from foamprb.cloud.integrators.base import no_disturbance, no_update
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import viscosity_unknown as viscosity
 from foamprb.flow.base import Patch, Sampled
@@ -111,9 +110,6 @@ def evaluate_field(block: Any, _medium: Medium, share: float, _coefficients: Any
 class VaryingViscosity(Surrounding):
     """A viscosity that varies in the flow."""
 
-    rows_name: ClassVar = "fluid"
-    disturb: ClassVar = staticmethod(no_disturbance)
-
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
         """Return the functions that read its rows."""
         return {"viscosity_at": felt_viscosity}
@@ -135,10 +131,8 @@ class VaryingViscosity(Surrounding):
 class RateViscosity(laws.RateLaw, VaryingViscosity):
     """A law of the shear rate."""
 
-    rows: ClassVar = ViscosityRows
-    update: ClassVar = staticmethod(no_update)
-    prepare: ClassVar = staticmethod(evaluate_law)
-    each_step: ClassVar = False
+    rows: ClassVar = {"fluid": ViscosityRows}
+    traits: ClassVar = Traits(each_step=False)
 
     @classmethod
     def of_kinematic(cls, coefficients: Mapping[str, float], rho: float) -> Self:
@@ -152,7 +146,7 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
         """Return also the law."""
-        return {**super().bindings(inertia), "law": type(self).law}
+        return {**super().bindings(inertia), "prepare": evaluate_law, "law": type(self).law}
 
     def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:  # noqa: ARG002
         """See :meth:`VaryingViscosity.of`."""
@@ -205,10 +199,13 @@ class FieldViscosity(VaryingViscosity):
     mean: float
     """Mean over the cells, Pa s."""
 
-    rows: ClassVar = FieldRows
+    rows: ClassVar = {"fluid": FieldRows}
+    traits: ClassVar = Traits(kernels=("viscosity",))
     update: ClassVar = staticmethod(sample_field)
-    prepare: ClassVar = staticmethod(evaluate_field)
-    required_kernels: ClassVar = ("viscosity",)
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
+        """Return also the evaluation of the field."""
+        return {**super().bindings(inertia), "prepare": evaluate_field}
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return the factor."""

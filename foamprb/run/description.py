@@ -19,6 +19,7 @@ from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.state import VARIABLES, Particles
+from foamprb.cloud.surroundings.base import Surrounding, Survey
 from foamprb.cloud.viscosity import VaryingViscosity, medium_at, model_of
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.nodes import NodeValues
@@ -63,12 +64,12 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             warnings += doubts(g, models.integrator, f"injection model {injection.name}", liquid)
     p = _surveyed(cloud)
     medium = medium_at(cloud.medium, flow, p, cloud.time) if models.surroundings else cloud.medium
-    for model in models.surroundings:
-        warnings += model.warnings(p, flow, medium, cloud.dt)
+    survey = Survey(p, flow, medium, cloud.dt, cloud.make_ready())
+    remarks = [model.remarks(survey) for model in models.surroundings]
+    notes = [line for own in remarks for line in own.notes]
+    warnings += [line for own in remarks for line in own.warnings]
     if cloud.size == 0:
         warnings.append("there is no particle: no injection model releases any.")
-    arrays = cloud.make_ready()
-    notes = [line for model in models.surroundings for line in model.notes(p, arrays, flow)]
     number, path_number = cloud.stokes_numbers or (None, None)
     description: dict[str, Any] = _as_json({
         "format": RECORD_FORMAT,
@@ -109,13 +110,14 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
 
 
 def _surveyed(cloud: Cloud) -> Particles:
-    """Return all particles with the arrays that notes and warnings of the surroundings read.
+    """Return all particles with the arrays that the surroundings' remarks read.
 
     Of several processes the first gathers these; the others are zero, and take no memory of the machine.
     """
     if cloud.homes is None or not cloud.models.surroundings:
         return cloud.particles
-    names = {name for model in cloud.models.surroundings for name in model.surveyed()}
+    models = [m for m in cloud.models.surroundings if type(m).remarks is not Surrounding.remarks]
+    names = {name for model in models for name in model.traits.surveys}
     if model_of(cloud.medium.mu):
         names |= {"x", "host"}
     arrays = {name: np.zeros((cloud.size, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}

@@ -174,7 +174,7 @@ def prepare(
     # The latest time may be unfinished, and is another one when the run continues.
     fluid_time = None if follow is not None else time_of_fluid(time)
     settings = read_settings(case, dictionary, source.region, fluid_time, outside_libs, overrides)
-    turbulent = any(type(model).needs_turbulence for model in settings.dispersion.values())
+    turbulent = any(model.traits.turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative, viscosity=settings.fluid.field)
     readers: list[Any] = [*settings.functions.values(), *settings.forces.values()]

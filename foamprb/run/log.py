@@ -7,7 +7,6 @@ import math
 import time as clock
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +20,7 @@ from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.wall_lift import WallLift, count_close, share_of_close
 from foamprb.cloud.viscosity import medium_at
 from foamprb.flow.base import Caveat, Sampled
 from foamprb.results.folder import FAILURES
@@ -201,10 +200,8 @@ class RunLog:
     def _log_fates(self, stepper: Stepper) -> None:
         """Log the number of particles by fate and patch; the numbers sum to those injected."""
         job, counts = self._job, stepper.counts()
-        models = job.cloud.models.surroundings
-        at_patches, *tallies = zip(
-            *stepper.each(_fates_of, len(job.patch_names), models, job.cloud.dt), strict=True
-        )
+        found = stepper.each(_fates_of, len(job.patch_names), job.cloud.dt)
+        at_patches, close = zip(*found, strict=True)
         log.info("Fate of the particles")
         log.info("    %-24s %10d", "injected", sum(counts.values()) - counts[Status.PENDING])
         for status in tuple(Status)[Status.ACTIVE :]:
@@ -215,9 +212,8 @@ class RunLog:
                 at = sum(table[status, index] for table in at_patches)
                 if at:
                     log.info("        %-20s %10d", name, at)
-        for model, of_all in zip(models, tallies, strict=True):
-            for line in model.summary([sum(numbers) for numbers in zip(*of_all, strict=True)]):
-                log.info("    %s", line)
+        if any(isinstance(model, WallLift) for model in job.cloud.models.surroundings):
+            log.info("    %s", share_of_close(*(sum(numbers) for numbers in zip(*close, strict=True))))
         for line in self._slip.lines():
             log.info("    %s", line)
         if counts[Status.PENDING]:
@@ -262,13 +258,13 @@ def _unstable_of(
 
 
 def _fates_of(
-    p: Particles, _flow: Sampled, _t: float, patches: int, models: Sequence[Surrounding], dt: float
-) -> tuple[Any, ...]:
-    """Return the numbers of particles by status and patch, and what the models count of them."""
+    p: Particles, _flow: Sampled, _t: float, patches: int, dt: float
+) -> tuple[NDArray[np.int64], tuple[float, float, int]]:
+    """Return the numbers of particles by status and patch, and :func:`count_close`."""
     numbers = np.zeros((len(Status), patches + 1), dtype=np.int64)
     # The last column takes the particles that are on no patch.
     np.add.at(numbers, (p.status, p.patch), 1)
-    return numbers, *(model.tally(p, dt) for model in models)
+    return numbers, count_close(p, dt)
 
 
 @contextmanager

@@ -108,7 +108,7 @@ class Results:
             "patch": job.patch_names,
             "injector": job.injector_names,
         }
-        own = [name for model in job.cloud.models.surroundings for name in model.measures]
+        own = [name for model in job.cloud.models.surroundings for name in model.traits.measures]
         self._further = tuple(dict.fromkeys((*job.settings.solution.optionalFields, *own)))
         self._series = Series(job.folder)
         self._place = _identity(job.folder.path)

@@ -159,7 +159,7 @@ def _check(file: Path, kind: str, name: str) -> None:
             _compile(file, type(force).evaluate, SAMPLE, *needed, *force.coefficients)
     else:
         model = SURROUNDINGS[name]
-        rows = 0 if model.rows is None else end(offsets(model.rows))
+        rows = sum(end(offsets(declaration)) for declaration in model.rows.values())
         block = new_block(ROWS + rows)
         block[:] = 1.0
         with _one_message(file.resolve()):

@@ -13,6 +13,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Rebound
 from foamprb.cloud.state import set_rest_shape, spheres
+from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
@@ -94,15 +95,15 @@ def test_heights_over_a_wall_come_to_boltzmanns():
 def test_steps_too_long_for_the_scale_of_heights_are_warned_of():
     p, model = beads(2, rho=RHO_OF_SCALE_R), BrownianMotion(T=T, shape=False)
     flow = analytic.shear_over_wall(0.0)
-    assert not model.warnings(p, flow, HEAVY, 0.5 * 0.09**2 * R**2 / D)
-    (warning,) = model.warnings(p, flow, HEAVY, 0.5 * 0.2**2 * R**2 / D)
+    assert not model.remarks(Survey(p, flow, HEAVY, 0.5 * 0.09**2 * R**2 / D)).warnings
+    (warning,) = model.remarks(Survey(p, flow, HEAVY, 0.5 * 0.2**2 * R**2 / D)).warnings
     assert f"Use deltaT < {0.5 * 0.1**2 * R**2 / D:.2g}." in warning
     with pytest.warns(ValidityWarning, match="Use deltaT <"):
         carried(p, 1, 0.5 * 0.2**2 * R**2 / D, flow=flow, medium=HEAVY, models=(WallLift(cutOff=20.0), model))
     # Without weight a channel limits the steps.
     channel = analytic.pipe(10.0 * R, 0.0, 1.0)
-    assert not model.warnings(p, channel, WATER, 0.5 * 1.0**2 * R**2 / D)
-    assert model.warnings(p, channel, WATER, 0.5 * 2.0**2 * R**2 / D)
+    assert not model.remarks(Survey(p, channel, WATER, 0.5 * 1.0**2 * R**2 / D)).warnings
+    assert model.remarks(Survey(p, channel, WATER, 0.5 * 2.0**2 * R**2 / D)).warnings
 
 
 @pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
@@ -154,7 +155,7 @@ def test_where_molecules_deform_more_than_the_flow_a_warning_says_so():
     """√(5 k_B T/(2 μ_s V)): a strain of 1 % for a radius of 1 µm and 25 Pa, of 1 where both are small."""
     model, hard, soft = BrownianMotion(T=293.15), beads(3, mu=25.0), beads(3, mu=0.1)
     hard.R[:], soft.R[:] = 1e-6, 3e-7
-    assert model.warnings(hard, STILL, WATER, 1e-3) == ()
-    (said,) = model.warnings(soft, STILL, WATER, 1e-3)
+    assert model.remarks(Survey(hard, STILL, WATER, 1e-3)).warnings == ()
+    (said,) = model.remarks(Survey(soft, STILL, WATER, 1e-3)).warnings
     assert "by a strain of 0.95 (median)" in said
-    assert BrownianMotion(T=293.15, shape=False).warnings(soft, STILL, WATER, 1e-3) == ()
+    assert BrownianMotion(T=293.15, shape=False).remarks(Survey(soft, STILL, WATER, 1e-3)).warnings == ()

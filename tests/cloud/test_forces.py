@@ -56,7 +56,7 @@ def summed(*forces, Du_Dt=DU_DT):
     """Force and inertia per mass, of plain numbers."""
     given = coefficients(forces)
     inputs = Inputs(1.1, RHO, Du_Dt, Medium(MU_F, RHO_F, G, given))
-    push, inertia = compose(forces)["sum_of_forces"](inputs, given)
+    push, inertia = compose(forces)["sum_of_forces"](None, 0, inputs, given)
     return np.array(push), inertia
 
 

@@ -10,8 +10,15 @@ from mesh_shapes import block, box_patches
 from paths import ROOT
 
 from foamprb import Cloud, InputError, Medium, Models, analytic, spheres
-from foamprb.cloud.forces import FORCES, add_force
+from foamprb.cloud.block import at
+from foamprb.cloud.forces import FORCES, acceleration, add_force, coefficients, compose
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.layout import LANES
+from foamprb.cloud.needs import needed_by, reader_of
 from foamprb.cloud.patches import Rebound
+from foamprb.cloud.surroundings.registry import compose as compose_all
+from foamprb.cloud.surroundings.registry import with_rows
+from foamprb.compile.link import link
 from foamprb.flow.fields import FieldColumns
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -129,7 +136,7 @@ def along_shear(inputs, u, grad_u, mu, v, F, rate):
 
 @pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
 def test_force_reads_the_fluid_and_the_body_in_a_flow_in_closed_form(integrator):
-    """In a linear shear u = γ y: dx/dt = γ y + c γ (y + 1e-3) and dz/dt = c dx/dt."""
+    """In a linear shear u = γ y: dx/dt = γ y + c γ (y + 1e-3), and dz/dt = c cos(½ γ t) dx/dt as it turns."""
     force, rate, y = add_force("along", along_shear, ("u", "grad(u)", "mu", "v", "F")), 0.25, 0.3
     p = spheres(np.array([[0.0, y, 0.0]]), d=2 * A, rho=1000.0, mu=1e3)
     models = Models(integrator=integrator, forces=(force(rate=rate),))
@@ -137,7 +144,8 @@ def test_force_reads_the_fluid_and_the_body_in_a_flow_in_closed_form(integrator)
     cloud.advance(400)
     speed = 3.0 * y + rate * 3.0 * (y + 1e-3)
     # The first step knows no velocity yet.
-    np.testing.assert_allclose(p.x[0], [0.4 * speed, y, 0.4 * rate * speed], rtol=4e-3)
+    turned = np.sin(0.5 * 3.0 * 0.4) / (0.5 * 3.0)
+    np.testing.assert_allclose(p.x[0], [0.4 * speed, y, turned * rate * speed], rtol=4e-3)
 
 
 def test_mistakes_have_one_message():
@@ -172,3 +180,30 @@ def test_page_shows_the_examples():
     files = sorted(FOLDER.glob("*.py"))
     assert len(files) == 3
     assert all(file.read_text() in blocks for file in files)
+
+
+def everything(inputs, u, T, S, F, E, mu, a, b=2.0):
+    """A force that reads values of all kinds."""
+    return (a * u[0] + T * F[1], S[1] + b * E[2], mu * S[5] + inputs.x[0]), 0.0
+
+
+def test_values_are_those_of_the_place_in_compiled_stages_too():
+    """Linear between the start and the end of a step; with wallLift a stage is compiled by numba."""
+    columns = (FieldColumns("T", 1, "K"), FieldColumns("S", 6, "Pa"), FieldColumns("E", 3, "V/m"))
+    force = add_force("everything", everything, ("u", "T", "S", "F", "E", "mu"))(a=3.0)
+    (model,) = needed_by((force,), columns)
+    own = INTEGRATORS["stokes"].layout
+    bindings = compose((force,), lambda f: reader_of(f, columns, inertia=False))
+    bindings |= {name: value for name, value in compose_all(own, (model,), False).items() if name == "needed"}
+    random, n = np.random.default_rng(1), with_rows(own, (model,)).rows
+    block = random.uniform(0.5, 1.5, n * LANES)
+    rows = block.reshape(n, LANES)
+    gone = rows[at.gone, 5]
+    first, last = (rows[k : k + 22, 5] for k in bindings["needed"])
+    x = first + gone * (last - first)
+    medium = Medium(MU, 1000.0, (0.0, 0.0, -9.81), coefficients((force,)))
+    f, inertia = link(acceleration, bindings)(block, 5, medium, 1.0)
+    F = rows[at.new_F : at.new_F + 9, 5]
+    expected = 3.0 * x[0] + x[12] * F[1], x[16] + 2.0 * x[21], MU * x[17] + rows[at.new_x, 5]
+    np.testing.assert_allclose(f, expected, rtol=1e-13)
+    assert inertia == 1.0

@@ -14,6 +14,7 @@ from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.limits import Limits
 from foamprb.cloud.patches import Escape, Mirror
 from foamprb.cloud.state import Reason, spheres
+from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
@@ -107,5 +108,5 @@ def test_inertia_is_refused_and_weight_across_the_axis_warned_of():
     ):
         Cloud(p, flow, WATER, [Mirror() for _ in flow.patches], 1e-3, models, threads=1)
     sideways = Medium(1e-3, 1000.0, (9.81, 0.0, 0.0))
-    (turning,) = RotatingFrames().warnings(p, flow, sideways, 0.1)
+    (turning,) = RotatingFrames().remarks(Survey(p, flow, sideways, 0.1)).warnings
     assert "gravity is not along the axis of the rotating zone rotor" in turning

@@ -46,8 +46,7 @@ def blow(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None
 @dataclass(frozen=True, kw_only=True)
 class Wind(Surrounding):
     speed: float
-    rows: ClassVar = WindRows
-    rows_name: ClassVar = "wind"
+    rows: ClassVar = {"wind": WindRows}
     update: ClassVar = staticmethod(look)
     disturb: ClassVar = staticmethod(blow)
 
@@ -61,10 +60,7 @@ class CalmRows(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Calm(Surrounding):
-    rows: ClassVar = CalmRows
-    rows_name: ClassVar = "calm"
-    update: ClassVar = staticmethod(lambda _flow, _s, _i, _step, _rest, _medium, _coefficients: None)
-    disturb: ClassVar = staticmethod(lambda _block, _medium, _share, _coefficients: None)
+    rows: ClassVar = {"calm": CalmRows}
 
 
 def carried(integrator, surroundings, steps=3):
@@ -148,8 +144,7 @@ def whirl(block: Any, _medium: Medium, share: float, coefficients: Any) -> None:
 class Swirl(Surrounding):
     speed: float
     wave: float
-    rows: ClassVar = SwirlRows
-    rows_name: ClassVar = "swirl"
+    rows: ClassVar = {"swirl": SwirlRows}
     update: ClassVar = staticmethod(look_for_nothing)
     disturb: ClassVar = staticmethod(whirl)
 

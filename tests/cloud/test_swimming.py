@@ -15,6 +15,7 @@ from foamprb.cloud.measures import context, measure, swimming_direction
 from foamprb.cloud.patches import Rebound
 from foamprb.cloud.state import drops, set_rest_shape, spheres
 from foamprb.cloud.surroundings import swimming
+from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.surroundings.dispersion import StochasticDispersion
 from foamprb.cloud.surroundings.registry import compose
 from foamprb.cloud.surroundings.swimming import SwimmerRows, Swimming
@@ -124,7 +125,9 @@ def test_entries_are_logged_and_bad_ones_refused():
     )
     with pytest.raises(InputError, match="has a direction of length 0"):
         Swimming(speed=V, direction=(0.0, 0.0, 0.0))
-    (warning,) = Swimming(speed=V, rotationalDiffusivity=100.0).warnings(bodies(1), None, WATER, 1e-3)
+    (warning,) = (
+        Swimming(speed=V, rotationalDiffusivity=100.0).remarks(Survey(bodies(1), None, WATER, 1e-3)).warnings
+    )
     assert "Use deltaT < 0.0002" in warning
     p = drops(np.zeros((1, 3)), d=2 * R, rho=1000.0, gamma=1e-3, eta=1e-3)
     models = Models(material="drop", surroundings=(Swimming(speed=V),))

@@ -13,7 +13,8 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import concatenate, spheres
 from foamprb.cloud.surroundings import wall_lift
-from foamprb.cloud.surroundings.wall_lift import WallLift, nearest_walls
+from foamprb.cloud.surroundings.base import Survey
+from foamprb.cloud.surroundings.wall_lift import WallLift, count_close, nearest_walls, share_of_close
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic
@@ -98,8 +99,8 @@ def test_a_particle_that_no_wall_is_near_goes_as_without_the_model():
 def test_steps_close_to_a_wall_are_counted():
     p = carried(particles([1.5, 3.0]), 7, model=WallLift())
     assert p.close.tolist() == [7, 0]
-    lines = WallLift().summary(WallLift().tally(p, 0.02 / RATE))
-    assert "50.00%, of 1 particles" in lines[0]
+    line = share_of_close(*count_close(p, 0.02 / RATE))
+    assert "50.00%, of 1 particles" in line
 
 
 def test_a_body_between_two_walls_is_pushed_to_the_middle():
@@ -124,7 +125,7 @@ def test_only_chosen_patches_count():
     assert WallLift(patches=("floor",)).chosen(flow.patches).tolist() == [name == "floor" for name in names]
     assert WallLift(patches=("s.*",)).chosen(flow.patches).tolist() == [name == "sides" for name in names]
     with pytest.raises(InputError, match=re.escape("wallLift/patches is flor, which is no patch.")):
-        WallLift(patches=("flor",)).check(flow.patches)
+        WallLift(patches=("flor",)).walls(flow.patches)
 
 
 def test_distances_are_told_in_radii():
@@ -133,7 +134,8 @@ def test_distances_are_told_in_radii():
     flow = analytic.shear_over_wall(RATE)
     near = nearest_walls(p, flow.arrays(1.0, [0]), flow, 10.0, np.array([1], dtype=np.int8))
     assert near.tolist() == pytest.approx([3.0, np.inf])
-    assert WallLift().notes(p, flow.arrays(1.0, [0]), flow)[-1].split() == ["beyond", "cutOff", "1"]
+    notes = WallLift().remarks(Survey(p, flow, None, 1.0, flow.arrays(1.0, [0]))).notes
+    assert notes[-1].split() == ["beyond", "cutOff", "1"]
 
 
 def test_the_nearest_of_all_walls_is_told(monkeypatch):

@@ -22,6 +22,7 @@ from pipe_case import edit, short_case, time_folder, with_eddies
 from transient_case import SCALE, scaled, write_transient_case
 
 from foamprb.cli import main
+from foamprb.cloud.forces import FORCES
 from foamprb.flow.read.openfoam import read_fields
 from foamprb.parallel.shared_memory import NODE_RANKS
 from foamprb.results.checkpoint import read_checkpoint
@@ -363,16 +364,30 @@ def halves(tmp_path, monkeypatch):
     return case
 
 
+PUSH = """
+import foamprb
+def push(inputs, U, grad_U, rate):
+    return (rate * U[0], rate * grad_U[1], 0.0), 0.0
+foamprb.add_force("pushByField", push, needs=("U", "grad(U)"))
+"""
+
+
 @pytest.mark.parametrize("following", [False, True])
-def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(following, halves, tmp_path, capsys):
+def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
+    following, halves, tmp_path, capsys, monkeypatch
+):
     case = halves
+    monkeypatch.delitem(FORCES, "pushByField", raising=False)
     functions = """
     fields { type fieldSampling; fields (U); sampleInterval 100; }
     sums { type particleStatistics; sigmaParticles yes; }
     paths { type particleTracks; trackInterval 100; maxSamples 10; }
     """
     edit(case, "^solution", f"cloudFunctions {{ {functions} }} solution")
-    edit(case, "gravity;", "gravity; wallLift { cutOff 1000; }")
+    # A force reads a field, and its gradient, on both nodes.
+    (case / "constant/push.py").write_text(PUSH)
+    edit(case, "^cloudFunctions", 'libs ("push.py"); cloudFunctions')
+    edit(case, "gravity;", "gravity; wallLift { cutOff 1000; } pushByField { rate 100; }")
     edit(case, r'"\.\*" \{ type escape; \}', 'lid { type escape; } "floor|sides" { type stick; }')
     # The second goes to the other node. The third ends before a time of the flow, and is sampled after it.
     (case / "constant/positions").write_text("((0.5 0.5 0.5) (0.499 0.5 0.55) (0.7 0.7 0.99))")

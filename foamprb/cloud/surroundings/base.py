@@ -5,20 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, plus
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.integrators.base import no_update
+from foamprb.cloud.integrators.base import Integrator, no_disturbance, no_update
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
 from foamprb.dictionary.constraints import Seed
 from foamprb.flow.base import Flow, Patch
 
 __all__ = [
+    "Remarks",
     "Seed",
     "Surrounding",
+    "Survey",
+    "Traits",
     "add3",
     "add9",
     "hindrance_by_walls",
@@ -26,6 +29,48 @@ __all__ = [
     "thermal_force",
     "volume_at_rest",
 ]
+
+
+class Traits(NamedTuple):
+    """Properties of a model that hold for any entries."""
+
+    each_step: bool = True
+    """Whether no step may be longer than a tracking step."""
+    turbulence: bool = False
+    """Whether it needs k and ε of the flow."""
+    kernels: tuple[str, ...] = ()
+    """Kernels that a flow (:class:`foamprb.flow.base.Flow`) must have."""
+    mirrors: bool = False
+    """Whether it mirrors bodies, with their shapes at rest."""
+    measures: tuple[str, ...] = ()
+    """Names of the optional measures that files then contain."""
+    surveys: tuple[str, ...] = Particles._fields
+    """Names of the arrays of particles that :meth:`Surrounding.remarks` reads."""
+
+
+class Survey(NamedTuple):
+    """Cloud about which a model remarks."""
+
+    p: Particles
+    flow: Flow
+    medium: Medium
+    """With the viscosity at each particle, (n,), if it varies."""
+    dt: float
+    """Tracking step, s."""
+    arrays: Any = None
+    """Arguments of the flow's kernels before a run; without a mesh, if nodes hold parts of it. None before
+    further steps, for which only ``long_step`` is read."""
+
+
+class Remarks(NamedTuple):
+    """Lines of a model for the log."""
+
+    notes: Sequence[str] = ()
+    """Lines before a run."""
+    warnings: Sequence[str] = ()
+    """Sentences before a run."""
+    long_step: str = ""
+    """Warning that Δt is too long for the model; empty if not."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,105 +81,53 @@ class Surrounding:
     block, which are saved if their declaration says so.
     """
 
-    rows: ClassVar[type[tuple[int, ...]] | None] = None
-    """Declaration of its rows, if any, as :func:`foamprb.cloud.layout.offsets` reads it."""
-    rows_name: ClassVar[str]
-    """Global name of the offsets of its rows in its functions."""
+    rows: ClassVar[Mapping[str, type[tuple[int, ...]]]] = {}
+    """Declaration of its rows, as :func:`foamprb.cloud.layout.offsets` reads it, by the global name of their
+    offsets in its functions."""
+    traits: ClassVar[Traits] = Traits()
     update: ClassVar[Callable[..., None]] = staticmethod(no_update)
     """``update(flow, s, i, step, rest, medium, coefficients)``: update its rows of lane i before each step h.
 
     ``step`` is the number of the tracking step and ``rest`` the time to its end, s. It is called once more
     with ``rest`` 0 at the end of a call, for the last rates. The lane's x and t are those of the start of
     h."""
-    prepare: ClassVar[Callable[..., None] | None] = None
-    """Like ``disturb``, called before that of any model: for data that other models read."""
-    disturb: ClassVar[Callable[..., None]]
+    disturb: ClassVar[Callable[..., None]] = staticmethod(no_disturbance)
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
-
-    each_step: ClassVar[bool] = True
-    """Whether no step may be longer than a tracking step."""
-    needs_turbulence: ClassVar[bool] = False
-    """Whether it needs k and ε of the flow."""
-    required_kernels: ClassVar[tuple[str, ...]] = ()
-    """Kernels that a flow (:class:`foamprb.flow.base.Flow`) must have."""
-    mirrors: ClassVar[bool] = False
-    """Whether it mirrors bodies, with their shapes at rest."""
-    measures: ClassVar[tuple[str, ...]] = ()
-    """Names of the optional measures that files then contain."""
-
-    @classmethod
-    def stages(cls) -> tuple[Callable[..., None], ...]:
-        """Return the functions that are compiled once for all flows."""
-        return (cls.disturb,) if cls.prepare is None else (cls.prepare, cls.disturb)
-
-    @property
-    def wall_range(self) -> float:
-        """Distance up to which the flow must find walls, in radii of a particle."""
-        return 0.0
-
-    def wall_patches(self, patches: Sequence[Patch]) -> Sequence[int]:  # noqa: ARG002
-        """Return the indices of the patches that the flow must find as walls."""
-        return ()
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return the arguments of its functions: numbers and arrays, of the same types for any patches."""
         return ()
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
-        """Return functions and constants by their names, for an integrator with or without inertia."""
+        """Return functions and constants by their names, for an integrator with or without inertia.
+
+        ``prepare`` has the arguments of ``disturb``. It is called before that of any model, for data that
+        other models read.
+        """
         return {}
 
-    def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
-        """Return why it is incompatible with an integrator; empty if it is compatible."""
-        return ""
+    def walls(self, patches: Sequence[Patch]) -> tuple[float, Sequence[int]]:  # noqa: ARG002
+        """Return how far away the flow must find walls, in radii of a particle, and indices of their patches.
 
-    def refuses_drops(self) -> str:
-        """Return why it does not hold for drops; empty if it does."""
-        return ""
+        Raises
+        ------
+        InputError
+            If its entries name patches that the flow does not have.
+        """
+        return 0.0, ()
 
-    def check(self, patches: Sequence[Patch]) -> None:  # noqa: ARG002
-        """Raise InputError if its entries name patches that the flow does not have."""
-        return
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
+        """Return why it is incompatible with an integrator, or with drops; empty if it is compatible."""
+        return ""
 
     def begin(self, p: Particles) -> None:  # noqa: ARG002
         """Set the arrays of the particles that the model keeps, where they are not set."""
         return
 
-    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
-        """Return lines for the log before a run.
-
-        ``arrays`` are the arguments of the flow's kernels; without a mesh, if nodes hold parts of it.
-        """
-        return ()
-
-    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """Return warnings before a run with steps Δt (s), as sentences.
-
-        The viscosity of the medium is that at each particle, (n,), if it varies.
-        """
-        return ()
-
-    surveys: ClassVar[tuple[str, ...]] = Particles._fields
-    """Names of the arrays of particles that :meth:`notes` and :meth:`warnings` read."""
-
-    @classmethod
-    def surveyed(cls) -> tuple[str, ...]:
-        """Return :attr:`surveys`; no names if the model has neither notes nor warnings."""
-        own = cls.notes is not Surrounding.notes or cls.warnings is not Surrounding.warnings
-        return cls.surveys if own else ()
-
-    def long_step(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> str:  # noqa: ARG002
-        """Return a warning that Δt (s) is too long for the model; empty if not. See :meth:`warnings`."""
-        return ""
-
-    def tally(self, p: Particles, dt: float) -> Sequence[float]:  # noqa: ARG002
-        """Return numbers for :meth:`summary`, whose sums over all particles count, after steps Δt (s)."""
-        return ()
-
-    def summary(self, total: Sequence[float]) -> Sequence[str]:  # noqa: ARG002
-        """Return lines for the log after a run from the sums of :meth:`tally`."""
-        return ()
+    def remarks(self, survey: Survey) -> Remarks:  # noqa: ARG002
+        """Return lines for the log."""
+        return Remarks()
 
     def __str__(self) -> str:
         """Return the entries for the log: ``(cutOff 10, strain yes)``."""

@@ -46,11 +46,15 @@ from foamprb.cloud.block import (
     store9,
     viscosity_at,
 )
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import (
+    Remarks,
     Seed,
     Surrounding,
+    Survey,
+    Traits,
     add3,
     add9,
     hindrance_by_walls,
@@ -58,7 +62,7 @@ from foamprb.cloud.surroundings.base import (
     volume_at_rest,
 )
 from foamprb.dictionary.constraints import Meaning, Positive
-from foamprb.flow.base import Flow, Patch
+from foamprb.flow.base import Patch
 
 __all__ = ["BrownianMotion"]
 
@@ -161,11 +165,9 @@ class BrownianMotion(Surrounding):
     seed: Seed = 1
     shape: Annotated[bool, Meaning("whether molecules also turn and deform the particle")] = True
 
-    rows: ClassVar = BrownianRows
-    rows_name: ClassVar = "thermal"
-    surveys: ClassVar = ("R", "rho", "mu")
+    rows: ClassVar = {"thermal": BrownianRows}
+    traits: ClassVar = Traits(surveys=("R", "rho", "mu"))
     update: ClassVar = staticmethod(draw)
-    prepare: ClassVar = staticmethod(compute_force)
     disturb: ClassVar = staticmethod(apply_force)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
@@ -174,43 +176,35 @@ class BrownianMotion(Surrounding):
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
         """Return the force, which walls hinder too; and that walls reflect steps."""
-        return {"thermal_force": force_of_molecules, "reflects_steps": 1}
+        return {"prepare": compute_force, "thermal_force": force_of_molecules, "reflects_steps": 1}
 
-    def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
-        """Refuse ``paper``, whose resistances are those at the start of the step."""
-        if integrator == "paper":
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:
+        """Refuse ``paper``, whose resistances are those at the start of the step, and drops.
+
+        The resistances and the thermal strain are those of solids.
+        """
+        if integrator.name == "paper":
             return "BrownianMotion needs the integrator stokes or rosenbrock, not paper"
-        return ""
+        return "BrownianMotion holds for solids, not for drops" if liquid else ""
 
-    def refuses_drops(self) -> str:
-        """Refuse drops: the resistances and the thermal strain are those of solids."""
-        return "BrownianMotion holds for solids, not for drops"
-
-    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
-        """Return the range of the thermal strain."""
-        if p.size == 0:
-            return ()
-        strain = self._strain(p)
-        return (f"{'thermal strain':24s} {strain.min():.3g} to {strain.max():.3g}",)
-
-    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:
-        """Warn of thermal strains that are too large for the model, and of steps too long for walls."""
-        if p.size == 0:
-            return ()
-        strain = float(np.median(self._strain(p))) if self.shape else 0.0
+    def remarks(self, survey: Survey) -> Remarks:
+        """Note the range of the thermal strain; warn if it is too large, and of steps too long for walls."""
+        if survey.p.size == 0:
+            return Remarks()
+        strains, long_step = self._strain(survey.p), self._long_step(survey)
+        notes = (f"{'thermal strain':24s} {strains.min():.3g} to {strains.max():.3g}",)
+        strain = float(np.median(strains)) if self.shape else 0.0
         large = (
             f"molecules deform the particles by a strain of {strain:.2g} (median), which may hide that of "
             "the flow: they are too small or too soft. BrownianMotion { shape no; } deforms them by the "
             "flow alone."
         )
-        return tuple(
-            filter(None, (large if strain > LARGE_STRAIN else "", self.long_step(p, flow, medium, dt)))
-        )
+        warnings = tuple(filter(None, (large if strain > LARGE_STRAIN else "", long_step)))
+        return Remarks(notes, warnings, long_step)
 
-    def long_step(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> str:
-        """Warn if √(2 D Δt) is long for the scale of heights or for the gap between walls."""
-        if p.size == 0:
-            return ""
+    def _long_step(self, survey: Survey) -> str:
+        """Return a warning if √(2 D Δt) is long for the scale of heights or for the gap between walls."""
+        p, flow, medium, dt, _ = survey
         kT, g = BOLTZMANN * self.T, float(np.linalg.norm(medium.gravity))
         steps = np.sqrt(2.0 * kT / (6.0 * math.pi * medium.mu * p.R) * dt)
         weight = np.abs(p.rho - medium.rho) * (4.0 / 3.0 * math.pi * g) * p.R**3

@@ -25,8 +25,7 @@ from foamprb.body.turbulence import (
 )
 from foamprb.cloud.block import Medium, Scratch, at, load3, store3
 from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Seed, Surrounding
+from foamprb.cloud.surroundings.base import Remarks, Seed, Surrounding, Survey, Traits
 from foamprb.compile.link import traced
 from foamprb.dictionary.constraints import Meaning
 from foamprb.flow.analytic import turbulence_free as turbulence
@@ -150,22 +149,26 @@ class Dispersion(Surrounding):
 
     seed: Seed = 1
 
-    rows: ClassVar = EddyRows
-    rows_name: ClassVar = "eddies"
-    surveys: ClassVar = ("R", "mu")
+    rows: ClassVar = {"eddies": EddyRows}
+    traits: ClassVar = Traits(turbulence=True, surveys=("R", "mu"))
     update: ClassVar = staticmethod(update_eddy)
     disturb: ClassVar = staticmethod(add_eddies)
-    needs_turbulence: ClassVar = True
 
     def bindings(self, inertia: bool) -> dict[str, Any]:  # noqa: ARG002
         """Return the functions by which mirrors, walls and coupled patches change the eddy."""
         return {"turn_along": turn_eddy, "bounce_along": reflect_eddy}
 
-    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
-        """Return the ranges of the eddies' velocities and lives."""
+    def remarks(self, survey: Survey) -> Remarks:
+        """Note the ranges of the eddies' velocities and lives.
+
+        Warn of deformation by eddies, which is not modelled, and of steps too long for the eddies.
+        """
+        if survey.arrays is None or len(survey.flow.at_some_nodes().turbulence) == 0:
+            return Remarks()
+        return Remarks(self._notes(survey.flow), self._warnings(survey))
+
+    def _notes(self, flow: Flow) -> Sequence[str]:
         some = flow.at_some_nodes()
-        if len(some.turbulence) == 0:
-            return ()
         names, ends = ("fluctuation [m/s]", "eddy time [s]", "epsilon [m2/s3]"), flow.ends_at_nodes(_eddies)
         return [
             f"{name:24s} {low:.3g} to {high:.3g}, median {np.median(values):.3g}"
@@ -173,11 +176,11 @@ class Dispersion(Surrounding):
             if len(values)
         ]
 
-    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:
-        """Warn of deformation by eddies, which is not modelled, and of steps too long for the eddies."""
-        some = flow.at_some_nodes()
-        if len(some.turbulence) == 0 or p.size == 0:
+    def _warnings(self, survey: Survey) -> Sequence[str]:
+        p, flow, medium, dt, _ = survey
+        if p.size == 0:
             return ()
+        some = flow.at_some_nodes()
         mu = float(np.median(medium.mu))
         nu = mu / medium.rho
         k, epsilon = np.maximum(some.turbulence[:, :2], 0.0).T

@@ -19,7 +19,7 @@ from foamprb.body.tensor import Scalar, ddot, det, dev, dot, inverse, longest_st
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium, Scratch, at, load9, viscosity_at
 from foamprb.cloud.elastic import solid
-from foamprb.cloud.integrators.base import no_disturbance
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import conclude, outcome_code
 from foamprb.cloud.state import Reason, Status
@@ -141,10 +141,8 @@ class Fates(Surrounding):
         None
     )
 
-    rows: ClassVar = FateRows
-    rows_name: ClassVar = "fates"
+    rows: ClassVar = {"fates": FateRows}
     update: ClassVar = staticmethod(check_limits)
-    disturb: ClassVar = staticmethod(no_disturbance)
 
     def __post_init__(self) -> None:
         if self.ruptured is None and self.released is None:
@@ -160,13 +158,11 @@ class Fates(Surrounding):
         """Return the judgement of steps, and that the dose is integrated to the end of each call."""
         return {"judge": judge_by_limits, "updates_end": 1}
 
-    def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
-        """Refuse ``paper``, which has no update at the end of a call."""
-        return "fates need the integrator stokes or rosenbrock, not paper" if integrator == "paper" else ""
-
-    def refuses_drops(self) -> str:
-        """Refuse limits of a stress that drops do not have."""
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:
+        """Refuse ``paper``, which has no update at the end of a call, and a stress that drops do not have."""
+        if integrator.name == "paper":
+            return "fates need the integrator stokes or rosenbrock, not paper"
         chosen = [own for own in (self.ruptured, self.released) if own is not None]
-        if any(own.stress is not None for own in chosen):
+        if liquid and any(own.stress is not None for own in chosen):
             return "the limit stress of a fate holds for solids, not for drops"
         return ""

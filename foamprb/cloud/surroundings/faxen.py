@@ -12,8 +12,9 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 from foamprb.body.faxen import faxen_velocity
 from foamprb.body.tensor import dot, scale, transpose
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.surroundings.base import Surrounding, add3
+from foamprb.cloud.surroundings.base import Surrounding, Traits, add3
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import curvature_linear as curvature
 
@@ -68,12 +69,11 @@ def correct(block: Any, medium: Medium, share: float, coefficients: Any) -> None
 class FaxenCorrection(Surrounding):
     """Mean of a curved flow over the body instead of its velocity at the centre: ``faxenCorrection;``."""
 
-    rows: ClassVar = FaxenRows
-    rows_name: ClassVar = "curved"
+    rows: ClassVar = {"curved": FaxenRows}
+    traits: ClassVar = Traits(kernels=("curvature",))
     update: ClassVar = staticmethod(store_curvature)
     disturb: ClassVar = staticmethod(correct)
-    required_kernels: ClassVar = ("curvature",)
 
-    def refuses_drops(self) -> str:
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse drops, inside which the fluid moves."""
-        return "faxenCorrection holds for solids, not for drops"
+        return "faxenCorrection holds for solids, not for drops" if liquid else ""

@@ -18,7 +18,7 @@ from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.compile.link import bound
 from foamprb.flow.base import Patch
 
-__all__ = ["SURROUNDINGS", "add_surrounding", "coefficients", "compose", "with_rows"]
+__all__ = ["SURROUNDINGS", "add_surrounding", "coefficients", "compose", "stages", "with_rows"]
 
 SURROUNDINGS: dict[str, type[Surrounding]] = {
     "faxenCorrection": FaxenCorrection,
@@ -52,10 +52,11 @@ def add_surrounding(name: str, kind: type[Surrounding]) -> None:
     if "__dataclass_fields__" not in vars(kind):
         raise ValueError(f"model {name}: {kind.__name__} has no @dataclass(frozen=True, kw_only=True)")
     for function in ("update", "disturb"):
-        if not isinstance(getattr(kind, function, None), FunctionType):
-            raise ValueError(f"model {name}: {kind.__name__} has no {function} = staticmethod(…)")
-    if kind.rows is not None and getattr(kind, "rows_name", None) not in kind.disturb.__globals__:
-        raise ValueError(f"model {name}: the module has no offsets of its rows by the name rows_name")
+        if not isinstance(getattr(kind, function), FunctionType):
+            raise ValueError(f"model {name}: {function} of {kind.__name__} is no staticmethod(…)")
+    for rows in kind.rows:
+        if rows not in kind.disturb.__globals__.keys() | kind.update.__globals__.keys():
+            raise ValueError(f"model {name}: the module has no offsets of its rows by the name {rows}")
     SURROUNDINGS[name] = kind
 
 
@@ -85,13 +86,19 @@ def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> 
     found: dict[str, Any] = dict(_offsets(own, surroundings))
     for model in surroundings:
         update = bound(_then_update, others=update, model=type(model).update)
-        prepare = bound(_then_disturb, others=prepare, model=type(model).prepare or no_disturbance)
-        disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
         own_functions: dict[str, Any] = dict(model.bindings(inertia))
+        prepare = bound(_then_disturb, others=prepare, model=own_functions.pop("prepare", no_disturbance))
+        disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
         for name in _TOGETHER & own_functions.keys() & found.keys():
             own_functions[name] = bound(_both, one=found[name], other=own_functions[name])
         found |= own_functions
     return {**found, "update_all": update, "prepare_all": prepare, "disturb_all": disturb}
+
+
+def stages(surroundings: Sequence[Surrounding], inertia: bool) -> list[Callable[..., Any]]:
+    """Return the functions of these models that are compiled once for all flows."""
+    prepared: list[Any] = [model.bindings(inertia).get("prepare") for model in surroundings]
+    return [*filter(None, prepared), *(type(model).disturb for model in surroundings)]
 
 
 def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> tuple[Any, ...]:
@@ -106,11 +113,9 @@ def _offsets(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tupl
     found: dict[str, tuple[int, ...]] = {}
     first = own.rows
     for model in surroundings:
-        rows = model.rows
-        if rows is not None:
-            at = offsets(rows, first)
-            found[type(model).rows_name] = at
-            first = end(at)
+        for name, rows in model.rows.items():
+            found[name] = offsets(rows, first)
+            first = end(found[name])
     return found
 
 

@@ -10,7 +10,7 @@ with relative u and l. A body that settles through the fluid with w has Du/Dt + 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -31,12 +31,10 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import drag_rate, during
-from foamprb.cloud.integrators.base import no_disturbance
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import Row, offsets
-from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
 from foamprb.flow.analytic import no_rotation as rotation_at
-from foamprb.flow.base import Flow
 
 __all__ = ["RotatingFrames"]
 
@@ -103,11 +101,9 @@ def slip_in_frame(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector
 class RotatingFrames(Surrounding):
     """Rotating zones, in the frames of their rotors."""
 
-    rows: ClassVar = FrameRows
-    rows_name: ClassVar = "frames"
-    surveys: ClassVar = ()
+    rows: ClassVar = {"frames": FrameRows}
+    traits: ClassVar = Traits(surveys=())
     update: ClassVar = staticmethod(enter_frame)
-    disturb: ClassVar = staticmethod(no_disturbance)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
         """Return the accelerations in a rotating frame, for the integrator without inertia."""
@@ -117,24 +113,24 @@ class RotatingFrames(Surrounding):
             "_slip": slip_in_frame,
         }
 
-    def refuses(self, inertia: bool, integrator: str) -> str:
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse integrators with inertia: their velocities would have to change with the frame."""
-        if inertia:
+        if integrator.inertia:
             return (
                 f"the flow has rotating zones (MRFProperties), which need the integrator stokes, not "
-                f"{integrator}: set integrationSchemes/shape stokes, or solution/rotatingZones absolute"
+                f"{integrator.name}: set integrationSchemes/shape stokes, or solution/rotatingZones absolute"
             )
         return ""
 
-    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
+    def remarks(self, survey: Survey) -> Remarks:
         """Warn of gravity that is not along the axis of a zone."""
         found = []
-        g = np.array(medium.gravity)
-        for zone in getattr(flow, "rotating", ()):
+        g = np.array(survey.medium.gravity)
+        for zone in getattr(survey.flow, "rotating", ()):
             omega = np.array(zone.omega)
             if np.linalg.norm(np.cross(omega, g)) > 1e-6 * np.linalg.norm(omega) * np.linalg.norm(g):
                 found.append(
                     f"gravity is not along the axis of the rotating zone {zone.name}: in the rotor's frame "
                     "it should rotate, but here its direction is constant."
                 )
-        return found
+        return Remarks(warnings=found)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.lift import lift_force, lifted_slip, vorticity
@@ -16,7 +16,7 @@ from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, minus, plus,
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, viscosity_at
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import drag_rate
-from foamprb.cloud.integrators.base import no_disturbance, no_update
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.surroundings.base import Surrounding, volume_at_rest
 from foamprb.dictionary.constraints import Only
@@ -62,13 +62,10 @@ class SaffmanMeiLift(Surrounding):
 
     U: Annotated[str, Only("U", "the flow's velocity")] = "U"
 
-    update: ClassVar = staticmethod(no_update)
-    disturb: ClassVar = staticmethod(no_disturbance)
-
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
         """Return the acceleration, or the slip without inertia."""
         return {"lifted": acceleration_with_lift} if inertia else {"_slip": slip_with_lift}
 
-    def refuses_drops(self) -> str:
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse drops, inside which the fluid moves."""
-        return "SaffmanMeiLiftForce holds for solids, not for drops"
+        return "SaffmanMeiLiftForce holds for solids, not for drops" if liquid else ""

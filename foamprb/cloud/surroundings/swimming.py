@@ -16,14 +16,15 @@ from foamprb.body.brownian import deviates
 from foamprb.body.swimming import along_axes, direction, random_directions, random_spin
 from foamprb.body.tensor import Tensor, Vector, det, dot_vector, inner, norm, scale_vector
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import mirror_body
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.surroundings.base import Seed, Surrounding, add3, add9
+from foamprb.cloud.surroundings.base import Remarks, Seed, Surrounding, Survey, Traits, add3, add9
 from foamprb.compile.link import traced
 from foamprb.dictionary.constraints import Meaning, NonNegative, Positive, Vector3
 from foamprb.errors import InputError
-from foamprb.flow.base import Flow, Patch
+from foamprb.flow.base import Patch
 
 __all__ = ["Swimming"]
 
@@ -93,13 +94,10 @@ class Swimming(Surrounding):
     ] = None
     seed: Seed = 1
 
-    rows: ClassVar = SwimmerRows
-    rows_name: ClassVar = "swimmers"
-    surveys: ClassVar = ()
+    rows: ClassVar = {"swimmers": SwimmerRows}
+    traits: ClassVar = Traits(mirrors=True, measures=("swimmingDirection",), surveys=())
     update: ClassVar = staticmethod(draw_spin)
     disturb: ClassVar = staticmethod(swim)
-    mirrors: ClassVar = True
-    measures: ClassVar = ("swimmingDirection",)
 
     def __post_init__(self) -> None:
         if self.direction is not None and not 0.0 < norm(self.direction) < math.inf:
@@ -123,25 +121,19 @@ class Swimming(Surrounding):
         F = p.F[new].reshape(-1, 3, 3)
         p.heading[new] = np.linalg.solve(F, along_axes(p.F[new], wanted)[:, :, None])[:, :, 0]
 
-    def refuses_drops(self) -> str:
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse drops, whose shape does not turn with the liquid."""
-        return "swimming holds for solids, not for drops"
+        return "swimming holds for solids, not for drops" if liquid else ""
 
-    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
-        """Return the distance over which swimmers keep their direction without molecules."""
+    def remarks(self, survey: Survey) -> Remarks:
+        """Note over which distance swimmers keep their direction without molecules; warn of large turns."""
         D = self.rotationalDiffusivity
-        return (f"{'persistence length [m]':24s} {self.speed / (2.0 * D):.3g}",) if D > 0.0 else ()
-
-    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:
-        """Warn of turns that are too large in a step."""
-        return tuple(filter(None, (self.long_step(p, flow, medium, dt),)))
-
-    def long_step(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> str:  # noqa: ARG002
-        """Warn if the direction diffuses far in a step."""
-        turn = self.rotationalDiffusivity * dt
+        notes = (f"{'persistence length [m]':24s} {self.speed / (2.0 * D):.3g}",) if D > 0.0 else ()
+        turn = D * survey.dt
         if turn <= LARGE_TURN:
-            return ""
-        return (
+            return Remarks(notes)
+        long_step = (
             f"swimmers turn at random by sqrt(2 D dt) = {math.sqrt(2.0 * turn):.2g} in a step, which is not "
-            f"small. Use deltaT < {LARGE_TURN / self.rotationalDiffusivity:.2g}."
+            f"small. Use deltaT < {LARGE_TURN / D:.2g}."
         )
+        return Remarks(notes, (long_step,), long_step)

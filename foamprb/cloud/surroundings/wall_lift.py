@@ -67,10 +67,14 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.elastic import body_mobility, incompressible_stress, own_viscosity
 from foamprb.cloud.forces import forces_on
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.surroundings.base import (
+    Remarks,
     Surrounding,
+    Survey,
+    Traits,
     add3,
     add9,
     resistances,
@@ -514,20 +518,19 @@ class WallLift(Surrounding):
         Words | None, Meaning("patches that count: names, or patterns in quotes", "", "walls")
     ] = None
 
-    rows: ClassVar = WallRows
-    rows_name: ClassVar = "near"
-    surveys: ClassVar = ("x", "host", "R")
+    rows: ClassVar = {"near": WallRows}
+    traits: ClassVar = Traits(surveys=("x", "host", "R"))
     update: ClassVar = staticmethod(find_walls)
     disturb: ClassVar = staticmethod(lift)
 
-    @property
-    def wall_range(self) -> float:
-        """``cutOff``, radii."""
-        return self.cutOff
-
-    def wall_patches(self, patches: Sequence[Patch]) -> Sequence[int]:
-        """Return the indices of the patches that count."""
-        return [int(index) for index in np.flatnonzero(self.chosen(patches))]
+    def walls(self, patches: Sequence[Patch]) -> tuple[float, Sequence[int]]:
+        """Return ``cutOff``, and the patches that count; raise InputError if a pattern matches no patch."""
+        for pattern in self.patches or ():
+            if not any(re.fullmatch(pattern, patch.name) for patch in patches):
+                names = [patch.name for patch in patches]
+                text = f"wallLift/patches is {pattern}, which is no patch. {suggestion(pattern, names)}"
+                raise InputError(text.removesuffix("."))
+        return self.cutOff, [int(index) for index in np.flatnonzero(self.chosen(patches))]
 
     def chosen(self, patches: Sequence[Patch]) -> NDArray[np.int8]:
         """Return 1 for each patch that counts, else 0."""
@@ -552,44 +555,38 @@ class WallLift(Surrounding):
             return motion
         return {**motion, "hindrance_by_walls": hindrance_at_start, **(_OF_INERTIA if inertia else {})}
 
-    def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
-        """Refuse ``paper``, whose drag is diagonal in the particle frame."""
-        if self.mobility and integrator == "paper":
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:
+        """Refuse ``paper``, whose drag is diagonal in the particle frame, and the hindrance of drops."""
+        if self.mobility and integrator.name == "paper":
             return (
                 "wallLift/mobility is yes, which needs the integrator stokes or rosenbrock, not paper: "
                 "set mobility no, or integrationSchemes/shape rosenbrock"
             )
+        if self.mobility and liquid:
+            return "wallLift/mobility holds for solids, not for drops: set it no"
         return ""
 
-    def refuses_drops(self) -> str:
-        """Refuse the hindrance, which is that of solids."""
-        return "wallLift/mobility holds for solids, not for drops: set it no" if self.mobility else ""
-
-    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:
-        """Return the range of the particles' distances from walls at their start."""
-        nearest = nearest_walls(p, arrays, flow, self.cutOff, self.chosen(flow.patches))
+    def remarks(self, survey: Survey) -> Remarks:
+        """Note the range of the particles' distances from walls at their start."""
+        if survey.arrays is None:
+            return Remarks()
+        p, flow = survey.p, survey.flow
+        nearest = nearest_walls(p, survey.arrays, flow, self.cutOff, self.chosen(flow.patches))
         some = nearest[np.isfinite(nearest)]
         beyond = len(nearest) - len(some)
         lines = (
             [f"{'distance to walls/radius':24s} {some.min():.4g} to {some.max():.4g}"] if len(some) else []
         )
-        return [*lines, f"{'beyond cutOff':24s} {beyond}"]
+        return Remarks([*lines, f"{'beyond cutOff':24s} {beyond}"])
 
-    def tally(self, p: Particles, dt: float) -> Sequence[float]:
-        """Return the numbers of steps close to a wall and of all, and of particles that were close."""
-        steps = (p.t - p.t0)[p.status != Status.PENDING].sum() / dt
-        return float(p.close.sum()), float(steps), float(np.count_nonzero(p.close))
 
-    def summary(self, total: Sequence[float]) -> Sequence[str]:
-        """Return the share of steps close to a wall."""
-        close, steps, some = total
-        share = close / max(steps, 1.0)
-        return [f"{f'steps within {CLOSE:g} radii of walls':36s} {share:.2%}, of {some:.0f} particles"]
+def count_close(p: Particles, dt: float) -> tuple[float, float, int]:
+    """Return the numbers of steps close to a wall and of all, and of particles that were close."""
+    steps = (p.t - p.t0)[p.status != Status.PENDING].sum() / dt
+    return float(p.close.sum()), float(steps), int(np.count_nonzero(p.close))
 
-    def check(self, patches: Sequence[Patch]) -> None:
-        """Raise InputError if a pattern matches no patch."""
-        for pattern in self.patches or ():
-            if not any(re.fullmatch(pattern, patch.name) for patch in patches):
-                names = [patch.name for patch in patches]
-                text = f"wallLift/patches is {pattern}, which is no patch. {suggestion(pattern, names)}"
-                raise InputError(text.removesuffix("."))
+
+def share_of_close(close: float, steps: float, some: int) -> str:
+    """Return the share of steps close to a wall, from sums of :func:`count_close`, for the log."""
+    share = close / max(steps, 1.0)
+    return f"{f'steps within {CLOSE:g} radii of walls':36s} {share:.2%}, of {some:.0f} particles"
