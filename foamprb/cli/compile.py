@@ -13,7 +13,7 @@ def declare(_parser: argparse.ArgumentParser) -> None:
 
 def execute(_: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
-    from foamprb.run.compilation import compile_all
+    from foamprb.run.precompile import compile_all
 
     compile_all()
     return 0

@@ -1,4 +1,4 @@
-"""Compilation of the particle loop: for one run with a second process, or for all common runs beforehand.
+"""Compilation of the code of a run, with a second process.
 
 If the loop is not in the cache and there is a processor to spare, a second process compiles it while this one
 reads the flow, for which it compiles about as much. This process finds the loop in the cache. If the second
@@ -22,17 +22,16 @@ from typing import Any
 import numpy as np
 
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.measures import context, measure, shapes
+from foamprb.cloud.measures import context, shapes
 from foamprb.cloud.state import Status, spheres
-from foamprb.cloud.tracker import Models, Tracker, available_threads
+from foamprb.cloud.tracker import Tracker, available_threads
 from foamprb.compile.cache import cache_directory
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.settings.libs import compiling_libs
 
-__all__ = ["Compilation", "compile_all", "compile_run"]
+__all__ = ["Compilation", "compile_run"]
 
 log = logging.getLogger("foamprb")
 
@@ -157,41 +156,6 @@ def compile_run(cloud: Cloud, compilation: Compilation, alone: bool) -> None:
             with compiling_libs():
                 cloud.tracker.compile(arguments)
     compilation.log_end()
-
-
-def compile_all() -> None:
-    """Compile the code of runs with default models: reading of meshes, all loops, output.
-
-    There is a loop for each integrator in steady flows, and another in transient flows.
-    """
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkUnstructuredGrid
-
-    from foamprb.cloud.block import Medium
-    from foamprb.cloud.patches import Stick
-    from foamprb.flow.mesh.mesh import build_mesh
-    from foamprb.flow.reconstruct import Reconstruction
-
-    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
-    cube, points = vtkUnstructuredGrid(), vtkPoints()
-    points.SetData(numpy_to_vtk(np.array(corners, dtype=float), deep=True))
-    cube.SetPoints(points)
-    cube.InsertNextCell(VTK_HEXAHEDRON, 8, range(8))
-    mesh = build_mesh(cube)
-    nodes = Reconstruction(mesh)(np.zeros((1, 3)), np.zeros((len(mesh.boundary_centres), 3)))
-    steady, transient = MeshFlow(mesh, *nodes), SeriesFlow(mesh, [0.0, 1.0], lambda _: nodes)
-    flows: dict[str, MeshFlow | SeriesFlow] = {"steady": steady, "transient": transient}
-    medium = Medium(1.0, 1.0, (0.0, 0.0, 0.0))
-    for kind, flow in flows.items():
-        for integrator in INTEGRATORS:
-            log.info("Compiling the particle loop of integrationScheme %s in %s flows", integrator, kind)
-            particle = spheres([(0.5, 0.5, 0.5)], d=1e-3, rho=1.0, mu=1.0)
-            models = Models(integrator=integrator)
-            cloud = Cloud(particle, flow, medium, [Stick()] * len(mesh.patches), 1e-3, models, threads=1)
-            cloud.advance(1)
-        measure(context(cloud.particles, flow, medium.mu, cloud.time))
-    log.info("The code is kept in %s", cache_directory())
 
 
 def main() -> None:

@@ -9,15 +9,16 @@ import time
 import numba
 import numpy as np
 import pytest
+from foam_writer import header
 from mesh_shapes import block
 from numba.core import event
 from paths import PIPE
+from pipe_case import edit, short_case
 
 import foamprb
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.measures import _finder
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.compile import link as compiling
@@ -25,6 +26,7 @@ from foamprb.compile.cache import cache_directory
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.series import SeriesFlow
+from foamprb.run import precompile
 from foamprb.run.compilation import Compilation
 
 AIR = Medium(1.8e-5, 1.2, (0.0, -9.81, 0.0))
@@ -171,11 +173,32 @@ def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
     assert p.x[0, 0] > 0.5
 
 
-def test_after_compile_no_run_has_to(capsys):
-    """Where other tests keep their code as well, as much of it is theirs."""
+def in_memory():
+    """Functions that this process has compiled, or loaded from the cache."""
+    parts = compiling._parts.values()
+    return {(part.dispatcher.__qualname__, s) for part in parts for s in part.dispatcher.signatures}
+
+
+@pytest.mark.parametrize(
+    ("fluid", "kind"), [("CrossPowerLaw", "steady"), ("Newtonian", "transient"), ("Newtonian", "rotating")]
+)
+def test_after_compile_no_run_has_to(fluid, kind, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr(precompile, "RUNS", [(fluid, kind, "stokes")])
     assert main(["compile"]) == 0
     assert "The code is kept in" in capsys.readouterr().out
-    for kind in (MeshFlow, SeriesFlow):
-        for integrator in INTEGRATORS:
-            models = Models(integrator=integrator)
-            assert Tracker(models, kind.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False).compiled
+    case = short_case(tmp_path)
+    edit(case, r"shape\s+paper;", "shape stokes;")
+    laws = f"transportModel {fluid}; CrossPowerLawCoeffs {{ nu0 3e-5; nuInf 1e-5; m 0.01; n 0.7; }}"
+    edit(case, r"transportModel\s+Newtonian;", laws, "constant/transportProperties")
+    if kind == "transient":
+        edit(case, r"deltaT\s", "transient yes; deltaT ")
+        shutil.copytree(case / "249", case / "0", dirs_exist_ok=True)
+    if kind == "rotating":
+        zones = "1(rotor { type cellZone; cellLabels List<label> 2(0 1); })"
+        (case / "constant/polyMesh/cellZones").write_text(header("regIOobject", "cellZones") + zones)
+        rotor = "rotor { cellZone rotor; origin (0 0 0); axis (1 0 0); omega 1; }"
+        (case / "constant/MRFProperties").write_text(header("dictionary", "MRFProperties") + rotor)
+    before = in_memory()
+    assert main(["run", "-case", str(case)]) == 0
+    assert in_memory() - before == set()

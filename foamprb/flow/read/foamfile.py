@@ -163,7 +163,9 @@ class FoamFile:
             raise self.broken(f"a list of {kind}", at.begin)
         if len(found) != n * at.components:
             raise self.broken(f"a list of {n} entries, not {len(found) / at.components:g},", at.begin)
-        return np.broadcast_to(found.reshape(n, at.components), (at.n, at.components))
+        values = found.reshape(n, at.components)
+        # A view that cannot be written to has other compiled functions.
+        return np.broadcast_to(values, (at.n, at.components)) if at.uniform else values
 
     def indices(self) -> Ints:
         """Return a list of labels (n,) as 32-bit integers."""
