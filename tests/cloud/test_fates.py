@@ -62,13 +62,6 @@ def test_the_first_limit_that_is_reached_counts():
         np.testing.assert_array_equal(one, other, err_msg=name)
 
 
-def test_injected_is_the_sum_of_all_fates():
-    p = carried(fluid_like(3), released=FateLimits(shearStress=0.9 * STRESS))
-    assert {s: n for s, n in p.counts().items() if n} == {Status.RELEASED: 3}
-    assert sum(p.counts().values()) == p.size
-    assert (p.t == 0.0).all()
-
-
 def test_codes_hold_status_and_reason():
     assert max(Reason) < 16
     assert set(REASONS) == set(Reason)

@@ -60,16 +60,6 @@ def half_rotating(u):
     return RotatingFlow([zone], mesh, np.broadcast_to(np.array(u), (n, 3)), np.zeros((n, 3, 3)))
 
 
-def test_a_flow_has_relative_velocities_in_its_zones_alone():
-    flow = half_rotating((1.0, 0.0, 0.0))
-    x = np.array([[0.2, 0.3, 0.4], [0.8, 0.3, 0.4]])
-    u, l = flow.sample(x, flow.locate(x), 0.0)
-    spin = np.array([[0.0, -OMEGA, 0.0], [OMEGA, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    np.testing.assert_allclose(u, [[1.0, 0.0, 0.0], [1.0 + OMEGA * -0.2, -OMEGA * 0.3, 0.0]])
-    np.testing.assert_allclose(l, [np.zeros((3, 3)), -spin], atol=1e-12)
-    assert flow.patch_faces("lid", 0.0).velocity.shape[1:] == (3, 3)
-
-
 def test_a_particle_that_enters_a_zone_goes_on_in_its_frame():
     """Uniform flow u, steady in the frozen rotor's frame: dx/dt = u − Ω × x there, a circle of radius u/Ω."""
     flow = half_rotating((1.0, 0.0, 0.0))
