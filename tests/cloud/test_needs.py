@@ -50,6 +50,10 @@ def flow_at_rest(columns, values, growth=(), n=3):
     mesh = build_mesh(shape, box_patches(shape))
     x = np.concatenate([mesh.points, mesh.centres])
     u, l, table = np.zeros((len(x), 3)), np.zeros((len(x), 3, 3)), values(x)
+    # Of the same width for all, so that the loop is compiled once.
+    unused = 12 - table.shape[1]
+    table = np.pad(table, ((0, 0), (0, unused)))
+    columns = (*columns, FieldColumns("unused", unused, "1")) if unused else columns
     if growth:
         return SeriesFlow(mesh, [0.0, 0.3, 1.0], lambda i: (u, l, growth[i] * table), sampled=columns)
     flow = MeshFlow(mesh, u, l)
