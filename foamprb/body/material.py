@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf, isinf, nan
 from types import FunctionType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -156,16 +156,9 @@ MATERIALS: dict[str, Material] = {
 """Solids by their names in the settings."""
 
 
-def no_energy(I1: Scalar, _I2: Scalar, _J: Scalar, _mu: Scalar, _lame: Scalar, _k: Scalar) -> Scalar:
-    """Return NaN: a solid that is given by its stress may have no energy."""
-    return nan * I1
-
-
-def no_derivatives(
-    I1: Scalar, _I2: Scalar, _J: Scalar, _mu: Scalar, _lame: Scalar, _k: Scalar
-) -> tuple[Scalar, Scalar, Scalar]:
-    """Return NaN; see :func:`no_energy`."""
-    return nan * I1, nan * I1, nan * I1
+def unknown(*_: Scalar) -> Any:
+    """Return NaN in place of the energy and its derivatives, if a solid is given by its stress."""
+    return nan
 
 
 _STEP = 1e-30
@@ -223,8 +216,7 @@ def add_material(
         if function is not None and (not isinstance(function, FunctionType) or function.__closure__):
             raise ValueError(f"solid {name}: {function!r} is not a plain function of module level")
     if stress is not None:
-        # The derivatives are those of a solid without resistance: its loop does not read them.
-        material = Material(no_energy, no_derivatives, parameter, None, isochoric, stress=stress)
+        material = Material(unknown, unknown, parameter, None, isochoric, stress=stress)
         _check_stress(name, stress, _some_parameter(material))
         MATERIALS[name] = material
         return material

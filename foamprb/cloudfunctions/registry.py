@@ -84,6 +84,8 @@ class CloudFunctions:
         for name, function in self.functions.items():
             try:
                 self._begin(name, function)
+                if undeclared := self._memory[name].keys() - function.arrays:
+                    raise TypeError(f"{type(function).__name__}.arrays lacks {', '.join(undeclared)}")
             except InputError as error:
                 raise InputError(f"cloudFunctions/{name}: {error}") from error
 

@@ -78,5 +78,14 @@ def test_the_memory_of_other_functions_is_refused():
         CloudFunctions({"a": ParticleTracks(1, 1), "c": ParticleHistogram()}, look).restore(state, state.get)
 
 
+def test_array_without_a_kind_is_reported():
+    class Forgetful(PatchPostProcessing):
+        def begin(self, _cloud):
+            return {"history": np.zeros(3)}
+
+    with pytest.raises(TypeError, match=r"Forgetful\.arrays lacks history"):
+        CloudFunctions({"f": Forgetful(())}, observed(pipe_cloud(2)))
+
+
 def test_registry_names_are_openfoams_where_it_has_them():
     assert {"particleTracks", "patchPostProcessing", "particleCollector"} <= FUNCTIONS.keys()
