@@ -84,7 +84,7 @@ class Kind(Enum):
     per_event = "a row for each event: number of the particle, time, and others; in the order of time"
     per_cell = (
         "a row for each cell of the mesh, to which the events of each sample are added and then removed: "
-        "number of the particle, a number that orders its events, cell, and the columns of the array, ``sums``"
+        "number of the particle, a number that orders its events, cell, and the columns of this array, `sums`"
     )
     table = "rows that only begin and write use"
 
