@@ -12,13 +12,32 @@ import foamprb
 RADIUS, NU, PERIOD, RHO = 1e-3, 1e-6, 1.0, 1000.0  # pipe, m; water, m²/s; period, s; density, kg/m³
 MU = NU * RHO
 
-flow = foamprb.analytic.womersley(RADIUS, NU, PERIOD, amplitude=0.05, mean_velocity=0.0)
+AMPLITUDE, OMEGA = 0.05, 2.0 * np.pi / PERIOD  # of the pressure gradient over the density, m/s²; 1/s
+
+# Womersley's profile 1 - J0(k r/a)/J0(k) by the series of the Bessel function in (r/a)², its end first.
+terms = 0.25j * RADIUS**2 * OMEGA / NU / np.arange(1, 40) ** 2
+terms = np.cumprod(np.append(1.0, terms))
+profile = -terms / terms.sum()
+profile[0] += 1.0
+REAL, IMAGINARY = (tuple(part[::-1].tolist()) for part in (profile.real, profile.imag))
+
+
+def velocity(x, y, z, t):
+    """Return the velocity of the pulsating flow in the pipe, m/s."""
+    s = (y * y + z * z) / RADIUS**2
+    real = imaginary = 0.0 * s
+    for k in range(40):
+        real, imaginary = real * s + REAL[k], imaginary * s + IMAGINARY[k]
+    swing = AMPLITUDE / OMEGA * (real * np.sin(OMEGA * t) + imaginary * np.cos(OMEGA * t))
+    return swing, 0.0 * x, 0.0 * x
+
+
+flow = foamprb.analytic.function(velocity, length=RADIUS, time=PERIOD)
 stiffness = np.array([10.0, 0.01])  # shear moduli, Pa
 start = np.tile([10.0, 0.7 * RADIUS, 0.0], (2, 1))
 bodies = foamprb.spheres(start, d=1e-5, rho=RHO, mu=stiffness)
 water = foamprb.Medium(mu=MU, rho=RHO, gravity=(0.0, 0.0, 0.0))
-interactions = [foamprb.Stick(), foamprb.Escape(), foamprb.Escape()]
-cloud = foamprb.Cloud(bodies, flow, water, interactions, 2e-3, foamprb.Models(integrator="stokes"))
+cloud = foamprb.Cloud(bodies, flow, water, [], 2e-3, foamprb.Models(integrator="stokes"))
 
 times, D, rate = [], [], []
 for _ in range(200):

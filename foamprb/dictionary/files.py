@@ -13,7 +13,7 @@ from typing import BinaryIO
 
 from foamprb.errors import InputError
 
-__all__ = ["existing", "has_both_forms", "opened", "read_bytes"]
+__all__ = ["existing", "opened", "read_bytes"]
 
 
 def existing(path: Path) -> Path | None:
@@ -28,11 +28,6 @@ def existing(path: Path) -> Path | None:
         if _is_file(form):
             return form
     return None
-
-
-def has_both_forms(path: Path) -> bool:
-    """Return whether both the file and its compressed form exist; OpenFOAM then reads the first."""
-    return _is_file(path) and _is_file(_compressed(path))
 
 
 def read_bytes(path: Path, limit: int = -1) -> bytes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gzip
-import logging
 import os
 import re
 import zlib
@@ -11,13 +10,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from foamprb.dictionary.files import existing, has_both_forms
+from foamprb.dictionary.files import existing
 from foamprb.dictionary.tree import CaseFile, Dictionary, DictionaryList, Entry, Stream, real, unquoted
 from foamprb.errors import InputError, suggestion
 
 __all__ = ["parse_dictionary", "read_dictionary", "read_dictionary_list"]
-
-log = logging.getLogger("foamprb")
 
 
 def read_dictionary(path: Path, case: Path) -> Dictionary:
@@ -88,8 +85,6 @@ def read_dictionary_list(path: Path, case: Path, text: str | None = None) -> Dic
 
 def _read_text(path: Path, mistake: Callable[[str], InputError]) -> str:
     found = existing(path) or path
-    if has_both_forms(path):
-        log.warning("%s and %s.gz are both there: the first is read, as by OpenFOAM.", path, path.name)
     try:
         # Reading a pipe or a device may never end.
         if found.exists() and not found.is_file():

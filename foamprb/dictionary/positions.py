@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -37,9 +37,6 @@ _COMMENT_IN_TABLE = re.compile(rb"(?:#|//)[^\n]*+")
 _HEADER = re.compile(rb"\s*+(?:FoamFile\s*+\{[^}]*+\})?+\s*+")
 _OPENING = re.compile(rb"(\d{1,18}+)?\s*+\(")
 _PARENTHESES = bytes.maketrans(b"()", b"  ")
-_SEPARATOR = rb"(?:[ \t]*+[,;][ \t]*+|[ \t]++)"
-_CELL = rb"(?:\"[^\"\n]*+\"|[^,;\n]*+)"
-_SEPARATORS = bytes.maketrans(b",;", b"  ")
 _FINITE = Bounds(-np.inf, np.inf, True, True, "a finite number")
 _COORDINATES = ("x", "y", "z")
 # Names in ParaView's spreadsheets.
@@ -114,81 +111,67 @@ def _list(path: Path, text: bytes, start: int, opening: re.Match[bytes]) -> Floa
 def _table(path: Path, data: bytes, columns: Mapping[str, Bounds]) -> Positions:
     """Read lines of numbers, with or without a first line of names, which may be a comment."""
     commented = re.match(rb"\s*+#[ \t]*+([^\n]*+)", data)
-    if commented and set(_COORDINATES) <= set(_words(commented[1].rstrip())):
+    if commented and set(_COORDINATES) <= set(_words(commented[1].decode(errors="replace"))):
         data = data.replace(b"#", b" ", 1)
-    text = _COMMENT_IN_TABLE.sub(b"", data)
-    first = len(text) - len(text.lstrip())
-    line = text[first:].split(b"\n", 1)[0].rstrip()
+    lines = [line.strip() for line in _COMMENT_IN_TABLE.sub(b"", data).decode(errors="replace").split("\n")]
+    rows = [k for k, line in enumerate(lines) if line]
+    head = lines[rows[0]] if rows else ""
     names: Sequence[str] = _COORDINATES
-    body = first
-    if not re.fullmatch(rb"%b(?:%b%b)*+" % (_NUMBER, _SEPARATOR, _NUMBER), line):
-        names = _names(path, text, first, line, columns)
-        body = first + len(line)
     known = (*_COORDINATES, *columns)
-    cells = [_NUMBER if name in known else _CELL if re.search(rb"[,;]", line) else rb"\S++" for name in names]
-    row = rb"[ \t]*+%b[ \t\r]*+" % _SEPARATOR.join(cells)
-    rows = re.compile(rb"\s*+(?:%b(?:\n\s*+|\Z))*+" % row)
-    match = rows.match(text, body)
-    end = match.end() if match else body
-    if end < len(text):
-        # Until Python 3.11.4 a match may end within a row that does not fit.
-        end = max(body, text.rfind(b"\n", 0, end) + 1)
-        expected = f"{len(names)} numbers, {' '.join(names)}"
-        hint = "" if names is not _COORDINATES else ", or a first line with the names of the columns"
-        raise _mistake(path, text, end, f"Expected: {expected}{hint}")
+    if not head or re.search(r"[a-df-zA-DF-Z]", head):
+        names = _words(head)
+        row = rows.pop(0) if rows else len(lines) - 1
+        expected = "Expected: a list ( (x y z) (x y z) … ), or lines x y z"
+        if not head:
+            raise _unexpected(path, row + 1, head, expected)
+        if not set(names) & set(known):
+            # The text is not quoted: a foreign case may name any file.
+            raise Mistake(str(path), row + 1, f"no positions. {expected}.")
+        for name in known:
+            if names.count(name) != 1 and name in (*_COORDINATES, *names):
+                found = suggestion(name, names)[:-1]
+                raise _unexpected(path, row + 1, head, f"Expected: one column {name}. {found}")
     if ignored := [name for name in names if name not in known]:
         log.info("%s: ignored columns: %s.", path, ", ".join(ignored))
-        names = [name for name in names if name in known]
-        used = rb"[ \t]*+%b[ \t\r]*+" % _SEPARATOR.join(b"(%b)" % c if c is _NUMBER else c for c in cells)
-        numbers = np.array(re.findall(used, text[body:end]), dtype=np.float64)
-    else:
-        numbers = np.array(text[body:end].translate(_SEPARATORS).split(), dtype=np.float64)
-    values = dict(zip(names, numbers.reshape(-1, len(names)).T, strict=True))
+    used = [k for k, name in enumerate(names) if name in known]
+    row = 0
+
+    def each() -> Iterator[str]:
+        nonlocal row
+        for row in rows:
+            yield lines[row]
+
+    numbers = np.empty((0, len(used)))
+    try:
+        if rows:
+            numbers = np.loadtxt(
+                each(), delimiter=_separator(head), comments=None, quotechar='"', ndmin=2,
+                usecols=used if ignored else None,
+            )  # fmt: skip
+        if numbers.shape[1] != len(used):
+            row = rows[0]
+            raise ValueError
+    except ValueError:
+        hint = "" if names is not _COORDINATES else ", or a first line with the names of the columns"
+        expected = f"Expected: {len(names)} numbers, {' '.join(names)}{hint}"
+        raise _unexpected(path, row + 1, lines[row], expected) from None
+    values = {names[k]: column.copy() for k, column in zip(used, numbers.T, strict=True)}
     for name, column in values.items():
         bounds = columns.get(name, _FINITE)
         if len(column) and not (bounds.admits(column.min()) and bounds.admits(column.max())):
-            wrong = next(k for k, value in enumerate(column) if not bounds.admits(value))
-            at = _start_of_row(text, body, wrong)
-            raise _mistake(path, text, at, f"Expected: for {name}, {bounds.text}")
-    x = np.stack([values.pop(name) for name in _COORDINATES], axis=1)
-    return Positions(x, {name: column.copy() for name, column in values.items()})
+            row = rows[next(k for k, value in enumerate(column) if not bounds.admits(value))]
+            raise _unexpected(path, row + 1, lines[row], f"Expected: for {name}, {bounds.text}")
+    return Positions(np.stack([values.pop(name) for name in _COORDINATES], axis=1), values)
 
 
-def _names(path: Path, text: bytes, at: int, line: bytes, columns: Mapping[str, Bounds]) -> tuple[str, ...]:
-    """Read the names of columns."""
-    names = _words(line)
-    known = (*_COORDINATES, *columns)
-    if not line:
-        raise _mistake(path, text, at, "Expected: a list ( (x y z) (x y z) … ), or lines x y z")
-    if not set(names) & set(known):
-        # The text is not quoted: a foreign case may name any file.
-        line_number = text.count(b"\n", 0, at) + 1
-        expected = "Expected: a list ( (x y z) (x y z) … ), or lines x y z."
-        raise Mistake(str(path), line_number, f"no positions. {expected}")
-    for name in names:
-        # Not an ignored column, but a mistake.
-        if name not in known and name.lower() in {word.lower() for word in known}:
-            raise _mistake(path, text, at, f"There is no column {name}. {suggestion(name, known)[:-1]}")
-        if name in known and names.count(name) > 1:
-            raise _mistake(path, text, at, f"The column {name} appears twice")
-    for name in _COORDINATES:
-        if name not in names:
-            found = suggestion(name, names)[:-1]
-            raise _mistake(path, text, at, f"The column {name} is missing. {found}")
-    return names
+def _separator(line: str) -> str | None:
+    return next((mark for mark in ",;" if mark in line), None)
 
 
-def _words(line: bytes) -> tuple[str, ...]:
+def _words(line: str) -> tuple[str, ...]:
     """Return the words of a line, separated by commas or semicolons or, without these, by white space."""
-    words = re.split(rb"[,;]", line) if re.search(rb"[,;]", line) else line.split()
-    found = (word.decode(errors="replace").strip().strip("\"'") for word in words)
+    found = (word.strip().strip("\"'") for word in line.split(_separator(line)))
     return tuple(_ALIASES.get(name, name) for name in found)
-
-
-def _start_of_row(text: bytes, body: int, row: int) -> int:
-    """Return the position of a row of a table; blank lines do not count."""
-    starts = (match.start() for match in re.finditer(rb"\S[^\n]*+", text[body:]))
-    return body + next(start for index, start in enumerate(starts) if index == row)
 
 
 def _blank(comment: re.Match[bytes]) -> bytes:
@@ -198,6 +181,9 @@ def _blank(comment: re.Match[bytes]) -> bytes:
 
 def _mistake(path: Path, text: bytes, position: int, expected: str) -> Mistake:
     """Return the error at a position of the text: the line, the text found and the text expected."""
-    line = text.count(b"\n", 0, position) + 1
-    found = text[position : position + 60].split(b"\n")[0].decode(errors="replace").strip()
-    return Mistake(str(path), line, f"found '{found or 'the end of the file'}'. {expected}.")
+    line = text[position : position + 60].split(b"\n")[0].decode(errors="replace")
+    return _unexpected(path, text.count(b"\n", 0, position) + 1, line, expected)
+
+
+def _unexpected(path: Path, number: int, line: str, expected: str) -> Mistake:
+    return Mistake(str(path), number, f"found '{line.strip()[:60] or 'the end of the file'}'. {expected}.")

@@ -34,7 +34,6 @@ __all__ = [
     "shear",
     "shear_over_wall",
     "slit",
-    "womersley",
 ]
 
 _ZERO: Vector = (0.0, 0.0, 0.0)
@@ -249,11 +248,6 @@ def velocity(x: float, y: float, z: float, t: float) -> tuple[float, float, floa
     raise NotImplementedError
 
 
-def velocity_gradient(x: float, y: float, z: float, t: float) -> tuple[Vector, Vector, Vector]:
-    """Placeholder for a user's gradient."""
-    raise NotImplementedError
-
-
 def steady(x: float, y: float, z: float, t: float) -> Any:
     """Call a function of the place alone."""
     return of_place(x, y, z)
@@ -262,14 +256,6 @@ def steady(x: float, y: float, z: float, t: float) -> Any:
 def of_place(x: float, y: float, z: float) -> Any:
     """Placeholder for a user's function of the place alone."""
     raise NotImplementedError
-
-
-def sample_function(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Return velocity, m/s, the given gradient, 1/s, and ∂u/∂t by differences, m/s²."""
-    a, b, c = velocity_gradient(x[0], x[1], x[2], t)
-    l = (a[0] + 0.0, a[1] + 0.0, a[2] + 0.0, b[0] + 0.0, b[1] + 0.0, b[2] + 0.0,
-         c[0] + 0.0, c[1] + 0.0, c[2] + 0.0)  # fmt: skip
-    return _velocity(x[0], x[1], x[2], t), l, _rate(flow, x, t)
 
 
 def sample_differences(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
@@ -354,7 +340,6 @@ class FunctionFlow(AnalyticFlow):
 
 def function(
     u: Callable[..., Any],
-    gradient: Callable[..., Any] | None = None,
     length: float = 1e-3,
     time: float = 1e-3,
 ) -> AnalyticFlow:
@@ -367,56 +352,47 @@ def function(
     ----------
     u
         Returns the three components of the velocity, m/s, at a place, m, and perhaps a time, s.
-    gradient
-        Returns the three rows of ∂u_i/∂x_j, 1/s, for the same arguments. The default is fourth-order central
-        differences of u, which always give ∂u/∂t.
     length, time
-        Scales on which u changes, m and s. The differences use a thousandth of them, and are accurate to 1e-8
-        if u changes on a tenth to a thousand times these scales.
+        Scales on which u changes, m and s. The derivatives are fourth-order central differences over a
+        thousandth of them, accurate to 1e-8 if u changes on a tenth to a thousand times these scales.
 
     Raises
     ------
     TypeError
-        u or the gradient is not such a function.
+        u is not such a function.
     """
-    names: dict[str, Any] = {"velocity": _of_place_and_time(u, "u", (3,))}
-    template = sample_differences
-    if gradient is not None:
-        names["velocity_gradient"] = _of_place_and_time(gradient, "gradient", (3, 3))
-        template = sample_function
+    names: dict[str, Any] = {"velocity": _of_place_and_time(u)}
     names["_velocity"] = bound(_velocity, **names)
     names["_rate"] = bound(_rate, **names)
-    sampled = bound(template, **names)
+    sampled = bound(sample_differences, **names)
     curvature = bound(curvature_by_differences, **names, sample=sampled)
     kernels = {"sample": sampled, "curvature": curvature, **_UNBOUNDED}
     return FunctionFlow(FunctionArrays(1e-3 * length, 1e-3 * time), kernels)
 
 
-def _of_place_and_time(given: Any, what: str, shape: tuple[int, ...]) -> Callable[..., Any]:
+def _of_place_and_time(given: Any) -> Callable[..., Any]:
     """Return a user's function as one of x, y, z and t; TypeError if it is not plain or of another shape."""
     if not isinstance(given, FunctionType):
-        raise TypeError(f"{what} is {given!r}, not a plain function (def or lambda).")
+        raise TypeError(f"u is {given!r}, not a plain function (def or lambda).")
     captured = [*(cell.cell_contents for cell in given.__closure__ or ()), *(given.__defaults__ or ())]
     if not all(isinstance(value, int | float | tuple) for value in captured):
         raise TypeError(
-            f"{what} captures, or has as a default, a value other than numbers or tuples of numbers; other "
+            "u captures, or has as a default, a value other than numbers or tuples of numbers; other "
             "functions must be defined in the module."
         )
     count = given.__code__.co_argcount - len(given.__defaults__ or ())
     if count not in (3, 4):
-        raise TypeError(f"{what} has {count} arguments, not (x, y, z) or (x, y, z, t).")
+        raise TypeError(f"u has {count} arguments, not (x, y, z) or (x, y, z, t).")
     found: Any = None
     with suppress(ArithmeticError, ValueError):
         value = given(*(0.1, 0.2, 0.3, 0.4)[:count])
         found = np.shape(value)
-        rows = (value, *value) if found == (3, 3) else (value,)
-        sound = all(isinstance(row, tuple) for row in rows) and np.asarray(value).dtype.kind in "iuf"
-        if found == shape and not sound:
-            wanted = "a tuple of three numbers" if shape == (3,) else "a tuple of three tuples of numbers"
+        sound = isinstance(value, tuple) and np.asarray(value).dtype.kind in "iuf"
+        if found == (3,) and not sound:
             kind = "an array" if isinstance(value, np.ndarray) else f"{value!r}"
-            raise TypeError(f"{what} returns {kind}. Return {wanted}.")
-    if found not in (None, shape):
-        raise TypeError(f"{what} returns something of shape {found}, not {shape}.")
+            raise TypeError(f"u returns {kind}. Return a tuple of three numbers.")
+    if found not in (None, (3,)):
+        raise TypeError(f"u returns something of shape {found}, not (3,).")
     return given if count == 4 else bound(steady, of_place=given)
 
 
@@ -492,65 +468,6 @@ def pipe(radius: float, mean_velocity: float, length: float = math.inf) -> Analy
         m/s; the wall shear rate is 4 U/radius.
     """
     parameters = channels.PipeArrays(float(radius), float(mean_velocity), float(length))
-    return _in_pipe(parameters, channels.sample_pipe, channels.curvature_pipe)
-
-
-_MOST_WOMERSLEY = 30.0
-
-
-def womersley(
-    radius: float,
-    nu: float,
-    period: float,
-    amplitude: float,
-    mean_velocity: float = 0.0,
-    phase: float = 0.0,
-    length: float = math.inf,
-) -> AnalyticFlow:
-    """Return pulsatile flow in a pipe along x from x = 0, with patches wall, inlet and outlet.
-
-    The pressure gradient −(∂p/∂x)/ρ is 8 ν U/a² + amplitude · cos(2π t/period + phase); the flow is the
-    periodic one (Womersley, J. Physiol. 127, 553, 1955).
-
-    Parameters
-    ----------
-    radius, length
-        m; a pipe of infinite length has no outlet.
-    nu
-        Kinematic viscosity, m²/s.
-    period
-        s.
-    amplitude
-        Amplitude of the pressure gradient over the density, m/s².
-    mean_velocity
-        Mean over section and time, U, m/s.
-    phase
-        rad.
-
-    Raises
-    ------
-    ValueError
-        The Womersley number a √(ω/ν) exceeds 30, where the series of the Bessel function loses digits.
-    """
-    omega = 2.0 * math.pi / period
-    alpha = radius * math.sqrt(omega / nu)
-    if alpha > _MOST_WOMERSLEY:
-        raise ValueError(f"Womersley number {alpha:.3g} > {_MOST_WOMERSLEY:g}")
-    # J₀(i^{3/2} α s) = Σ (i α² s²/4)ᵏ/(k!)²
-    terms = [1.0 + 0.0j]
-    while abs(terms[-1]) > 1e-20 * max(map(abs, terms)):
-        terms.append(terms[-1] * 0.25j * alpha**2 / len(terms) ** 2)
-    profile = -np.array(terms) / sum(terms)
-    profile[0] += 1.0
-    parameters = channels.WomersleyArrays(
-        float(radius), float(mean_velocity), float(length), amplitude / omega, omega, float(phase),
-        np.ascontiguousarray(profile.real), np.ascontiguousarray(profile.imag),
-    )  # fmt: skip
-    return _in_pipe(parameters, channels.sample_womersley, channels.curvature_womersley)
-
-
-def _in_pipe(parameters: Any, sample: Callable[..., Any], curvature: Callable[..., Any]) -> AnalyticFlow:
-    """Return a flow along x in a pipe whose radius and length are among the parameters."""
 
     def inside(points: Floats) -> Any:
         within = points[:, 1] ** 2 + points[:, 2] ** 2 <= parameters.radius**2
@@ -559,8 +476,8 @@ def _in_pipe(parameters: Any, sample: Callable[..., Any], curvature: Callable[..
     return AnalyticFlow(
         parameters,
         {
-            "sample": sample,
-            "curvature": curvature,
+            "sample": channels.sample_pipe,
+            "curvature": channels.curvature_pipe,
             "walk": channels.walk_pipe,
             "gap": channels.gap_pipe,
             "walls": channels.planes_of_pipe,

@@ -1,4 +1,4 @@
-"""Kernels of flows in closed form along x: in a circular pipe, steady or pulsating, and over plane walls."""
+"""Kernels of flows in closed form along x: in a circular pipe and over plane walls."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from foamprb.body.ellipsoid import reach
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.flow.base import NO_PLANES, Floats, Planes
+from foamprb.flow.base import NO_PLANES, Planes
 
 
 class PipeArrays(NamedTuple):
@@ -39,55 +39,6 @@ def curvature_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> Curvatur
     """Return the second derivatives, 1/(m s)."""
     across = (-4.0 * flow.mean_velocity / (flow.radius * flow.radius), 0.0, 0.0)
     return _ZERO, across, across, _ZERO, _ZERO, _ZERO
-
-
-class WomersleyArrays(NamedTuple):
-    """Poiseuille flow along x in a circular pipe, and an oscillation of its pressure gradient."""
-
-    radius: float
-    mean_velocity: float
-    length: float
-    amplitude: float
-    """Amplitude of −(∂p/∂x)/ρ over ω, m/s."""
-    omega: float
-    """1/s."""
-    phase: float
-    real: Floats
-    """Coefficients of the powers of r²/a² in the profile 1 − J₀(i^{3/2} α r/a)/J₀(i^{3/2} α)."""
-    imaginary: Floats
-
-
-def sample_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Return velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s²."""
-    scale = 1.0 / (flow.radius * flow.radius)
-    s = scale * (x[1] * x[1] + x[2] * x[2])
-    f, g, df, dg = 0.0 * s, 0.0 * s, 0.0 * s, 0.0 * s
-    for k in range(flow.real.shape[0] - 1, -1, -1):
-        df, dg = df * s + f, dg * s + g
-        f, g = f * s + flow.real[k], g * s + flow.imaginary[k]
-    a = flow.omega * t + flow.phase
-    cosine, sine = math.cos(a), math.sin(a)
-    w = flow.amplitude
-    u = 2.0 * flow.mean_velocity * (1.0 - s) + w * (f * sine + g * cosine)
-    slope = 2.0 * scale * (w * (df * sine + dg * cosine) - 2.0 * flow.mean_velocity)
-    u_t = w * flow.omega * (f * cosine - g * sine)
-    return (u, 0.0, 0.0), (0.0, slope * x[1], slope * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (u_t, 0.0, 0.0)
-
-
-def curvature_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> Curvature:
-    """Return the second derivatives, 1/(m s): u_yy = 2 u′/a² + 4 y² u″/a⁴ with u′, u″ by s = r²/a², etc."""
-    scale = 1.0 / (flow.radius * flow.radius)
-    s = scale * (x[1] * x[1] + x[2] * x[2])
-    a = flow.omega * t + flow.phase
-    cosine, sine = math.cos(a), math.sin(a)
-    f, df, ddf = 0.0 * s, 0.0 * s, 0.0 * s
-    for k in range(flow.real.shape[0] - 1, -1, -1):
-        ddf, df = ddf * s + 2.0 * df, df * s + f
-        f = f * s + flow.real[k] * sine + flow.imaginary[k] * cosine
-    first = 2.0 * scale * (flow.amplitude * df - 2.0 * flow.mean_velocity)
-    second = 4.0 * scale * scale * flow.amplitude * ddf
-    yy, zz = (first + second * x[1] * x[1], 0.0, 0.0), (first + second * x[2] * x[2], 0.0, 0.0)
-    return _ZERO, yy, zz, _ZERO, (second * x[1] * x[2], 0.0, 0.0), _ZERO
 
 
 def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:

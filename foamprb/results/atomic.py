@@ -7,7 +7,7 @@ import os
 import re
 import secrets
 from collections.abc import Collection, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 from foamprb.errors import InputError
@@ -76,20 +76,6 @@ def write_text(path: Path, text: str) -> None:
     """
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
-
-
-def drop_cache(path: Path) -> None:
-    """Advise the operating system to drop its cached copy of a file, if the file exists.
-
-    The next file of a series then reuses that memory, as allocating unused memory can take several times as
-    long as writing. Not all file systems follow this advice.
-    """
-    with suppress(OSError):
-        descriptor = os.open(path, os.O_RDONLY)
-        try:
-            os.posix_fadvise(descriptor, 0, 0, os.POSIX_FADV_DONTNEED)
-        finally:
-            os.close(descriptor)
 
 
 def remove_unfinished(files: Collection[Path]) -> None:

@@ -30,7 +30,7 @@ import xxhash
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import atomic_write, drop_cache
+from foamprb.results.atomic import atomic_write
 
 log = logging.getLogger("foamprb")
 
@@ -92,8 +92,6 @@ class Checkpoints:
             If the file cannot be written.
         """
         path = self.file(checkpoint.time)
-        for file in self.files().values():
-            drop_cache(file)
         write_checkpoint(path, checkpoint)
         for file in list(self.files().values())[:-MOST_FILES]:
             _remove(file)

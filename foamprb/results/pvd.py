@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import drop_cache, write_text
+from foamprb.results.atomic import write_text
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.vtk import Parts, PointCloud, write_snapshot
 
@@ -61,8 +61,6 @@ class Series:
             If a file cannot be written.
         """
         file = with_ending(self.next(cloud.time), ".vtp")
-        if self.entries:
-            drop_cache(self.folder.path / self.entries[-1].file)
         write_snapshot(file, cloud)
         self.add(cloud.time, file)
         return file

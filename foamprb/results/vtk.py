@@ -19,7 +19,6 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from foamprb.errors import InputError
 from foamprb.results.atomic import atomic_write, write_text
 
 _BLOCK_BYTES = 1 << 20
@@ -45,11 +44,6 @@ class PointCloud:
         Unit of each array by name.
     names
         For each array of codes, the meanings of the codes 0, 1, …: ``{"status": ("pending", "active", …)}``.
-
-    Raises
-    ------
-    ValueError
-        If an array does not have n rows and one or two axes.
     """
 
     time: float
@@ -57,16 +51,6 @@ class PointCloud:
     arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     names: Mapping[str, Sequence[str]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        if self.points.ndim != 2 or self.points.shape[1] != 3:
-            raise ValueError(f"Points of a snapshot have shape {self.points.shape}, not (n, 3).")
-        n = len(self.points)
-        for name, array in self.arrays.items():
-            if array.ndim not in (1, 2) or len(array) != n:
-                raise ValueError(
-                    f"Array '{name}' of a snapshot has shape {array.shape}, not ({n},) or ({n}, k)."
-                )
 
 
 class Parts(NamedTuple):
@@ -127,17 +111,13 @@ def write_vtkhdf(path: Path, times: Sequence[float], cloud_of: Callable[[int], P
 
     Raises
     ------
-    InputError
-        If VTK was built without its VTKHDF writer.
     OSError
         If the file cannot be written.
     Exception
         Any exception of ``cloud_of``; ``path`` is unchanged then.
     """
-    try:
-        from vtkmodules.vtkIOHDF import vtkHDFWriter
-    except ImportError as error:
-        raise InputError("a VTKHDF file needs a VTK with the module IOHDF, as pip installs it.") from error
+    from vtkmodules.vtkIOHDF import vtkHDFWriter
+
     source, writer = _Source(cloud_of, times), vtkHDFWriter()
     writer.SetInputConnection(source.GetOutputPort())
     writer.SetWriteAllTimeSteps(True)

@@ -28,7 +28,7 @@ from foamprb.results.folder import RECORD_FORMAT
 from foamprb.run.checks import doubts, extension_rates, groups
 from foamprb.settings.settings import Settings
 
-__all__ = ["describe", "renew_record", "write_record"]
+__all__ = ["describe", "write_record"]
 
 _PACKAGES = ("foamprb", "numpy", "numba", "vtk")
 
@@ -153,22 +153,6 @@ def write_record(path: Path, description: Mapping[str, Any]) -> None:
     with atomic_write(path) as temporary:
         text = json.dumps(description, indent=1, ensure_ascii=False, allow_nan=False)
         temporary.write_text(f"{text}\n", encoding="utf-8")
-
-
-def renew_record(path: Path, description: Mapping[str, Any]) -> None:
-    """Replace settings and times in the record of a run that continues; no-op without a readable record.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return
-    if isinstance(record, dict) and record.get("format") == RECORD_FORMAT:
-        write_record(path, record | {key: description[key] for key in ("settings", "time")})
 
 
 def _text_of(settings: Settings) -> dict[str, Any]:

@@ -231,6 +231,6 @@ def wait(
         if waited > patience:
             raise RunStopped(f"no new time of the flow for {patience:g} s (-patience)")
         if waited > next_line:
-            log.info("Waiting for %s%s", what, f": {case.unfinished} is incomplete" * bool(case.unfinished))
+            log.info("Waiting for %s", what)
             next_line += min(next_line, _LONGEST)
         clock.sleep(min(_LONG_PAUSE, max(_PAUSE, _SHARE * waited)))

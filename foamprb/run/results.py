@@ -39,7 +39,7 @@ from foamprb.results.manifest import Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, Rows, rows_of, write_rows
 from foamprb.results.vtk import Parts
-from foamprb.run.description import renew_record, write_record
+from foamprb.run.description import write_record
 from foamprb.run.job import Job
 from foamprb.run.restart import (
     Sums,
@@ -111,7 +111,6 @@ class Results:
         own = [name for model in job.cloud.models.surroundings for name in model.traits.measures]
         self._further = tuple(dict.fromkeys((*job.settings.solution.optionalFields, *own)))
         self._series = Series(job.folder)
-        self._place = _identity(job.folder.path)
         self.finished = False
         """Whether the run had ended before."""
         self._manifest = Manifest(job.folder.path)
@@ -169,15 +168,8 @@ class Results:
         self._series.append(Parts(cloud.time, number_of_contexts(n), clouds))
 
     def check(self) -> None:
-        """Raise OSError if the thread could not write a file, or the folder is no longer at its place."""
-        self._require_place()
+        """Raise OSError if the thread could not write a file."""
         self._writer.check()
-
-    def _require_place(self) -> None:
-        """Raise OSError if the folder was moved or removed, instead of making another one."""
-        path = self._job.folder.path
-        if not path.is_dir() or _identity(path) != self._place:
-            raise FileNotFoundError(errno.ENOENT, "the folder was moved or removed during the run", str(path))
 
     def next_observation(self, last: int) -> int:
         """Return the step, at most ``last``, at which a cloud function samples next."""
@@ -233,7 +225,6 @@ class Results:
             If a file cannot be written, now or at the time before.
         """
         stepper.gather()
-        self._require_place()
         cloud = self._job.cloud
         failed = stepper.counts()[Status.FAILED] > 0
 
@@ -256,8 +247,6 @@ class Results:
     def _gathered(self, stepper: Stepper) -> Cloud:
         """Return the cloud with the state of the last step, after earlier writes have ended."""
         stepper.gather()
-        # Before the error of a file that could not be written there.
-        self._require_place()
         self._writer.finish()
         self._around = sums_around(stepper.cloud.flow, stepper.cloud.time)
         return stepper.cloud
@@ -294,7 +283,6 @@ class Results:
         memory: Mapping[str, NDArray[Any]],
         parts: Sequence[tuple[int, str]],
     ) -> None:
-        self._require_place()
         write_cloud()
         self._write_checkpoint(snapshot, memory, parts)
 
@@ -368,6 +356,8 @@ class Results:
     def _resume(self, checkpoint: StoredCheckpoint) -> None:
         """Restore a checkpoint, and remove the files of later times."""
         job = self._job
+        # Before the particles are those of the checkpoint.
+        description = job.description
         where = f"{job.folder.path}: cannot continue from t = {checkpoint.time:.12g} s"
         refuse_changes(checkpoint, self._fingerprint, where)
         refuse_other_times(checkpoint, job.cloud.flow, where)
@@ -387,7 +377,7 @@ class Results:
         remove_unfinished({*manifest.files, manifest.path, self._fates, self._failures})
         manifest.remove(file for file in (self._fates, self._failures) if file in manifest.files)
         self._series.relist(entries)
-        renew_record(job.folder.record, job.description)
+        write_record(job.folder.record, description)
         snapshots = [file for entry in entries for file in files_of(job.folder.path / entry.file)]
         functions = self._function_folders()
         tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
@@ -400,11 +390,6 @@ class Results:
         }
         manifest.remove(sorted(manifest.files - kept))
         self._manifest = Manifest(job.folder.path, (file for file in kept if file.exists()))
-
-
-def _identity(path: Path) -> tuple[int, int]:
-    found = path.stat()
-    return found.st_dev, found.st_ino
 
 
 def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:

@@ -18,8 +18,6 @@ __all__ = ["Slip", "SlipRecord", "drag_excess"]
 
 Floats = NDArray[np.float64]
 _CHUNK = 16_384
-_EDGES = np.linspace(-15.0, 5.0, 401)
-"""Decimal logarithms of the bounds of the classes from which quantiles are taken."""
 
 
 class Slip(NamedTuple):
@@ -45,43 +43,37 @@ def _slip(p: Particles, flow: Sampled, time: float, medium: Medium) -> Slip:
 
 
 class SlipRecord:
-    """Distribution of both numbers over all active particles at the write times of a run."""
+    """Largest values of both numbers over all active particles at the write times of a run."""
 
     def __init__(self) -> None:
-        self._counts = np.zeros((len(Slip._fields), len(_EDGES) + 1), dtype=np.int64)
+        self.usual = Slip(*np.zeros((2, 1)))
+        """Largest 99 % quantile."""
         self.worst = Slip(*np.zeros((2, 1)))
 
     def add(self, other: SlipRecord) -> None:
         """Add another record."""
-        self._counts += other._counts
-        self.worst = Slip(*(np.maximum(a, b) for a, b in zip(self.worst, other.worst, strict=True)))
+        self.usual = Slip(*np.fmax(self.usual, other.usual))
+        self.worst = Slip(*np.fmax(self.worst, other.worst))
 
     @classmethod
     def of(cls, p: Particles, flow: Sampled, time: float, medium: Medium) -> Self:
         """Return the record of the active particles of a cloud at its time, s."""
         record, active = cls(), np.flatnonzero(p.status == Status.ACTIVE)
-        for start in range(0, len(active), _CHUNK):
-            slip = _slip(p.take(active[start : start + _CHUNK]), flow, time, medium)
-            for k, values in enumerate(slip):
-                with np.errstate(divide="ignore"):
-                    classes = np.searchsorted(_EDGES, np.log10(values))
-                record._counts[k] += np.bincount(classes, minlength=len(_EDGES) + 1)
-                record.worst[k][0] = max(record.worst[k][0], np.nanmax(values))
+        parts = [
+            _slip(p.take(active[start : start + _CHUNK]), flow, time, medium)
+            for start in range(0, len(active), _CHUNK)
+        ]
+        if parts:
+            numbers = np.concatenate(parts, axis=1)
+            record.usual = Slip(*np.nanquantile(numbers, 0.99, axis=1, keepdims=True))
+            record.worst = Slip(*np.nanmax(numbers, axis=1, keepdims=True))
         return record
 
     def lines(self) -> list[str]:
-        """Return lines with median, 99 % quantile and largest value of each number; none without samples."""
-        if not self._counts.any():
-            return []
+        """Return lines with the largest 99 % quantile and value of each number; none without samples."""
         names = ("Reynolds number of slip", "Stokes number")
         return [
-            f"{name:24s} {self._quantile(k, 0.5):.3g}, 99 % below {self._quantile(k, 0.99):.3g}, at most "
-            f"{self.worst[k][0]:.3g}"
-            for k, name in enumerate(names)
+            f"{name:24s} 99 % below {usual[0]:.3g}, at most {worst[0]:.3g}"
+            for name, usual, worst in zip(names, self.usual, self.worst, strict=True)
+            if worst[0]
         ]
-
-    def _quantile(self, k: int, share: float) -> float:
-        """Return the upper bound of the class of a quantile, at most the largest value."""
-        total = np.cumsum(self._counts[k])
-        edge = _EDGES[min(int(np.searchsorted(total, share * total[-1])), len(_EDGES) - 1)]
-        return float(min(10.0**edge, self.worst[k][0]))

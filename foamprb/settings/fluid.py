@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-from contextlib import suppress
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -156,7 +155,6 @@ def read_fluid(
         log.info("%s: the viscosity is %g Pa s, at %g K.", file, viscosity.mu, viscosity.temperature)
     if varying := _varying(viscosity, rho):
         return Fluid(rho, None, varying, viscosity.origin, viscosity.field)
-    _note_constant(constant, file, case, region)
     return Fluid(rho, viscosity.nu if viscosity.nu is not None else float(viscosity.mu or 0.0) / rho)
 
 
@@ -168,19 +166,6 @@ def _varying(viscosity: CaseViscosity, rho: float) -> VaryingViscosity | None:
     if viscosity.law is not None:
         return RATE_LAWS[viscosity.law.model].of_kinematic(viscosity.law.coefficients, rho)
     return None
-
-
-def _note_constant(constant: Dictionary, file: Path | None, case: Path, region: str) -> None:
-    """Log that a viscosity of the cloud replaces one of the case that varies."""
-    given = {"nu", "mu"} & constant.entries.keys()
-    if not given or file is None:
-        return
-    with suppress(InputError):
-        if origin := read_viscosity(file, case, None, region).origin:
-            log.info(
-                "%s: constantProperties/%s is the viscosity at the particles, instead of %s.",
-                constant.source, *given, origin,
-            )  # fmt: skip
 
 
 def _density_of_case(

@@ -264,10 +264,8 @@ def gather(
     )
 
 
-def survey(
-    run: Run, name: str, part: str, frames: Sequence[int] | None = None
-) -> tuple[NDArray[np.int64], Singles | None]:
-    """Count the shown bodies at some of the times, by default all, and collect values of an array at them.
+def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles | None]:
+    """Count the shown bodies at all times, and collect values of an array at them.
 
     Returns
     -------
@@ -282,7 +280,7 @@ def survey(
     valued = name in run.components and name not in run.names
     stride = 1 + len(run.entries) * len(run.cloud(-1, ("origId",)).points) // _MOST_VALUES
     counts, found = [], [np.zeros(0, dtype=np.float32)]
-    for frame in range(len(run.entries)) if frames is None else frames:
+    for frame in range(len(run.entries)):
         arrays = run.cloud(frame, ("status", *([name] if valued else ()))).arrays
         shown = np.flatnonzero(_inside(arrays["status"], run.names.get("status", ())))
         counts.append(len(shown))

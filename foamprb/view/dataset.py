@@ -1,4 +1,4 @@
-"""Results of a run as an ``xarray.Dataset`` whose values are read when they are used."""
+"""Results of a run as an ``xarray.Dataset``."""
 
 from __future__ import annotations
 
@@ -14,23 +14,21 @@ from foamprb.results.vtk import PointCloud
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["lazy_dataset"]
+__all__ = ["dataset_of"]
 
 _POINTS = {"x": 0, "y": 1, "z": 2}
 _ID = "origId"
 
 
-def lazy_dataset(
-    times: NDArray[np.float64], read: Callable[[int, Sequence[str] | None], PointCloud], source: str
-) -> xarray.Dataset:
-    """Return arrays over ``time`` and ``particle``, whose values are read when they are used.
+def dataset_of(times: NDArray[np.float64], read: Callable[[int], PointCloud], source: str) -> xarray.Dataset:
+    """Return arrays over ``time`` and ``particle``.
 
     Parameters
     ----------
     times
         Times, s; particles of the last one include those of all others.
     read
-        Returns the cloud at the time of an index with some of its arrays, None for all.
+        Returns the cloud at the time of an index.
     source
         What wrote them.
 
@@ -39,43 +37,18 @@ def lazy_dataset(
     InputError
         If xarray is not installed.
     """
-    xr, backends, indexing = (
-        optional.load(name, "xarray", "to_xarray needs")
-        for name in ("xarray", "xarray.backends", "xarray.core.indexing")
-    )
-    last = read(-1, None)
+    xr, last = optional.load("xarray", "xarray", "to_xarray needs"), read(-1)
     n = int(last.arrays[_ID].max(initial=-1)) + 1
-
-    class Values(backends.BackendArray):  # type: ignore[misc, name-defined]
-        """Values of one array, (times, particles) or (times, particles, components)."""
-
-        def __init__(self, name: str, sample: NDArray[Any]) -> None:
-            self.name, self.fill = name, np.nan if sample.dtype.kind == "f" else -1
-            self.shape, self.dtype = (len(times), n, *sample.shape[1:]), sample.dtype
-
-        def __getitem__(self, key: Any) -> Any:
-            support = indexing.IndexingSupport.OUTER
-            return indexing.explicit_indexing_adapter(key, self.shape, support, self.part)
-
-        def part(self, key: tuple[Any, ...]) -> NDArray[Any]:
-            chosen = np.arange(len(times))[key[0]]
-            if np.size(chosen) == 0:
-                return np.empty((0, *self.shape[1:]), self.dtype)[:, key[1]][(..., *key[2:])]
-            # No time is kept whole: of many times few particles may be wanted.
-            rows = [self.at(int(index))[key[1]][(..., *key[2:])] for index in np.atleast_1d(chosen)]
-            return np.stack(rows) if np.ndim(chosen) else np.asarray(rows[0])
-
-        def at(self, index: int) -> NDArray[Any]:
-            cloud = read(index, (_ID,) if self.name in _POINTS else (_ID, self.name))
-            values = np.full(self.shape[1:], self.fill, self.dtype)
-            values[cloud.arrays[_ID]] = _samples(cloud)[self.name]
-            return values
-
     variables = {}
     for name, sample in _samples(last).items():
+        fill = np.nan if sample.dtype.kind == "f" else -1
+        values = np.full((len(times), n, *sample.shape[1:]), fill, sample.dtype)
         dims = ("time", "particle", *(f"{name}_component" for _ in sample.shape[1:]))
-        values = indexing.LazilyIndexedArray(Values(name, sample))
-        variables[name] = xr.Variable(dims, values, _attributes(last.units, last.names, name))
+        variables[name] = (dims, values, _attributes(last.units, last.names, name))
+    for index in range(len(times)):
+        cloud = read(index)
+        for name, samples in _samples(cloud).items():
+            variables[name][1][index, cloud.arrays[_ID]] = samples
     number = {"cf_role": "trajectory_id", "long_name": "number of the particle"}
     coordinates = {
         "time": ("time", times, {"units": "s", "long_name": "time", "axis": "T"}),

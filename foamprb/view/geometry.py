@@ -87,23 +87,13 @@ def _smooth(nodes: Floats, triangles: Ints, share: float) -> tuple[Floats, Ints]
 
 def _edges(nodes: Floats, triangles: Ints, patch: NDArray[Any]) -> Floats:
     """Return the edges of a single triangle, between patches, or where the surface bends sharply."""
-    if len(triangles) == 0:
-        return np.zeros((0, 2, 3))
-    a, b, c = nodes[triangles].transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-    pairs = np.sort(
-        np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1
-    )
-    owner = np.tile(np.arange(len(triangles)), 3)
-    order = np.lexsort((pairs[:, 1], pairs[:, 0]))
-    pairs, owner = pairs[order], owner[order]
-    first = np.flatnonzero(np.r_[True, (pairs[1:] != pairs[:-1]).any(axis=1)])
-    count = np.diff(np.r_[first, len(pairs)])
-    one, other = owner[first], owner[np.minimum(first + 1, len(owner) - 1)]
-    bend = np.einsum("ij,ij->i", normals[one], normals[other]) < np.cos(np.radians(_FEATURE_ANGLE))
-    sharp = (count != 2) | bend | (patch[one] != patch[other])
-    return np.asarray(nodes[pairs[first[sharp]]])
+    pairs = [np.zeros((0, 2), dtype=np.int64)]
+    for index in np.unique(patch):
+        data = pyvista.PolyData.from_regular_faces(nodes, triangles[patch == index])
+        data.point_data["node"] = np.arange(len(nodes))
+        found = data.extract_feature_edges(_FEATURE_ANGLE)
+        pairs.append(np.asarray(found.point_data["node"])[found.lines.reshape(-1, 3)[:, 1:]])
+    return np.asarray(nodes[np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)])
 
 
 def flat_normal(surfaces: list[Surface]) -> Floats | None:

@@ -6,7 +6,7 @@ import json
 import logging
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,7 +23,7 @@ from foamprb.results.folder import FATES, HOW, ResultsFolder
 from foamprb.results.pvd import SnapshotFile, read_pvd
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
-from foamprb.view.dataset import lazy_dataset
+from foamprb.view.dataset import dataset_of
 from foamprb.view.libraries import load
 
 if TYPE_CHECKING:
@@ -243,8 +243,8 @@ class Run:
         mesh.field_data["time"] = [cloud.time]
         return mesh
 
-    def to_xarray(self) -> xarray.Dataset:
-        """Return all arrays over ``time`` and ``particle``; a value is read from its file when it is used.
+    def to_xarray(self, arrays: Iterable[str] | None = None) -> xarray.Dataset:
+        """Return the positions and some arrays, by default all, over ``time`` and ``particle``.
 
         Before a particle appears its numbers are NaN, and its codes and integers −1. Attributes follow the CF
         conventions.
@@ -255,7 +255,8 @@ class Run:
             If xarray is not installed; if a file is missing or damaged.
         """
         version = self.record.get("versions", {}).get("foamprb", "")
-        return lazy_dataset(self.times, self.cloud, f"foamprb {version}".rstrip())
+        chosen = None if arrays is None else dict.fromkeys(("origId", *arrays))
+        return dataset_of(self.times, partial(self.cloud, arrays=chosen), f"foamprb {version}".rstrip())
 
     @property
     def tracks(self) -> pyvista.PolyData | None:

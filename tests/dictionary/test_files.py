@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import gzip
-import logging
 import tracemalloc
 
 import numpy as np
 import pytest
 
 from foamprb.dictionary.dimensions import described, read_dimensions
-from foamprb.dictionary.files import existing, has_both_forms, read_bytes
+from foamprb.dictionary.files import existing, read_bytes
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
 
@@ -20,17 +19,12 @@ def compress(path, text):
         file.write(text)
 
 
-def test_a_dictionary_may_be_compressed_but_the_plain_one_counts(tmp_path, caplog, monkeypatch):
-    monkeypatch.setattr("foamprb.dictionary.grammar.log.propagate", True)
+def test_a_dictionary_may_be_compressed_but_the_plain_one_counts(tmp_path):
     path = tmp_path / "transportProperties"
     compress(path, "nu 1e-6;")
     assert read_dictionary(path, tmp_path).entries["nu"].text == "1e-6"
-    assert not has_both_forms(path)
     path.write_text("nu 2e-6;")
-    with caplog.at_level(logging.WARNING):
-        assert read_dictionary(path, tmp_path).entries["nu"].text == "2e-6"
-    assert f"{path} and transportProperties.gz are both there: the first is read" in caplog.text
-    assert has_both_forms(path)
+    assert read_dictionary(path, tmp_path).entries["nu"].text == "2e-6"
     assert existing(path) == path
 
 

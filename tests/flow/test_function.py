@@ -45,7 +45,6 @@ def test_velocity_and_gradient_of_a_function(random):
     u = np.array([abc(*x) for x in points])
     l = np.array([abc_gradient(*x) for x in points])
     for flow, tolerance in (
-        (analytic.function(abc, abc_gradient), 1e-15),
         (analytic.function(abc), 1e-8),
         (analytic.function(abc, length=1e-2), 1e-8),
     ):
@@ -108,11 +107,6 @@ def capturing():
 def test_what_is_no_such_function_is_refused(u, message):
     with pytest.raises(TypeError, match=message):
         analytic.function(u)
-
-
-def test_a_gradient_has_three_rows():
-    with pytest.raises(TypeError, match=r"gradient returns something of shape \(9,\), not \(3, 3\)"):
-        analytic.function(abc, lambda x, y, z: (0.0,) * 9)
 
 
 def test_an_array_in_place_of_a_tuple_is_one_message():

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import atomic_write, drop_cache, only_writer, remove_unfinished, write_text
+from foamprb.results.atomic import atomic_write, only_writer, remove_unfinished, write_text
 
 
 def test_replaces_old_file(tmp_path: Path) -> None:
@@ -86,20 +86,3 @@ def test_a_folder_has_one_writer(tmp_path: Path) -> None:
         assert list(folder.iterdir()) == []
     with only_writer(folder):
         pass
-
-
-def test_file_is_unchanged_after_its_pages_are_dropped(tmp_path: Path, monkeypatch) -> None:
-    """Whether it is there or not, and on a file system that takes no advice as well."""
-
-    def refuse(*_: object) -> None:
-        raise OSError(errno.EINVAL, "Invalid argument")
-
-    path = tmp_path / "table.csv"
-    drop_cache(path)
-    with atomic_write(path) as temporary:
-        temporary.write_text("whole")
-    drop_cache(path)
-    assert path.read_text() == "whole"
-    monkeypatch.setattr(os, "posix_fadvise", refuse)
-    drop_cache(path)
-    assert path.read_text() == "whole"

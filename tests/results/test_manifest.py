@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import json
-from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -79,8 +78,7 @@ def test_removal_takes_listed_files_and_emptied_folders_only(tmp_path: Path) -> 
 DAMAGES = {
     "empty": lambda _: "",
     "cut short": lambda text: text[: len(text) // 2],
-    "a bit": lambda text: text.replace("a.vtp", "c.vtp"),
-    "a name less": lambda text: text.replace('  "a.vtp",\n', ""),
+    "no name": lambda text: text.replace('"a.vtp"', "1"),
     "another format": lambda text: text.replace('"format": 1', '"format": 2'),
     "no list": lambda _: "[]",
     "nested without end": lambda _: "[" * 100_000,
@@ -98,8 +96,7 @@ def test_a_damaged_manifest_is_one_message(tmp_path: Path, damage: str) -> None:
 
 @pytest.mark.parametrize("name", ["../other", "/etc/passwd", "a/../../b", "."])
 def test_manifest_lists_no_file_outside_its_folder(tmp_path: Path, name: str) -> None:
-    # Written by somebody who knows the checksum.
-    content = {"format": 1, "files": [name], "sha256": sha256(name.encode()).hexdigest()}
+    content = {"format": 1, "files": [name]}
     Manifest(tmp_path).path.write_text(json.dumps(content))
     with pytest.raises(InputError, match="which is not in its folder"):
         Manifest.read(tmp_path)
@@ -113,7 +110,7 @@ def test_nothing_beneath_a_link_is_listed(tmp_path: Path, name: str) -> None:
     link = folder / Path(name).parent
     link.parent.mkdir(parents=True)
     link.symlink_to(elsewhere)
-    content = {"format": 1, "files": [name], "sha256": sha256(name.encode()).hexdigest()}
+    content = {"format": 1, "files": [name]}
     Manifest(folder).path.write_text(json.dumps(content))
     with pytest.raises(InputError, match=f"the folder '{Path(name).parent}' is a link"):
         Manifest.read(folder)

@@ -9,7 +9,6 @@ from clouds import cloud, in_parts
 from hypothesis import given
 from hypothesis import strategies as st
 from limits import limit_of_file_size
-from numpy.typing import NDArray
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from foamprb.errors import InputError
@@ -50,14 +49,6 @@ def test_columns_of_a_transposed_array_keep_their_place(tmp_path: Path) -> None:
     columns = F.transpose(2, 1, 0).reshape(9, 2).T
     write_snapshot(tmp_path / "cloud.vtp", PointCloud(0.0, np.zeros((2, 3)), {"glyph": columns}))
     np.testing.assert_array_equal(pyvista.read(tmp_path / "cloud.vtp").point_data["glyph"], columns)
-
-
-@pytest.mark.parametrize("array", [np.zeros(3), np.zeros((2, 3, 3)), np.zeros(())])
-def test_snapshot_refuses_arrays_of_another_shape(array: NDArray[Any]) -> None:
-    with pytest.raises(ValueError, match="'F' of a snapshot has shape"):
-        PointCloud(0.0, np.zeros((2, 3)), {"F": array})
-    with pytest.raises(ValueError, match="not \\(n, 3\\)"):
-        PointCloud(0.0, array)
 
 
 def test_full_disk_is_an_error_and_keeps_the_old_file(

@@ -14,7 +14,6 @@ from foamprb.cli import main
 from foamprb.flow.base import Caveat
 from foamprb.run import job as run_job
 from foamprb.run import log as run_log
-from foamprb.run.description import renew_record
 from foamprb.view.results import open_run
 
 
@@ -56,12 +55,6 @@ def test_record_describes_a_run_and_its_continuation(case):
     # The pipe lies along x.
     assert second["flow"]["direction"] == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
     assert open_run(case).record == second
-
-
-def test_a_record_that_is_damaged_stays_as_it_is(tmp_path):
-    (tmp_path / "run.json").write_text("{")
-    renew_record(tmp_path / "run.json", None)
-    assert (tmp_path / "run.json").read_text() == "{"
 
 
 def test_the_record_has_every_model_and_warning_of_the_log(case, capsys):

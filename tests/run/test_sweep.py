@@ -129,7 +129,6 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
     page = (tmp_path / "study/comparison.html").read_text()
     for text in (
         '<td class="n">0.1</td>',
-        "median D over time",
         "stuck: wall",
         "Distribution of residence time",
     ):

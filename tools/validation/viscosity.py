@@ -37,14 +37,6 @@ def pipe_velocity(x: float, y: float, z: float) -> tuple[float, float, float]:
     return 0.375 * 2.0 ** (5.0 / 3.0) * 1e-3 * (1.0 - r ** (8.0 / 3.0)), 0.0 * x, 0.0 * x
 
 
-def pipe_gradient(x: float, y: float, z: float) -> tuple[tuple[float, ...], ...]:
-    """Return ∂u_i/∂x_j of it, 1/s."""
-    r = math.sqrt(y * y + z * z) / 1e-3
-    c = -(2.0 ** (5.0 / 3.0)) * r ** (2.0 / 3.0) * 1e3
-    zeros = (0.0 * x, 0.0, 0.0)
-    return (0.0 * x, c * y, c * z), zeros, zeros
-
-
 def sink_velocity(x: float, y: float, z: float) -> tuple[float, float, float]:
     """Return the velocity towards a point sink of 1 m³/s over 4π, m/s."""
     c = -1.0 / (x * x + y * y + z * z) ** 1.5
@@ -62,7 +54,7 @@ def _pipe(integrators: Sequence[str]) -> list[Row]:
     x = np.array([(0.0, 1e-3 * r, 0.0) for r in PIPE])
     for integrator in integrators:
         cloud = _bodies(
-            analytic.function(pipe_velocity, pipe_gradient), x, PowerLaw(k=K, n=N),
+            analytic.function(pipe_velocity), x, PowerLaw(k=K, n=N),
             Models(integrator=integrator, tolerance=1e-7), 0.05,
         )  # fmt: skip
         advance_to(cloud, 10.0)

@@ -14,7 +14,7 @@ import numpy as np
 
 from foamprb.dictionary.dimensions import RATE, VELOCITY, VOLUME_FLUX, Dimensions
 from foamprb.dictionary.values import factor_of, unit_of
-from foamprb.errors import InputError, suggestion
+from foamprb.errors import InputError, closest, suggestion
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo
@@ -127,9 +127,9 @@ def _missing(patch: PatchInfo, entry: PatchField, rule: Rule | None) -> str:
     what = f"patch {patch.name} is of type {entry.type} and has no value"
     if rule is not None:
         return f"{what}, nor what OpenFOAM computes it from. Add the entry value, as OpenFOAM writes it."
-    if entry.type in CONDITIONS:
-        return f"{what}. Allowed: value uniform (x y z), or nonuniform and a list."
-    return f"{what}, and {entry.type} is not known. {suggestion(entry.type, [*RULES, *CONDITIONS])}"
+    meant = closest(entry.type, RULES)
+    hint = f" Did you mean {meant}?" if meant else ""
+    return f"{what}. Allowed: value uniform (x y z), or nonuniform and a list.{hint}"
 
 
 def _zero(entry: PatchField, faces: PatchGeometry) -> Floats:  # noqa: ARG001
@@ -241,24 +241,3 @@ RULES: dict[str, tuple[bool, Rule]] = {
 """By type of condition: True if OpenFOAM computes the values even if there is a ``value``; and the rule."""
 
 _AMI = frozenset({"cyclicPeriodicAMI", "cyclicRepeatAMI"})
-
-CONDITIONS = frozenset(
-    """
-    activeBaffleVelocity activePressureForceBaffleVelocity advective atmBoundaryLayerInletVelocity
-    calculated codedFixedValue codedMixed cylindricalInletVelocity directionMixed exprFixedValue
-    exprMixed extrapolatedCalculated fixedInternalValue fixedJump fixedJumpAMI fixedMean
-    fixedMeanOutletInlet fixedNormalInletOutletVelocity fixedProfile fixedValue flowRateOutletVelocity
-    fluxCorrectedVelocity interstitialInletVelocity mapped mappedField mappedFixedInternalValue
-    mappedFixedPushedInternalValue mappedFlowRate mappedVelocityFlux matchedFlowRateOutletVelocity mixed
-    movingWallVelocity outletMappedUniformInlet outletPhaseMeanVelocity
-    pressureDirectedInletOutletVelocity pressureDirectedInletVelocity pressureInletOutletParSlipVelocity
-    pressureInletOutletVelocity pressureInletUniformVelocity pressureInletVelocity
-    pressureNormalInletOutletVelocity pressurePIDControlInletVelocity
-    rotatingPressureInletOutletVelocity scaledFixedValue sliced SRFFreestreamVelocity SRFVelocity
-    SRFWallVelocity supersonicFreestream swirlFanVelocity swirlFlowRateInletVelocity swirlInletVelocity
-    timeVaryingMappedFixedValue translatingWallVelocity turbulentDFSEMInlet turbulentDigitalFilterInlet
-    turbulentInlet uniformJump uniformJumpAMI uniformNormalFixedValue
-    variableHeightFlowRateInletVelocity waveTransmissive waveVelocity
-    """.split()  # noqa: SIM905
-)
-"""Other conditions of OpenFOAM for velocities, which need a ``value``."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.dictionary.files import existing, has_both_forms
+from foamprb.dictionary.files import existing
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.tree import Dictionary, Stream, unquoted
 from foamprb.errors import InputError, suggestion
@@ -210,15 +210,6 @@ def mesh_files(case: Path, time: str | None, region: str) -> tuple[Path, ...]:
     folder = mesh_folder(case, time, region)
     points = mesh_folder(case, time, region, "points")
     return (points / "points", *(folder / name for name in ("faces", "owner", "neighbour", "boundary")))
-
-
-def notes_of_forms(paths: Iterable[Path]) -> list[str]:
-    """Return a note for each file that exists plain and compressed."""
-    return [
-        f"{path} and {path.name}.gz are both there: the plain file is read, as by OpenFOAM."
-        for path in paths
-        if has_both_forms(path)
-    ]
 
 
 def field_path(folder: Path, field: str, kind: Kind) -> Path:

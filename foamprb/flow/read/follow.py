@@ -7,10 +7,8 @@ longer change.
 
 from __future__ import annotations
 
-import gzip
 import math
 import time as clock
-import zlib
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -26,13 +24,8 @@ from foamprb.flow.read.times import names_in
 __all__ = ["FollowedCase"]
 
 _CONTROL = Path("system/controlDict")
-_QUIET, _CERTAIN = 2.0, 60.0
-"""Seconds without a change after which the last time is complete: if it has the files of the time before,
-and they end as OpenFOAM ends them; and if only files that not all times have are in doubt."""
-_ENDINGS = b"//", b")"
-"""Ends of OpenFOAM's files: the line of a comment, or the last block of a collated file."""
-_TAIL, _PIECE = 64, 1 << 20
-"""Bytes of the end that are examined, and that are unpacked at once."""
+_QUIET = 10.0
+"""Seconds without a change after which the last time, and any time of collated files, is complete."""
 _ROUNDED = 1e-9
 """Relative error of a time in ``controlDict`` or in the name of a folder."""
 _CLOSE = 1e-6
@@ -69,8 +62,6 @@ class FollowedCase:
         """Whether the solver has ended, and all its times are complete."""
         self.decomposed = decomposed
         """Whether the times are in processor folders."""
-        self.unfinished = ""
-        """File that the last time lacks."""
         self._selection, self._region = selection, region
         names_in(case, ("0",), selection)
         self._control_time = -1
@@ -85,7 +76,6 @@ class FollowedCase:
         self._stamps: dict[str, int | None] = {}
         """When each complete time was written, ns; None if it is not known."""
         self._seen: tuple[object, float] = (), 0.0
-        self._checked: list[tuple[str, bool]] | None = None
 
     def require_unchanged(self, names: Iterable[str]) -> None:
         """Raise InputError if the solver has written complete times again."""
@@ -105,7 +95,6 @@ class FollowedCase:
         self._roots = self._roots or self._find_roots()
         if not self._roots:
             return
-        self.unfinished = ""
         written = _common_times(self._roots)
         selected = self._selected(written)
         self._refuse_return(selected)
@@ -113,12 +102,11 @@ class FollowedCase:
         for name in selected:
             if self.times and float(name) <= float(self.times[-1]):
                 continue
-            if name == written[-1]:
-                complete = ended and self._is_settled(name, _QUIET)
-            else:
-                # The threads of collated files lag behind the solver.
-                complete = not self._roots[0].name.startswith("processors") or self._is_settled(name, 0.0)
-            if not complete:
+            if name == written[-1] and not ended:
+                break
+            # The threads of collated files lag behind the solver.
+            lagging = name == written[-1] or self._roots[0].name.startswith("processors")
+            if lagging and not self._is_settled(name):
                 break
             self._stamps[name] = _stamp(self._roots[0] / name)
             self.times.append(name)
@@ -186,8 +174,8 @@ class FollowedCase:
             return interval * _number(control, "deltaT", math.inf), False
         return (interval if kind in ("runTime", "adjustable", "adjustableRunTime") else math.inf), False
 
-    def _is_settled(self, name: str, least: float) -> bool:
-        """Return whether the files of a time have not changed for ``least`` seconds, and are whole."""
+    def _is_settled(self, name: str) -> bool:
+        """Return whether the files of a time have not changed for a while."""
         folders = [root / name / self._region for root in self._roots]
         try:
             files = [path for folder in folders for path in sorted(folder.iterdir())]
@@ -197,25 +185,8 @@ class FollowedCase:
             return False
         if state != self._seen[0]:
             age = max(0.0, clock.time() - 1e-9 * max((changed for *_, changed in state), default=0.0))
-            self._seen, self._checked = (state, clock.monotonic() - age), None
-        quiet = clock.monotonic() - self._seen[1]
-        if quiet < least:
-            return False
-        self._checked = self._checked or [self._unfinished(root, name) for root in self._roots]
-        self.unfinished = next((file for file, _ in self._checked if file), "")
-        return not self.unfinished and (quiet >= _CERTAIN or not any(doubt for _, doubt in self._checked))
-
-    def _unfinished(self, root: Path, name: str) -> tuple[str, bool]:
-        """Return a file that a time must have but has not, or not whole; and whether others are in doubt."""
-        files = _files(root / name / self._region)
-        # The fields of a time that the solver did not write are others.
-        known = [root / time for time in self.times[-2:]]
-        before = [_files(time / self._region) for time in known if (time / "uniform/time").exists()]
-        unfinished = {field for field, path in files.items() if not _is_whole(path)}
-        for field in sorted(set.intersection(*map(set, before))) if before else ():
-            if field not in files or (field in unfinished and _is_whole(before[-1][field])):
-                return str((root / name / self._region / field).relative_to(self.case)), True
-        return "", bool(unfinished or (before and before[-1].keys() - files.keys()))
+            self._seen = state, clock.monotonic() - age
+        return clock.monotonic() - self._seen[1] >= _QUIET
 
     def _read_control(self) -> Dictionary:
         """Return ``system/controlDict``; the one of before while it is being changed."""
@@ -242,30 +213,6 @@ def _stamp(folder: Path) -> int | None:
         return (folder / "uniform/time").stat().st_mtime_ns
     except OSError:
         return None
-
-
-def _files(folder: Path) -> dict[str, Path]:
-    """Return the files of a folder by their names without ``.gz``."""
-    paths = sorted(folder.iterdir()) if folder.is_dir() else []
-    return {path.name.removesuffix(".gz"): path for path in paths}
-
-
-def _is_whole(path: Path) -> bool:
-    """Return whether a file ends as OpenFOAM ends it; True for folders."""
-    if path.is_dir():
-        return True
-    if path.suffix == ".gz":
-        tail = b""
-        try:
-            with gzip.open(path) as packed:
-                while part := packed.read(_PIECE):
-                    tail = (tail + part)[-_TAIL:]
-        except (OSError, EOFError, zlib.error):
-            return False
-        return tail.rstrip().endswith(_ENDINGS)
-    with path.open("rb") as file:
-        file.seek(max(0, path.stat().st_size - _TAIL))
-        return file.read().rstrip().endswith(_ENDINGS)
 
 
 def _number(dictionary: Dictionary, key: str, default: float) -> float:

@@ -30,7 +30,6 @@ from foamprb.flow.read.case import (
     fields_of,
     mesh_files,
     mesh_folder,
-    notes_of_forms,
     regions,
     require_case,
     select_time,
@@ -126,12 +125,11 @@ class Case:
         """
         files = mesh_files(self.root, time, self.region)
         patches = read_boundary(files[-1], self.root)
-        notes = notes_of_forms(files)
         if self.reader != "vtk":
-            return read_poly(files, patches), patches, notes
+            return read_poly(files, patches), patches, []
         from foamprb.flow.read.vtk_reader import read_poly_by_vtk
 
-        return read_poly_by_vtk(files, patches), patches, notes
+        return read_poly_by_vtk(files, patches), patches, []
 
     def mesh(self, time: str) -> CaseMesh:
         """Read the mesh at a time; InputError if it is missing, broken or inconsistent."""
@@ -242,7 +240,6 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, case.halo)
     correction = conserve(u, l, mass, case.folder(name) / source.velocity)
     notes = [*case.notes, *whole.notes]
-    notes += notes_of_forms([case.folder(name) / source.velocity])
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     notes += _caveats(case, name, turbulent=source.turbulent, relative=bool(rotations))
@@ -308,7 +305,6 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
 
     notes = [*case.notes, *whole.notes]
-    notes += notes_of_forms(case.folder(name) / source.velocity for name in names)[:1]
     notes += _caveats(case, names[-1], moving=False, turbulent=source.turbulent)
     zones = partial(case.zones, names[0])
     notes += flux

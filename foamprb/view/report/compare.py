@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import refuse_other_kind, write_text
-from foamprb.view.bodies import survey
 from foamprb.view.colours import written
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, page, table
-from foamprb.view.results import Run, Table
+from foamprb.view.results import Table
 from foamprb.view.runs import Runs
 from foamprb.view.show import PAGE_BEGINS, spread
 
@@ -23,8 +22,6 @@ __all__ = ["write_comparison"]
 Floats = NDArray[np.float64]
 
 _MOST_CURVES = 12
-_MOST_TIMES = 24
-_BLOCKS = "▁▂▃▄▅▆▇█"
 
 
 def write_comparison(runs: Runs, target: Path) -> Path:
@@ -93,7 +90,6 @@ def _rows(runs: Runs, own: dict[str, Table]) -> str:
     rows = []
     for name, fates in own.items():
         counts = [int((fates["fate"] == fate).sum()) for fate in fates_of]
-        over_time = _medians(runs[name]) if "taylorDeformation" in runs[name].components else []
         rows.append(
             (
                 name,
@@ -102,12 +98,11 @@ def _rows(runs: Runs, own: dict[str, Table]) -> str:
                 *counts,
                 _quantile(fates["t1"] - fates["t0"], 0.5, "s"),
                 *(_quantile(fates.get("D", np.zeros(0)), share) for share in (0.5, 0.95)),
-                _sparkline(over_time),
             )
         )
     head = (
         *("run", *(path.split("/")[-1] for path in paths), "injected", *fates_of),
-        *("median residence time", "median D", "D of 19 in 20 below", "median D over time"),
+        *("median residence time", "median D", "D of 19 in 20 below"),
     )
     return table("A row for each run; D at the end of each particle", head, rows)
 
@@ -118,24 +113,6 @@ def _quantile(values: Floats, share: float, unit: str = "") -> str:
         return ""
     found = float(np.quantile(values, share))
     return written(found, unit, found) if unit else f"{found:.4g}"
-
-
-def _medians(run: Run) -> list[float]:
-    """Return the median of D of the particles in the flow or on walls, at some times."""
-    return [
-        float(np.median(values)) if values is not None and len(values) else np.nan
-        for k in spread(len(run.entries), _MOST_TIMES)
-        for values in [survey(run, "taylorDeformation", "", [k])[1]]
-    ]
-
-
-def _sparkline(values: Sequence[float]) -> str:
-    """Return a curve as text; blank where there is no value."""
-    most = max((value for value in values if np.isfinite(value)), default=0.0)
-    if most <= 0.0:
-        return ""
-    top = len(_BLOCKS) - 1
-    return "".join(_BLOCKS[round(top * value / most)] if np.isfinite(value) else " " for value in values)
 
 
 def _places(labels: dict[str, str], own: dict[str, Table]) -> str:

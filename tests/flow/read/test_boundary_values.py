@@ -161,7 +161,7 @@ MISSING = {
     "fixedValue": ("type fixedValue;", r"patch lid is of type fixedValue and has no value\. Allowed: value"),
     "a typo": (
         "type noSlp;",
-        r"patch lid is of type noSlp and has no value, and noSlp is not known\. Did you mean 'noSlip'\?",
+        r"patch lid is of type noSlp and has no value\. Allowed: value .*a list\. Did you mean noSlip\?",
     ),
     "a table": (
         "type uniformFixedValue; uniformValue table ((0 (0 0 0)) (1 (1 0 0)));",
