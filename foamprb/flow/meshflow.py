@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -458,7 +459,7 @@ class MeshFlow:
         """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         hosts = np.empty(len(points), dtype=np.int32)
-        link(_locate_all, separate=LONG)(self._arrays, points, hosts)
+        _locator()(self._arrays, points, hosts)
         return hosts
 
     def overlap(self, most: int = 10_000) -> Sequence[Caveat]:
@@ -553,6 +554,12 @@ def _lists_of(start: Ints, cells: slice) -> tuple[slice, Ints]:
     return slice(int(start[cells.start]), int(start[cells.stop])), np.diff(
         start[cells.start : cells.stop + 1]
     )
+
+
+# Linking costs as much as locating thousands of points.
+@cache
+def _locator() -> Any:
+    return link(_locate_all, separate=LONG)
 
 
 def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
