@@ -47,6 +47,13 @@ def observe(cloud, function, folder, writes=(200, 400, 700)):
     return functions
 
 
+def restore(functions, state):
+    """Restore the data of functions of a cloud on one process."""
+    functions.restore(state, lambda name: np.array(state[name]))
+    for name, array in functions.cloud.cloud.comm.arrays_here().items():
+        array[:] = state[name]
+
+
 def go_on(cloud, functions, folder, writes):
     folder.mkdir(exist_ok=True)
     for target in writes:

@@ -1,4 +1,4 @@
-"""Processes of MPI as threads of this one, with what :mod:`foamprb.parallel` uses to exchange particles."""
+"""Processes of MPI as threads of this one, by which :mod:`foamprb.distributed` exchanges particles."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, su
 from foamprb.memory import OutOfMemory, ran_out
 
 if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
+    from foamprb.cloud.communicator import Communicator
 
 
 class Command(Protocol):
@@ -142,24 +142,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
     _log_to_stdout()
 
-    def answer(ranks: Ranks | None) -> int:
-        return _exit_status(words, lambda: _do(words, ranks))
+    def answer(comm: Communicator | None = None) -> int:
+        return _exit_status(words, lambda: _do(words, comm))
 
     if "--parallel" not in words:
-        return answer(None)
-    from foamprb.parallel.launch import run_together
+        return answer()
+    from foamprb.distributed.launch import run_together
 
     return _exit_status(words, lambda: run_together(answer))
 
 
-def _do(words: Sequence[str], ranks: Ranks | None) -> int:
-    """Execute the command line; a run with ``-parallel`` has the ranks among its arguments."""
+def _do(words: Sequence[str], comm: Communicator | None) -> int:
+    """Execute the command line; a run with ``-parallel`` has its communicator among the arguments."""
     for word in words:
         if not word.isprintable() and word != word.encode(errors="replace").decode():
             raise InputError(f"{word}: a name that is not UTF-8, which VTK cannot open. Rename it.")
     if words and not words[0].startswith("-") and words[0] not in COMMANDS:
         raise InputError(f"unknown command '{words[0]}'. {suggestion(words[0], COMMANDS)}")
-    parsed = _parser().parse_args(words, argparse.Namespace(ranks=ranks))
+    parsed = _parser().parse_args(words, argparse.Namespace(comm=comm))
     if parsed.command is None:
         _parser().print_help()
         return 1

@@ -11,7 +11,6 @@ from foamprb.cli.options import add_flow, source_of
 from foamprb.errors import InputError
 
 if TYPE_CHECKING:
-    from foamprb.parallel.ranks import Ranks
     from foamprb.run.follow import Follow
     from foamprb.settings.solution import StartFrom
 
@@ -56,13 +55,14 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
+    from foamprb.cloud.communicator import Communicator
     from foamprb.run.job import prepare
     from foamprb.run.log import log_description, log_dry_run
     from foamprb.run.loop import execute_until_signal
 
+    comm = arguments.comm or Communicator()
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    ranks: Ranks | None = arguments.ranks
     start_from: StartFrom | None = None
     if arguments.resume or arguments.overwrite:
         start_from = "latestTime" if arguments.resume else "startTime"
@@ -70,19 +70,19 @@ def execute(arguments: argparse.Namespace) -> int:
         arguments.case,
         "latestTime" if arguments.latestTime else arguments.time,
         arguments.dict,
-        arguments.threads or (ranks.threads if ranks else None),
+        arguments.threads or comm.threads,
         source_of(arguments),
-        precompile=ranks is None and not arguments.dry_run,
+        precompile=comm.size == 1 and not arguments.dry_run,
         outside_libs=arguments.outsideLibs,
         output=arguments.output,
-        ranks=ranks,
+        comm=comm,
         follow=_follow_options(arguments, start_from),
     )
     log_description(job)
     if arguments.dry_run:
         log_dry_run(job)
         return 0
-    execute_until_signal(job, start_from, ranks)
+    execute_until_signal(job, start_from)
     return 0
 
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from os import PathLike
-from typing import Any, NamedTuple, Protocol, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +14,18 @@ from numpy.typing import NDArray
 from foamprb.body.material import MATERIALS
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
+from foamprb.cloud.communicator import (
+    Communicator,
+    Value,
+    applied,
+    chosen,
+    in_flow,
+    normals_at,
+    same,
+    take_rebounds,
+    values_of,
+)
+from foamprb.cloud.contact import in_order
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
@@ -25,108 +36,20 @@ from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
 from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.surroundings.base import Survey
-from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
+from foamprb.cloud.tracker import Models, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
 from foamprb.flow.base import Flow
 from foamprb.flow.fields import columns_of
-from foamprb.flow.loaded import LoadedFlow, loaded_fields
 
 __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 
-Value = TypeVar("Value")
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
-PART = 1 << 14
-"""Particles in a part of :meth:`Cloud.in_order`."""
 _FIRST_CHECK = 4
 """Steps before the stability of ``paper`` is first checked; it is again whenever they have doubled."""
 _ROUND_OFF = 1e-6
 """Share of a step by which it may end after the time until which the flow is ready."""
-
-
-class Homes(Protocol):
-    """Particles that several processes hold."""
-
-    size: int
-    """Number of all particles."""
-
-    @property
-    def firsts(self) -> tuple[int, ...]:
-        """Number of the first particle of each part of a checkpoint."""
-
-    def of(self, numbers: NDArray[np.int64]) -> Particles:
-        """Return particles by their numbers, which rise."""
-
-    def observe(
-        self, numbers: NDArray[np.int64], function: Callable[..., Value], time: float, *arguments: Any
-    ) -> list[Value]:
-        """Return what a function finds of some particles, as a cloud function observes them, on each process.
-
-        Parameters
-        ----------
-        numbers
-            The particles; rising.
-        function
-            Called with an ``ObservedCloud`` that has only those of them that a process moves, and the
-            ``arguments``.
-        time
-            Time of the state, s.
-        """
-
-    def at_homes(self, function: Callable[..., Value], *arguments: Any, of: str | None = None) -> list[Value]:
-        """See :meth:`Cloud.at_homes`; ``of`` adds what a cloud function remembers to the arguments."""
-
-    def in_order(
-        self, function: Callable[..., Value], *arguments: Any, of: str | None = None
-    ) -> Iterator[Value]:
-        """See :meth:`Cloud.in_order` and :meth:`at_homes`."""
-
-    def remember(self, layout: Mapping[str, NDArray[Any]]) -> None:
-        """Make room for arrays of cloud functions, given without rows by ``function/array``."""
-
-    def begin(self, name: str, first: Callable[[Particles], Mapping[str, NDArray[Any]]]) -> None:
-        """Set what a cloud function remembers of the particles, part by part on this process.
-
-        Parameters
-        ----------
-        name
-            The function.
-        first
-            Returns what is remembered of some particles.
-        """
-
-    def share_sums(self, name: str, shape: tuple[int, ...]) -> None:
-        """Make room for sums of a cloud function, of a shape (n_cells, …), some cells on each process."""
-
-    def of_cells(self, name: str, part: slice) -> NDArray[np.float64]:
-        """Return the sums of consecutive cells of a cloud function."""
-
-    def restore(self, file: PathLike[str]) -> None:
-        """Read the particles, and what is remembered of them and of cells, from a checkpoint."""
-
-    def write_parts(self, file: PathLike[str], time: float) -> list[tuple[int, str]]:
-        """Write the same as parts of a checkpoint at a time, s.
-
-        Returns
-        -------
-        The number of the first particle of each part, and its checksum.
-
-        Raises
-        ------
-        OSError
-            If a file cannot be written.
-        """
-
-
-class Observer(Protocol):
-    """Observer of the particles before and after the steps of each call of the loop."""
-
-    def before_steps(self, flow: LoadedFlow, start: float, until: float) -> None:
-        """Observe particles before the steps from time ``start`` to ``until``, s."""
-
-    def after_steps(self, flow: LoadedFlow, until: float) -> None:
-        """Observe particles after these steps."""
 
 
 class Snapshot(NamedTuple):
@@ -147,7 +70,7 @@ class Cloud:
     Parameters
     ----------
     particles
-        The state; :meth:`advance` changes it in place. With ``homes``, that of the first process, until the
+        The state; :meth:`advance` changes it in place. Of several processes, that of the first one until the
         first step.
     flow
         Any :class:`~foamprb.flow.base.Flow`.
@@ -174,7 +97,7 @@ class Cloud:
         Limits of each particle.
     decoupled
         Names of coupled patches with other interactions than ``Cyclic``.
-    homes
+    comm
         The processes that hold the particles; by default this one alone.
 
     Raises
@@ -200,7 +123,7 @@ class Cloud:
     reach: float = 0.0
     limits: Limits = field(default_factory=Limits)
     decoupled: Collection[str] = ()
-    homes: Homes | None = None
+    comm: Communicator = field(default_factory=Communicator)
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -212,14 +135,12 @@ class Cloud:
                     f"and has the interaction {type(interaction).__name__}: use foamprb.patch_interactions, "
                     "or name it in decoupled"
                 )
-        self.at_homes(_refuse_mixture, self.models.material)
-        tense = any(self.at_homes(_is_tense))
-        if self.homes is None:
-            self.particles.number[:] = np.arange(self.size)
-        self.at_homes(_refuse_extreme, self.medium)
+        self.comm.adopt(self.particles)
+        self.map_ranks(_refuse_mixture, self.models.material)
+        tense = any(self.map_ranks(_is_tense))
+        self.map_ranks(_refuse_extreme, self.medium)
         self._refuse_early()
-        if self.homes is None:
-            find_hosts(self.particles, self.flow)
+        find_hosts(self.particles, self.flow)
         self.stokes_numbers: tuple[float, float] | None = None
         """Largest of the shape and of the path, if the integrator follows from them."""
         if self.models.integrator == "auto":
@@ -234,11 +155,11 @@ class Cloud:
             for kernel in model.traits.kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
-        self.at_homes(_begin, around)
+        self.map_ranks(_begin, around)
         self._warned: set[str] = set()
         self._next_check = self.step + _FIRST_CHECK
         self._reach_grows = True
-        self._largest = max(self.at_homes(_largest_radius))
+        self._largest = max(self.map_ranks(_largest_radius))
         self._refuse_large()
         self.tracker = Tracker(
             self.models,
@@ -247,62 +168,62 @@ class Cloud:
             self.interactions,
             self.dt,
             self.start,
-            shaped=any(self.at_homes(_is_shaped)),
+            shaped=any(self.map_ranks(_is_shaped)),
             tense=tense,
             patches=self.flow.patches,
             columns=columns_of(self.flow),
         )
+        self.comm.rank.tracker = self.tracker
 
     @property
     def size(self) -> int:
         """Number of particles, those of other processes included."""
-        return self.particles.size if self.homes is None else self.homes.size
+        return self.comm.n_particles
 
-    def at_homes(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
-        """Return what a function finds of the particles of each process.
+    def map_ranks(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """Apply a function to the particles of each rank, in any order, and the arguments."""
+        return self.comm.call(applied, function, None, *arguments)
 
-        Parameters
-        ----------
-        function
-            Called with particles in any order, and the ``arguments``.
+    def map_by_id(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+        """Apply a function to blocks of particles sorted by number, and the arguments.
+
+        A cloud without particles has one block.
         """
-        if self.homes is None:
-            return [function(self.particles, *arguments)]
-        return self.homes.at_homes(function, *arguments)
+        return self.comm.map_by_id(function, *arguments)
 
-    def in_order(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
-        """Yield what a function finds of all particles, part by part in the order of their numbers.
+    def map_in_flow(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """Apply a function to the particles of each rank, the flow around them, the time (s), and others."""
+        self.publish()
+        return self.comm.call(in_flow, function, self.time, *arguments)
 
-        A cloud without particles has one part. See :meth:`at_homes`.
-        """
-        if self.homes is None:
-            return parts_in_order(self.particles, function, *arguments)
-        return self.homes.in_order(function, *arguments)
+    def publish(self) -> None:
+        """Give all ranks the flow at the present time."""
+        self.flow.load(self.time, self.time)
+        self.comm.publish(self.flow_arrays(), self.flow)
 
     def of(self, numbers: NDArray[np.int64]) -> Particles:
         """Return particles by their numbers, in this order."""
-        if self.homes is None:
-            return self.particles.take(numbers)
         sought, order = np.unique(numbers, return_inverse=True)
-        return self.homes.of(sought).take(order)
+        found = concatenate(self.comm.call(chosen, sought))
+        return found.take(np.argsort(found.number)[order])
 
     def values_of(self, numbers: NDArray[np.int64], name: str) -> NDArray[Any]:
         """Return one array of particles by their numbers, in this order."""
-        if self.homes is None:
-            values: NDArray[Any] = getattr(self.particles, name)
-            return values[numbers]
-        sought, order = np.unique(numbers, return_inverse=True)
-        found = [np.concatenate(part) for part in zip(*self.at_homes(_values_of, sought, name), strict=True)]
-        return np.asarray(found[1][np.argsort(found[0])][order])
+        return self._joined(numbers, self.comm.call(values_of, np.unique(numbers), name))
+
+    def _joined(self, numbers: NDArray[np.int64], found: Sequence[Any]) -> NDArray[Any]:
+        """Return the values of particles by their numbers, from those of each rank with their numbers."""
+        known, values = (np.concatenate(parts) for parts in zip(*found, strict=True))
+        order = np.argsort(known)
+        return np.asarray(values[order[np.searchsorted(known, numbers, sorter=order)]])
 
     def whole(self) -> Particles:
-        """Return all particles, which takes the memory of the whole cloud if there are ``homes``."""
-        return self.particles if self.homes is None else concatenate(self.in_order(same))
+        """Return all particles, which takes the memory of the whole cloud if there are several ranks."""
+        return self.particles if self.comm.size == 1 else concatenate(self.map_by_id(same))
 
     def counts(self) -> dict[Status, int]:
         """Return the number of particles of each status."""
-        found = self.at_homes(Particles.counts)
-        return {status: sum(counts[status] for counts in found) for status in Status}
+        return self.comm.counts()
 
     @property
     def time(self) -> float:
@@ -398,7 +319,7 @@ class Cloud:
         -------
         A row for each, in the order of their times; see :func:`foamprb.cloud.contact.rebounds_of`.
         """
-        return self.tracker.take_rebounds()
+        return in_order(self.comm.call(take_rebounds))
 
     def snapshot(self, before: Snapshot | None = None) -> Snapshot:
         """Return a copy of the arrays that steps change, and the other arrays themselves.
@@ -420,11 +341,8 @@ class Cloud:
         Normals, (n, 3); NaN where no wall is found.
         """
         self._grow_reach()
-        remote = getattr(self.flow, "normals_of", None)
-        if remote is not None:
-            found: NDArray[np.float64] = remote(p.number)
-            return found
-        return self.tracker.contact_normals(self.flow_arrays(), p, np.arange(p.size))
+        self.publish()
+        return self._joined(p.number, self.comm.call(normals_at, np.unique(p.number)))
 
     def flow_arrays(self) -> Any:
         """Return the arguments of the flow's kernels, with walls within :attr:`reach` or a model's range."""
@@ -457,7 +375,7 @@ class Cloud:
     def _grow_reach(self) -> None:
         """Set the reach at the start beyond the range of the longest particle."""
         if self.reach == 0.0:
-            self.reach = SEEN * _REACH_MARGIN * max(self.at_homes(longest_semi_axis))
+            self.reach = SEEN * _REACH_MARGIN * max(self.map_ranks(longest_semi_axis))
 
     def extend_reach(self) -> None:
         """List walls farther away, unless the lists would be too long: then bodies that need it fail."""
@@ -470,7 +388,7 @@ class Cloud:
     def _refuse_large(self) -> None:
         """Raise InputError if a particle that has not ended is larger than the flow is wide."""
         most = self.bounds.maxLength
-        numbers, lengths = map(np.concatenate, zip(*self.at_homes(_longer_than, most), strict=True))
+        numbers, lengths = map(np.concatenate, zip(*self.map_ranks(_longer_than, most), strict=True))
         if len(numbers):
             raise InputError(
                 f"{len(numbers)} of {self.size} particles are too large for the flow, which is "
@@ -481,7 +399,7 @@ class Cloud:
 
     def _refuse_early(self) -> None:
         """Raise InputError if a particle would appear before the start."""
-        early = np.concatenate(self.at_homes(_released_before, self.start))
+        early = np.concatenate(self.map_ranks(_released_before, self.start))
         if len(early):
             raise InputError(
                 f"{len(early)} of {self.size} particles would appear before the start of the run at "
@@ -491,7 +409,7 @@ class Cloud:
     def _find_stokes_numbers(self) -> tuple[float, float]:
         """Return the largest Stokes numbers of shape and path of the particles that have not ended."""
         found = [(0.0, 0.0)]
-        for moving in self.in_order(_moving):
+        for moving in self.map_by_id(_moving):
             medium = medium_at(self.medium, self.flow, moving, self.time)
             shape = shape_stokes_number(moving, self.flow, medium.mu, self.time)
             found.append((shape, path_stokes_number(moving, self.flow, medium, self.time)))
@@ -523,20 +441,17 @@ def _refuse_extreme(p: Particles, medium: Medium) -> None:
 
 
 class Stepper:
-    """Stepper that advances a cloud with the threads of this process.
-
-    A subclass may keep the particles elsewhere.
+    """Stepper that advances a cloud with the ranks that hold its particles.
 
     Parameters
     ----------
     cloud
-        The cloud; its arrays change in place.
-    observer
-        Observer of the particles; by default none.
+        The cloud; of one process, its arrays change in place.
     """
 
-    def __init__(self, cloud: Cloud, observer: Observer | None = None) -> None:
-        self.cloud, self._observer = cloud, observer
+    def __init__(self, cloud: Cloud) -> None:
+        self.cloud = cloud
+        cloud.comm.begin(cloud)
 
     def advance(self, steps: int, stop: Callable[[], bool] = never) -> None:
         """Advance by ``steps`` time steps, without warnings about failed particles.
@@ -558,8 +473,9 @@ class Stepper:
         cloud = self.cloud
         last = cloud.step + steps
         while cloud.step < last:
-            flow, ready = cloud.load_flow(last - cloud.step)
-            outcome = self._carry(flow, ready, stop)
+            arrays, ready = cloud.load_flow(last - cloud.step)
+            cloud.comm.publish(arrays, cloud.flow)
+            outcome = cloud.comm.advance(cloud.step, ready, cloud.bounds, stop)
             cloud.recovered += outcome.mended
             if outcome.outgrown:
                 cloud.extend_reach()
@@ -567,56 +483,6 @@ class Stepper:
                 cloud.step += ready
             elif not outcome.crowded or stop():
                 return
-
-    def gather(self) -> None:
-        """Bring what cloud functions have recorded up to date."""
-
-    def each(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
-        """Return what a function finds of the particles where they are, of each process.
-
-        Parameters
-        ----------
-        function
-            Called with particles, the flow around them, the time (s), and the ``arguments``.
-        """
-        cloud = self.cloud
-        return [function(cloud.particles, cloud.flow, cloud.time, *arguments)]
-
-    def regroup(self) -> None:
-        """Distribute the particles again if that pays; no-op on one process."""
-
-    def counts(self) -> dict[Status, int]:
-        """Return the number of particles of each status."""
-        return self.cloud.particles.counts()
-
-    def _carry(self, flow: Any, steps: int, stop: Callable[[], bool]) -> Outcome:
-        """Advance with the arguments of the flow's kernels, once."""
-        cloud = self.cloud
-        fields = loaded_fields(cloud.flow)
-        given = flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop, fields
-        if self._observer is None:
-            return cloud.tracker.advance(*given)
-        seen = LoadedFlow(cloud.tracker.kernels, flow, fields)
-        until = cloud.start + (cloud.step + steps) * cloud.dt
-        self._observer.before_steps(seen, cloud.time, until)
-        outcome = cloud.tracker.advance(*given)
-        self._observer.after_steps(seen, until)
-        return outcome
-
-
-def parts_of(n: int) -> Iterator[slice]:
-    """Yield the rows of each part of n particles; once without particles."""
-    return (slice(start, start + PART) for start in range(0, max(n, 1), PART))
-
-
-def parts_in_order(p: Particles, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
-    """Yield what a function finds of particles, part by part; once without particles."""
-    return (function(p.take(part), *arguments) for part in parts_of(p.size))
-
-
-def same(p: Particles) -> Particles:
-    """Return the particles themselves, for :meth:`Cloud.at_homes` and :meth:`Cloud.in_order`."""
-    return p
 
 
 def regrouped(parts: Iterable[Particles], n: int) -> Iterator[Particles]:
@@ -707,12 +573,6 @@ def _longer_than(p: Particles, most: float) -> tuple[NDArray[np.int64], NDArray[
     longest = p.R * longest_stretch(tuple(p.F.T))
     wrong = (longest > most) & (p.status <= Status.ACTIVE)
     return p.number[wrong], longest[wrong]
-
-
-def _values_of(p: Particles, numbers: NDArray[np.int64], name: str) -> tuple[NDArray[np.int64], NDArray[Any]]:
-    """Return which of some particles these have, and their values of an array."""
-    rows = np.flatnonzero(np.isin(p.number, numbers))
-    return p.number[rows], getattr(p, name)[rows]
 
 
 def find_hosts(p: Particles, flow: Flow) -> None:

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from foamprb.cloud import contact
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Value, parts_of
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.communicator import Rank, Value
 from foamprb.cloud.contact import Rebounds
 from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts, fields_at
 from foamprb.cloud.patches import CYCLIC, Interaction
@@ -53,6 +54,7 @@ __all__ = [
     "fields_of",
     "has_ended",
     "in_time",
+    "map_where_they_move",
     "masses",
     "memory_of",
     "names_of",
@@ -148,24 +150,16 @@ class ObservedCloud:
                 parts.append([np.array(function(c)) for function in functions])
         return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
 
-    def map(self, memory: Memory, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+    def map(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
         """Apply a function to blocks of particles, sorted by number; once to a cloud without particles.
 
         Parameters
         ----------
-        memory
-            Arrays of the observing function with a row for each particle, see :func:`rows_of_particles`.
         function
-            Called with particles, the arrays of these particles, and the ``arguments``; other processes
-            import it.
+            Called with particles, the arrays ``per_particle`` of the observing function for these, and the
+            ``arguments``; other processes import it.
         """
-        if self.cloud.homes is not None:
-            return self.cloud.homes.in_order(function, *arguments, of=self._name)
-        p = self.cloud.particles
-        return (
-            function(p.take(part), {key: array[part] for key, array in memory.items()}, *arguments)
-            for part in parts_of(p.size)
-        )
+        return self.cloud.comm.map_by_id(function, *arguments, of=self._name)
 
 
 @dataclass(frozen=True)
@@ -323,14 +317,33 @@ def fields_at_release(
     return fields_at(cloud.cloud.flow, p.x0[rows], hosts, p.t0[rows])
 
 
-def sums_of_cells(
-    cloud: ObservedCloud, sums: NDArray[np.float64], n: int
-) -> Iterator[tuple[slice, NDArray[np.float64]]]:
+def sums_of_cells(cloud: ObservedCloud, name: str, n: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
     """Yield parts of n cells in their order, and the rows of each of an array ``per_cell``."""
-    homes = cloud.cloud.homes
     for first in range(0, n, CELLS):
         part = slice(first, min(first + CELLS, n))
-        yield part, sums[part] if homes is None else homes.of_cells(cloud._name, part)
+        yield part, np.concatenate(cloud.cloud.comm.call(_sums_of, f"{cloud._name}/{name}", part))
+
+
+def _sums_of(rank: Rank, path: str, part: slice) -> NDArray[np.float64]:
+    """Return the cell sums of a rank's part of a range."""
+    first, sums = rank.sampling.sums[path]
+    ends = first[rank.number : rank.number + 2]
+    own: NDArray[np.float64] = sums[slice(*np.clip([part.start, part.stop], *ends) - ends[0])]
+    return own
+
+
+def map_where_they_move(
+    cloud: ObservedCloud, numbers: Rows, function: Callable[..., Value], *arguments: Any
+) -> list[Value]:
+    """Apply a function to the cloud with the given particles, by rising numbers, that each rank owns."""
+    return cloud.cloud.comm.call(_observe, numbers, function, cloud.time, *arguments)
+
+
+def _observe(
+    rank: Rank, numbers: Rows, function: Callable[..., Value], time: float, *arguments: Any
+) -> Value:
+    p = rank.particles.take(rank.find(numbers)[1])
+    return function(rank.sampling.cloud(rank, p, time), *arguments)
 
 
 def store(memory: Memory, rows: Rows, values: Memory) -> None:

@@ -24,7 +24,6 @@ from foamprb.cloudfunctions.base import (
     fields_of,
     names_of,
     per_particle,
-    rows_of_particles,
 )
 from foamprb.dictionary.constraints import Meaning, Words
 from foamprb.errors import InputError
@@ -100,11 +99,10 @@ class FieldSampling(SampledFunction, StepObserver):
                     for v in (before, now["value"])]  # fmt: skip
             memory["largest"][rows, k] = np.fmax(memory["largest"][rows, k], np.fmax(*both))
 
-    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
+    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:  # noqa: ARG002
         """Write the values of all particles that were released."""
         columns = self._columns(columns_of(cloud.cloud.flow))
-        own = rows_of_particles(self, memory)
-        rows = cloud.map(own, _values_of, columns, cloud.names["injector"])
+        rows = cloud.map(_values_of, columns, cloud.names["injector"])
         write_rows(folder / "fields.csv", rows)
 
     def fates(self, memory: Memory, fields: Sequence[FieldColumns]) -> Mapping[str, Column]:

@@ -28,7 +28,6 @@ from foamprb.cloudfunctions.base import (
     names_of,
     passages,
     per_particle,
-    rows_of_particles,
     table,
 )
 from foamprb.dictionary.constraints import Choice, Meaning, Positive
@@ -294,8 +293,7 @@ class Haemolysis(SampledFunction, ContactObserver):
         injectors = cloud.names["injector"]
 
         def rows() -> Iterator[TableRows]:
-            own = rows_of_particles(self, memory)
-            for damage in cloud.map(own, self._damage, injectors):
+            for damage in cloud.map(self._damage, injectors):
                 found.append(damage._replace(rows=TableRows((), b"")))
                 yield damage.rows
 

@@ -20,7 +20,6 @@ from foamprb.cloudfunctions.base import (
     SampleInterval,
     names_of,
     per_particle,
-    rows_of_particles,
 )
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
@@ -90,16 +89,15 @@ class ParticleHistogram(SampledFunction):
         memory["sumShearRate"][rows] += 0.5 * h * (rate + now["shearRate"])
         memory["maxD"][rows] = np.maximum(memory["maxD"][rows], now["D"])
 
-    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
+    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:  # noqa: ARG002
         """Write the tables of all particles that were released; the distributions leave out the failed."""
-        own, injectors = rows_of_particles(self, memory), cloud.names["injector"]
-        rows = cloud.map(own, _exposures_of, injectors)
-        write_rows(folder / "exposure.csv", rows)
+        injectors = cloud.names["injector"]
+        write_rows(folder / "exposure.csv", cloud.map(_exposures_of, injectors))
         for name in self.fields:
             # The edges follow from the smallest and the largest value.
-            ends = np.concatenate([*cloud.map(own, _ends_of, name)])
+            ends = np.concatenate([*cloud.map(_ends_of, name)])
             edges = np.histogram_bin_edges(ends, self.nBins)
-            counts = np.sum([*cloud.map(own, _numbers_in, name, edges, len(injectors))], axis=0)
+            counts = np.sum([*cloud.map(_numbers_in, name, edges, len(injectors))], axis=0)
             table: dict[str, Column] = {"lower": edges[:-1], "upper": edges[1:]}
             table |= dict(zip(injectors, counts, strict=True))
             write_table(folder / f"{name}.csv", table)

@@ -107,7 +107,7 @@ class ParticleStatistics(SampledFunction, StepObserver):
         sizes = _flow(cloud).mesh_sizes()
         n, time = len(sizes.volumes), max(cloud.time - cloud.cloud.start, 1e-300)
         beside = np.empty((len(sizes.owner), memory["sums"].shape[1]))
-        for part, sums in sums_of_cells(cloud, memory["sums"], n):
+        for part, sums in sums_of_cells(cloud, "sums", n):
             faces = np.flatnonzero((sizes.owner >= part.start) & (sizes.owner < part.stop))
             beside[faces] = sums[sizes.owner[faces] - part.start]
         on_faces = _fields(beside, sizes.volumes[sizes.owner], time)
@@ -122,7 +122,7 @@ class ParticleStatistics(SampledFunction, StepObserver):
             }
             cells = (
                 _fields(sums, sizes.volumes[part], time)[name]
-                for part, sums in sums_of_cells(cloud, memory["sums"], n)
+                for part, sums in sums_of_cells(cloud, "sums", n)
             )
             write_field(folder / f"{cloud.time:.12g}" / name, _DIMENSIONS[name], cells, n, patches)
 
@@ -163,7 +163,7 @@ def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:
 
     counts = np.zeros(len(sizes.areas))
     trees: dict[int, cKDTree] = {}
-    for x, patch in cloud.map({}, _stuck):
+    for x, patch in cloud.map(_stuck):
         for index in np.unique(patch):
             first, last = sizes.patch_start[index : index + 2].tolist()
             if last > first:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from foamprb.cloudfunctions.base import (
     fields_at_release,
     fields_of,
     has_ended,
+    map_where_they_move,
     passages,
     table,
 )
@@ -94,7 +95,8 @@ class ParticleTracks(CloudFunction, ContactObserver):
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add a point to the path of every particle that has moved since."""
         open_ = memory["row"][~memory["closed"]]
-        number, ended, points = map(np.concatenate, zip(*_where_they_move(cloud, open_), strict=True))
+        parts = map_where_they_move(cloud, open_, _released)
+        number, ended, points = map(np.concatenate, zip(*parts, strict=True))
         tracks = np.searchsorted(memory["row"], number)
         memory["closed"][tracks] = ended
         last = memory["points"][tracks, memory["count"][tracks] - 1, 3]
@@ -154,13 +156,6 @@ class ParticleTracks(CloudFunction, ContactObserver):
                 {"status": STATUS_NAMES, **cloud.names},
             ),
         )  # fmt: skip
-
-
-def _where_they_move(cloud: ObservedCloud, numbers: Rows) -> list[Any]:
-    """Return :func:`_released` of particles, given by rising numbers, on each process."""
-    if cloud.cloud.homes is None:
-        return [_released(cloud.of(numbers))]
-    return cloud.cloud.homes.observe(numbers, _released, cloud.time)
 
 
 def _released(cloud: ObservedCloud) -> tuple[Rows, NDArray[np.bool_], NDArray[np.float64]]:

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import parts_of
+from foamprb.cloud.communicator import parts_of
 from foamprb.cloud.contact import Rebounds, in_order, rebounds_of
 from foamprb.cloud.patches import REBOUND, Interaction
 from foamprb.cloud.state import Particles, Status
@@ -118,7 +118,7 @@ class PatchPostProcessing(CloudFunction, ContactObserver):
 
     def _landings(self, cloud: ObservedCloud, patch: int) -> Iterator[Rebounds]:
         """Yield the ends of particles on a patch in the order of time, in the form of rebounds."""
-        numbers, times = map(np.concatenate, zip(*cloud.map({}, _landed, patch), strict=True))
+        numbers, times = map(np.concatenate, zip(*cloud.map(_landed, patch), strict=True))
         numbers = numbers[np.argsort(times, kind="stable")][: self.maxStoredParcels]
         for part in parts_of(len(numbers)):
             p = cloud.of(numbers[part]).particles

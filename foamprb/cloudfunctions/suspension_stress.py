@@ -39,7 +39,7 @@ class SuspensionStress(CloudFunction):
         """Write the table, with one more row for each injection model."""
         lines = []
         for index in range(len(cloud.names["injector"])):
-            moving = regrouped(cloud.map({}, _moving, index), PER_CONTEXT)
+            moving = regrouped(cloud.map(_moving, index), PER_CONTEXT)
             lines.append([cloud.time, index, *_suspension(cloud, moving)])
         time, index, n, *values = append(memory, "history", lines).T
         names = ("volume", "Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz", "intrinsicViscosity")

@@ -76,7 +76,7 @@ def groups(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> Group
     extension
         :func:`extension_rates` of the flow.
     """
-    parts = [(p.size, _ranges(cloud, p)) for p in cloud.in_order(_released_by, injector) if p.size]
+    parts = [(p.size, _ranges(cloud, p)) for p in cloud.map_by_id(_released_by, injector) if p.size]
     found = np.array([own for _, own in parts]) if parts else np.full((1, 8, 2), np.nan)
     lowest, largest = found[:, :, 0].min(axis=0), found[:, :, 1].max(axis=0)
     rate, capillary, reynolds, stokes, step, size, path, stiffness = (
@@ -127,7 +127,7 @@ def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> f
     A solid has none beyond a capillary number of extension. A drop breaks up where it grows faster than its
     surface tension restores it.
     """
-    found = [own for of_home in cloud.at_homes(_softest_of, injector) for own in of_home]
+    found = [own for of_rank in cloud.map_ranks(_softest_of, injector) for own in of_rank]
     if len(extension) == 0 or not found:
         return 0.0
     values = _at_few_nodes(cloud.flow)

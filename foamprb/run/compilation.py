@@ -133,7 +133,7 @@ class Compilation:
             atexit.unregister(self.stop)
 
 
-def compile_run(cloud: Cloud, compilation: Compilation, alone: bool) -> None:
+def compile_run(cloud: Cloud, compilation: Compilation) -> None:
     """Compile the code of a run; no-op for compiled code.
 
     Parameters
@@ -142,8 +142,6 @@ def compile_run(cloud: Cloud, compilation: Compilation, alone: bool) -> None:
         The cloud, before its first step.
     compilation
         Of the run.
-    alone
-        Whether this process takes all steps, so that it needs the loop.
     """
     with compilation.shown():
         arguments = cloud.make_ready()
@@ -152,7 +150,8 @@ def compile_run(cloud: Cloud, compilation: Compilation, alone: bool) -> None:
         first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
         first.status[:] = Status.ACTIVE
         context(first, cloud.flow, cloud.medium.mu, cloud.time)
-        if alone:
+        # Of several ranks, each compiles the loop with its first steps.
+        if cloud.comm.size == 1:
             with compiling_libs():
                 cloud.tracker.compile(arguments)
     compilation.log_end()

@@ -114,14 +114,14 @@ def _surveyed(cloud: Cloud) -> Particles:
 
     Of several processes the first gathers these; the others are zero, and take no memory of the machine.
     """
-    if cloud.homes is None or not cloud.models.surroundings:
+    if cloud.comm.size == 1 or not cloud.models.surroundings:
         return cloud.particles
     models = [m for m in cloud.models.surroundings if type(m).remarks is not Surrounding.remarks]
     names = {name for model in models for name in model.traits.surveys}
     if model_of(cloud.medium.mu):
         names |= {"x", "host"}
     arrays = {name: np.zeros((cloud.size, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}
-    for some in cloud.in_order(_arrays_of, tuple(names)):
+    for some in cloud.map_by_id(_arrays_of, tuple(names)):
         rows = some.pop("number")
         for name, array in some.items():
             arrays[name][rows] = array

@@ -17,7 +17,8 @@ import numpy as np
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import PART, Cloud
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.communicator import Communicator
 from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.models import (
     START_OF_FLOW,
@@ -29,7 +30,6 @@ from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.patches import CYCLIC
-from foamprb.cloud.state import concatenate
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
 from foamprb.cloud.viscosity import viscosity_at_rate
@@ -42,7 +42,6 @@ from foamprb.flow.read.flows import check_region, read_flow, read_transient_flow
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
-from foamprb.parallel.ranks import Ranks
 from foamprb.results.folder import ResultsFolder
 from foamprb.run.compilation import Compilation
 from foamprb.run.description import describe
@@ -127,7 +126,7 @@ def prepare(
     output: Path | str | None = None,
     overrides: Mapping[str, object] | None = None,
     flows: dict[FlowSource, Flow] | None = None,
-    ranks: Ranks | None = None,
+    comm: Communicator | None = None,
     follow: Follow | None = None,
 ) -> Job:
     """Read a case and place its particles.
@@ -156,8 +155,8 @@ def prepare(
         lists, mappings are dictionaries.
     flows
         Steady flows of this case and time that have been read, by their sources; a new one is added.
-    ranks
-        Processes of ``mpirun``, which read parts of a decomposed case if they run on several computers.
+    comm
+        Processes of ``mpirun`` that advance the particles; by default this one alone.
     follow
         Options of a run beside the solver of a transient flow: its times are read as they are written.
 
@@ -168,7 +167,7 @@ def prepare(
     RunStopped
         With ``follow``, if the solver has written no time for too long.
     """
-    case = Path(case)
+    case, comm = Path(case), comm or Communicator()
     source = source or FlowSource()
     check_region(case, source)
     # The latest time may be unfinished, and is another one when the run continues.
@@ -191,12 +190,12 @@ def prepare(
     with compilation.shown():
         flow = None if flows is None or settings.solution.transient else flows.get(source)
         if follow is not None:
-            following = _follow(settings, time, source, output, follow, ranks)
+            following = _follow(settings, time, source, output, follow, comm)
             given: Any = following.flow
             flow = given
         if flow is None:
             times = FlowTimes(time, settings.solution.transient, settings.solution.period)
-            flow = _open_flow(settings, ranks, case, times, source)
+            flow = _open_flow(settings, comm, case, times, source)
         if flows is not None and not settings.solution.transient:
             flows[source] = flow
         for note in flow.notes:
@@ -206,7 +205,7 @@ def prepare(
                 log.info("    %s", note)
         if following is not None:
             _wait_for_injections(settings, following)
-        job = assemble(settings, flow, threads, following is not None, ranks)
+        job = assemble(settings, flow, threads, following is not None, comm)
     return replace(job, compilation=compilation, output=output, following=following)
 
 
@@ -285,24 +284,22 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
 
 def _open_flow(
     settings: Settings,
-    ranks: Ranks | None,
+    comm: Communicator,
     case: Path,
     times: FlowTimes,
     source: FlowSource,
     followed: bool = False,
 ) -> Flow:
-    """Return the flow of a case, with a part on each of several nodes if it can be."""
-    if ranks is not None:
-        solution = settings.solution
-        step = solution.deltaT * stretch_of(solution.stride)
-        parts: Any = ranks.open_flow(case, times, source, step, followed)
-        if parts is not None:
-            found: Flow = parts
-            return found
-    flow = _read_flow(settings, case, times, source)
-    if isinstance(flow, MeshFlow):
-        flow.notes += tuple(flow.overlap())
-    return flow
+    """Return the flow of a case; several nodes may hold it together."""
+
+    def read() -> Flow:
+        flow = _read_flow(settings, case, times, source)
+        if isinstance(flow, MeshFlow):
+            flow.notes += tuple(flow.overlap())
+        return flow
+
+    step = settings.solution.deltaT * stretch_of(settings.solution.stride)
+    return comm.open_flow(read, case, times, source, step, followed)
 
 
 def _read_flow(settings: Settings, case: Path, times: FlowTimes, source: FlowSource) -> Flow:
@@ -323,7 +320,7 @@ def _follow(
     source: FlowSource,
     output: Path | None,
     options: Follow,
-    ranks: Ranks | None,
+    comm: Communicator,
 ) -> Following:
     """Return the flow of a solver that is running."""
     solution = settings.solution
@@ -337,9 +334,8 @@ def _follow(
     folder = ResultsFolder.of_case(settings.case, settings.name, settings.region, output)
     options = replace(options, start_from=options.start_from or solution.startFrom)
     selection = None if time is None else str(time)
-    read = partial(_open_flow, settings, ranks, followed=True)
-    signal = (lambda: 0) if ranks is None else ranks.signal
-    return begin_to_follow(settings.case, folder, options, selection, source, read, signal)
+    read = partial(_open_flow, settings, comm, followed=True)
+    return begin_to_follow(settings.case, folder, options, selection, source, read, comm.signal)
 
 
 def _wait_for_injections(settings: Settings, following: Following) -> None:
@@ -360,11 +356,9 @@ def assemble(
     flow: Flow,
     threads: int | None = None,
     growing: bool = False,
-    ranks: Ranks | None = None,
+    comm: Communicator | None = None,
 ) -> Job:
     """Place the particles of the settings in a flow; a ``growing`` one may end before the run.
-
-    With ``ranks`` each process of ``mpirun`` holds some of them, otherwise this one holds all.
 
     Raises
     ------
@@ -378,8 +372,8 @@ def assemble(
     solids = sorted({injection.solid.type for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
-    homes = None if ranks is None else ranks.homes_of(release.size, release.parts(PART))
-    particles = concatenate(release.parts()) if homes is None else homes.particles
+    comm = comm or Communicator()
+    particles = comm.place(release.size, release.parts)
     solution = settings.solution
     models = _models(settings, solution.integrationSchemes.shape, bool(getattr(flow, "rotating", ())))
     by_name = {patch.name: i for patch, i in zip(flow.patches, interactions, strict=True)}
@@ -397,7 +391,7 @@ def assemble(
             start=start,
             limits=solution.limits,
             decoupled=[patch.name for patch in flow.patches if by_name[patch.name].code != CYCLIC],
-            homes=homes,
+            comm=comm,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error

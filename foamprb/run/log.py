@@ -15,7 +15,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 import foamprb
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Stepper, explain
+from foamprb.cloud.cloud import explain
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.stability import unstable, warning_of
@@ -113,7 +113,7 @@ class RunLog:
 
     def __init__(self, job: Job) -> None:
         self._job = job
-        failed = np.sort(np.concatenate(job.cloud.at_homes(_failed_of, _MAX_LISTED_FAILURES)))
+        failed = np.sort(np.concatenate(job.cloud.map_ranks(_failed_of, _MAX_LISTED_FAILURES)))
         self._listed = set(failed[:_MAX_LISTED_FAILURES].tolist())
         """Numbers of failed particles that need no line; no more than lines."""
         self._unstable = 0
@@ -123,9 +123,9 @@ class RunLog:
         """Log the start of the time loop."""
         log.info("\nStarting time loop\n")
 
-    def write_time(self, stepper: Stepper) -> None:
+    def write_time(self) -> None:
         """Log the numbers of particles at a write time, and the failures since the time before."""
-        cloud, counts = self._job.cloud, stepper.counts()
+        cloud, counts = self._job.cloud, self._job.cloud.counts()
         log.info("Time = %.12g\n", cloud.time)
         log.info("Cloud: %s", self._job.settings.name)
         log.info("    Current number of parcels       = %d", counts[Status.ACTIVE])
@@ -135,23 +135,24 @@ class RunLog:
         if cloud.models.has_fates:
             log.info("    ruptured, released              = %d, %d",
                      counts[Status.RUPTURED], counts[Status.RELEASED])  # fmt: skip
-        self._log_steps(stepper)
+        self._log_steps()
         self._log_clocks()
-        self._log_failures(stepper)
-        self._log_unstable(stepper)
-        self._log_slip(stepper)
+        self._log_failures()
+        self._log_unstable()
+        self._log_slip()
 
-    def end(self, stepper: Stepper, finished: bool) -> None:
+    def end(self, finished: bool) -> None:
         """Log the fates of the particles, the folder of the results, and End if the run has ``finished``."""
-        self._log_fates(stepper)
+        self._log_fates()
         log.info("\nResults in %s", self._job.folder.path)
         self._log_clocks()
         if finished:
             log.info("End")
 
-    def _log_steps(self, stepper: Stepper) -> None:
+    def _log_steps(self) -> None:
         """Log the number of time steps per tracking step."""
-        moved, steps, most, short = zip(*stepper.each(_steps_of, self._job.cloud.dt), strict=True)
+        cloud = self._job.cloud
+        moved, steps, most, short = zip(*cloud.map_in_flow(_steps_of, cloud.dt), strict=True)
         n = sum(moved)
         if n == 0:
             return
@@ -164,32 +165,32 @@ class RunLog:
         wall = clock.perf_counter() - foamprb.started
         log.info("ExecutionTime = %.2f s  ClockTime = %.2f s\n", clock.process_time(), wall)
 
-    def _log_failures(self, stepper: Stepper) -> None:
+    def _log_failures(self) -> None:
         """Log the particles that have failed since the last time, up to a number in all."""
         cloud, room = self._job.cloud, _MAX_LISTED_FAILURES - len(self._listed)
-        if room <= 0 or stepper.counts()[Status.FAILED] == len(self._listed):
+        if room <= 0 or cloud.counts()[Status.FAILED] == len(self._listed):
             return
-        found = [row for rows in stepper.each(_failures_of, self._listed, room) for row in rows]
+        found = [row for rows in cloud.map_in_flow(_failures_of, self._listed, room) for row in rows]
         for number, t, x, reason in sorted(found)[:room]:
             self._listed.add(number)
             log.warning("particle %d failed at t = %.6g s, position (%g %g %g): %s.",
                         number, t, *x, explain(reason, cloud.models, cloud.limits))  # fmt: skip
 
-    def _log_unstable(self, stepper: Stepper) -> None:
+    def _log_unstable(self) -> None:
         """Log the number of particles for which Δt is too long, if it is larger than before."""
         cloud = self._job.cloud
         if cloud.models.integrator != PAPER.name:
             return
-        found = stepper.each(_unstable_of, cloud.medium, cloud.dt, cloud.models.material)
+        found = cloud.map_in_flow(_unstable_of, cloud.medium, cloud.dt, cloud.models.material)
         beyond, limit = sum(n for n, _ in found), min(limit for _, limit in found)
         if beyond > self._unstable:
             self._unstable = beyond
             log.warning("%s", warning_of(beyond, limit, cloud.dt))
 
-    def _log_slip(self, stepper: Stepper) -> None:
+    def _log_slip(self) -> None:
         """Record the slip of the particles, and warn of the first Reynolds number that is too large."""
         before = self._slip.worst.reynolds[0]
-        for record in stepper.each(SlipRecord.of, self._job.cloud.medium):
+        for record in self._job.cloud.map_in_flow(SlipRecord.of, self._job.cloud.medium):
             self._slip.add(record)
         worst = self._slip.worst.reynolds[0]
         if before <= SMALL_REYNOLDS < worst:
@@ -197,10 +198,10 @@ class RunLog:
                 "the Reynolds number of slip is up to %.3g: drag is that of Stokes flow, which is %.2g %% "
                 "too small for a sphere there.", worst, 100.0 * drag_excess(worst))  # fmt: skip
 
-    def _log_fates(self, stepper: Stepper) -> None:
+    def _log_fates(self) -> None:
         """Log the number of particles by fate and patch; the numbers sum to those injected."""
-        job, counts = self._job, stepper.counts()
-        found = stepper.each(_fates_of, len(job.patch_names), job.cloud.dt)
+        job, counts = self._job, self._job.cloud.counts()
+        found = job.cloud.map_in_flow(_fates_of, len(job.patch_names), job.cloud.dt)
         at_patches, close = zip(*found, strict=True)
         log.info("Fate of the particles")
         log.info("    %-24s %10d", "injected", sum(counts.values()) - counts[Status.PENDING])

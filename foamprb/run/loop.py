@@ -6,11 +6,10 @@ import math
 import time as clock
 from collections.abc import Callable
 
-from foamprb.cloud.cloud import Stepper
+from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.state import Status
+from foamprb.distributed.launch import caught_signals
 from foamprb.errors import RunInterrupted, RunStopped
-from foamprb.parallel.launch import caught_signals
-from foamprb.parallel.ranks import Ranks, stepper_of
 from foamprb.results.folder import FAILURES
 from foamprb.run.compilation import compile_run
 from foamprb.run.job import Job
@@ -23,7 +22,6 @@ def execute(
     job: Job,
     start_from: StartFrom | None = None,
     stop: Callable[[], bool] = lambda: False,
-    ranks: Ranks | None = None,
 ) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
 
@@ -41,8 +39,6 @@ def execute(
         not in place of an unfinished one.
     stop
         Called several times a second; True to write a checkpoint and end the run.
-    ranks
-        Processes of ``mpirun``; by default the threads of this process.
 
     Returns
     -------
@@ -57,7 +53,7 @@ def execute(
         If ``stop`` returned True, too many particles failed, or results could not be written.
     """
     cloud = job.cloud
-    compile_run(cloud, job.compilation, alone=ranks is None)
+    compile_run(cloud, job.compilation)
     with open_results(job) as results:
         results.begin(start_from or job.settings.solution.startFrom)
         if results.finished:
@@ -67,15 +63,11 @@ def execute(
         if following is not None and not following.wait(cloud, stop):
             raise RunStopped(f"stopped before the first step{following.reason}.")
         results.write_start()
-        stepper = Stepper(cloud, job.functions) if ranks is None else stepper_of(cloud, ranks, job.functions)
+        stepper = Stepper(cloud)
         schedule = _Schedule(stepper)
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
-            while (
-                cloud.step < job.steps
-                and (cloud.step == 0 or _moving(stepper))
-                and not _failing(job, stepper)
-            ):
+            while cloud.step < job.steps and (cloud.step == 0 or _moving(cloud)) and not _failing(job):
                 before = cloud.step
                 try:
                     reached = _advance_to_write(job, results, schedule, stop, show)
@@ -84,27 +76,27 @@ def execute(
                     if following is not None:
                         following.require_unchanged(cloud.time)
                 if not reached:
-                    results.save(stepper)
+                    results.save()
                     reason = following.reason if following is not None else ""
                     raise RunStopped(f"stopped at t = {cloud.time:.12g} s{reason}. {HOW_TO_GO_ON}")
                 if cloud.step == before:
                     # The solver has ended meanwhile.
                     break
-                results.write(stepper)
-                log.write_time(stepper)
+                results.write()
+                log.write_time()
                 if cloud.step < job.steps:
-                    stepper.regroup()
+                    cloud.comm.regroup()
         if following is not None:
             following.report_end(job.settings.solution.endTime)
-        results.end(stepper)
-        failing = _failing(job, stepper)
-        log.end(stepper, finished=not failing)
+        results.end()
+        failing = _failing(job)
+        log.end(finished=not failing)
     if failing:
         raise RunStopped(f"{failing} The results until then are in {job.folder.path}.")
-    return stepper.counts()
+    return cloud.counts()
 
 
-def execute_until_signal(job: Job, start_from: StartFrom | None = None, ranks: Ranks | None = None) -> None:
+def execute_until_signal(job: Job, start_from: StartFrom | None = None) -> None:
     """Execute a job as :func:`execute`; Ctrl-C or SIGTERM to any of its processes stops it in order.
 
     Raises
@@ -115,22 +107,22 @@ def execute_until_signal(job: Job, start_from: StartFrom | None = None, ranks: R
         See :func:`execute`.
     """
     # Until the loop is compiled, signals act at once.
-    if ranks is None:
-        compile_run(job.cloud, job.compilation, alone=True)
+    comm = job.cloud.comm
+    if comm.size == 1:
+        compile_run(job.cloud, job.compilation)
     with caught_signals() as caught:
-        received = caught if ranks is None else ranks.signals
         try:
-            execute(job, start_from, lambda: bool(caught or received), ranks)
+            execute(job, start_from, lambda: bool(caught or comm.signals))
         except RunStopped as stopped:
-            signals = [*caught, *received]
+            signals = [*caught, *comm.signals]
             if not signals:
                 raise
             raise RunInterrupted(str(stopped), signals[0]) from stopped
 
 
-def _failing(job: Job, stepper: Stepper) -> str:
+def _failing(job: Job) -> str:
     """Return a sentence if too many particles have failed; empty if not."""
-    counts, most = stepper.counts(), job.settings.solution.maxFailedFraction
+    counts, most = job.cloud.counts(), job.settings.solution.maxFailedFraction
     injected = sum(counts.values()) - counts[Status.PENDING]
     if counts[Status.FAILED] <= most * injected:
         return ""
@@ -140,10 +132,10 @@ def _failing(job: Job, stepper: Stepper) -> str:
     )
 
 
-def _moving(stepper: Stepper) -> int:
+def _moving(cloud: Cloud) -> int:
     """Return the number of particles that are pending, active, or stuck for a time."""
-    counts = stepper.counts()
-    return sum(counts[status] for status in stepper.cloud.tracker.movable)
+    counts = cloud.counts()
+    return sum(counts[status] for status in cloud.tracker.movable)
 
 
 def _advance_to_write(
@@ -156,7 +148,7 @@ def _advance_to_write(
     """Advance to the next write time; return whether it was reached before ``stop`` returned True."""
     cloud, first, following = job.cloud, job.cloud.step, job.following
     # The target is an earlier one if the solver of the flow has ended meanwhile.
-    while cloud.step < job.next_write(first) and _moving(schedule.stepper):
+    while cloud.step < job.next_write(first) and _moving(cloud):
         results.check()
         if stop() or (following is not None and not following.wait(cloud, stop)):
             return False
@@ -165,20 +157,20 @@ def _advance_to_write(
         if known > cloud.step:
             schedule.advance(known, stop)
         if cloud.step == until:
-            results.observe(schedule.stepper)
+            results.observe()
         show(cloud.time)
     cloud.step = job.next_write(first)
     return True
 
 
 MOST_STEPS = 200_000_000
-"""Largest number of steps of one particle in a call of the stepper; it takes about a minute."""
+"""Maximum particle-steps per call of the stepper; they take about a minute."""
 _FIRST_CALL = 1 / 800
 """Share of it in the first call: some tenths of a second."""
 _CALL = 2.0
 """Intended duration of a call, s."""
 _FEW, _LONG = 100, 30.0
-"""Smallest number of steps of a call, unless it takes longer than so many seconds."""
+"""Minimum steps per call, if it takes less than 30 s."""
 _SLOWER, _FASTER = 0.1, 4.0
 
 
@@ -202,7 +194,7 @@ class _Schedule:
 
     def _next_steps(self, target: int) -> int:
         cloud = self.stepper.cloud
-        most = MOST_STEPS / _moving(self.stepper)
+        most = MOST_STEPS / _moving(cloud)
         steps = min(most, self._steps or _FIRST_CALL * most)
         rest, whole = target - cloud.step, cloud.tracker.whole
         # Calls of similar length: not a long one and a remainder.

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from foamprb.body.compressibility import lame_from_bulk_modulus, sufficient_bulk_modulus
 from foamprb.body.material import MATERIALS, lame_parameter, modulus_of_capsule
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import find_hosts, parts_of
+from foamprb.cloud.cloud import find_hosts
+from foamprb.cloud.communicator import parts_of
 from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import given_shear_modulus, pending, start_of_injection
 from foamprb.cloud.measures import shear_rate_at

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
+from foamprb.cloud.communicator import Rank
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
@@ -76,12 +77,12 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
 
 def _sums_of_particles(cloud: Cloud) -> dict[str, Sums]:
     """Return the fingerprint of each array of the particles."""
-    n, totals = cloud.size, cloud.at_homes(_totals_of)
+    n, totals = cloud.size, cloud.map_ranks(_totals_of)
     found: dict[str, Sums] = {
         name: _means(np.sum([t[name] for t in totals], axis=0), n) for name in totals[0]
     }
     checksums = dict.fromkeys(_INTEGERS, 0)
-    for arrays in cloud.in_order(_integers_of):
+    for arrays in cloud.map_by_id(_integers_of):
         checksums = {name: zlib.crc32(array.tobytes(), checksums[name]) for name, array in arrays.items()}
     found |= {name: [[float(n), float(value)]] for name, value in checksums.items()}
     return {name: found[name] for name in Particles._fields}
@@ -240,11 +241,19 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoin
         )
     stored = [name.removeprefix(FUNCTIONS) for name in checkpoint.layout if name.startswith(FUNCTIONS)]
     functions.restore(stored, lambda name: checkpoint.read(f"{FUNCTIONS}{name}"))
-    if cloud.homes is None:
-        cloud.particles = Particles(**{name: checkpoint.read(f"{PARTICLES}{name}") for name in VARIABLES})
-    else:
-        cloud.homes.restore(checkpoint.path)
+    cloud.comm.call(_restore_rank, checkpoint.path)
     cloud.step, cloud.recovered, cloud.reach = header["step"], header["recovered"], header["reach"]
+
+
+def _restore_rank(rank: Rank, file: Path) -> None:
+    """Read the particles of a rank, and the arrays of cloud functions, from a checkpoint."""
+    stored, first = StoredCheckpoint(file), int(rank.firsts[rank.number])
+    for name, array in rank.particles._asdict().items():
+        stored.read_into(array, f"{PARTICLES}{name}", first)
+    for name, array in rank.share.memory.items():
+        stored.read_into(array, f"{FUNCTIONS}{name}", first)
+    for name, (firsts, sums) in rank.sampling.sums.items():
+        stored.read_into(sums, f"{FUNCTIONS}{name}", int(firsts[rank.number]))
 
 
 def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tuple[SnapshotFile, ...]:

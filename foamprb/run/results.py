@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Cloud, Snapshot, Stepper, explain, regrouped
+from foamprb.cloud.cloud import Cloud, Snapshot, explain, regrouped
 from foamprb.cloud.limits import Limits
 from foamprb.cloud.measures import (
     PER_CONTEXT,
@@ -30,7 +30,6 @@ from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Sampled
 from foamprb.memory import OutOfMemory, ran_out
-from foamprb.parallel.ranks import RankStepper
 from foamprb.results.atomic import only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import PARTICLES, Checkpoints, StoredCheckpoint, part_file, parts_of
@@ -161,9 +160,9 @@ class Results:
         self._manifest.expect([self._job.folder.pvd, file])
         due = (
             released(p, cloud.flow, cloud.time)
-            for p in regrouped(cloud.in_order(_due_at, cloud.time), PER_CONTEXT)
+            for p in regrouped(cloud.map_by_id(_due_at, cloud.time), PER_CONTEXT)
         )
-        n = sum(cloud.at_homes(_number_due, cloud.time))
+        n = sum(cloud.map_ranks(_number_due, cloud.time))
         clouds = (part for p in due for part in self._report(p, cloud.flow, cloud.time, p.number).snapshots)
         self._series.append(Parts(cloud.time, number_of_contexts(n), clouds))
 
@@ -175,11 +174,11 @@ class Results:
         """Return the step, at most ``last``, at which a cloud function samples next."""
         return self._job.functions.next_sample(last)
 
-    def observe(self, stepper: Stepper) -> None:
+    def observe(self) -> None:
         """Let the cloud functions observe the cloud that sample at this step."""
-        self._sample(stepper, self._job.functions.due)
+        self._job.functions.sample(self._job.functions.due)
 
-    def write(self, stepper: Stepper) -> None:
+    def write(self) -> None:
         """Write the files of a write time: snapshot, tables of the cloud functions, checkpoint.
 
         Snapshot and checkpoint are written from a copy while the cloud advances.
@@ -189,20 +188,20 @@ class Results:
         OSError
             If a file cannot be written, now or at the time before.
         """
-        self._sample(stepper, list(self._job.functions.functions))
-        cloud = self._gathered(stepper)
+        self._job.functions.sample(list(self._job.functions.functions))
+        cloud = self._ready()
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
         tables = self._write_functions()
         memory = {name: array.copy() for name, array in self._job.functions.state().items()}
         stem = self._series.next(cloud.time)
-        ranks = stepper if isinstance(stepper, RankStepper) else None
-        files = ranks.piece_files(stem) if ranks else (with_ending(stem, ".vtp"),)
-        self._manifest.expect([*tables, self._job.folder.pvd, *files, *self._checkpoint_files(stepper)])
-        write_cloud = self._begin_pieces(ranks, stem) if ranks else self._begin_cloud(snapshot)
-        parts = self._write_parts(stepper)
+        files = cloud.comm.piece_files(stem)
+        expected = [*tables, self._job.folder.pvd, *(files or [with_ending(stem, ".vtp")])]
+        self._manifest.expect([*expected, *self._checkpoint_files(now=True)])
+        write_cloud = self._begin_pieces(stem) if files else self._begin_cloud(snapshot)
+        parts = self._write_parts()
         self._writer.begin(partial(self._end_write, write_cloud, snapshot, memory, parts))
 
-    def save(self, stepper: Stepper) -> None:
+    def save(self) -> None:
         """Write only a checkpoint, for a run that is stopped between two write times.
 
         Raises
@@ -210,11 +209,11 @@ class Results:
         OSError
             If it cannot be written.
         """
-        cloud = self._gathered(stepper)
-        self._manifest.expect(self._checkpoint_files(stepper))
-        self._write_checkpoint(cloud, self._job.functions.state(), self._write_parts(stepper))
+        cloud = self._ready()
+        self._manifest.expect(self._checkpoint_files(now=True))
+        self._write_checkpoint(cloud, self._job.functions.state(), self._write_parts())
 
-    def end(self, stepper: Stepper) -> None:
+    def end(self) -> None:
         """Write ``fates``, a row per particle, and ``failed`` if a particle failed.
 
         ``fates`` marks a finished run: it takes its name after the last snapshot and checkpoint.
@@ -224,32 +223,24 @@ class Results:
         OSError
             If a file cannot be written, now or at the time before.
         """
-        stepper.gather()
         cloud = self._job.cloud
-        failed = stepper.counts()[Status.FAILED] > 0
+        failed = cloud.counts()[Status.FAILED] > 0
 
         def finish() -> None:
             self._writer.finish()
             self._manifest.expect([self._fates, self._failures] if failed else [self._fates])
             if failed:
-                write_rows(self._failures, cloud.in_order(_failures_of, cloud.models, cloud.limits))
+                write_rows(self._failures, cloud.map_by_id(_failures_of, cloud.models, cloud.limits))
 
         rows = self._job.functions.with_fates(_fates_of, self._job.patch_names)
         write_rows(self._fates, rows, finish)
 
-    def _sample(self, stepper: Stepper, names: list[str]) -> None:
-        """Let some cloud functions record a sample."""
-        functions = self._job.functions
-        rest = stepper.sample_away(names) if isinstance(stepper, RankStepper) else names
-        if rest:
-            functions.sample(rest)
-
-    def _gathered(self, stepper: Stepper) -> Cloud:
-        """Return the cloud with the state of the last step, after earlier writes have ended."""
-        stepper.gather()
+    def _ready(self) -> Cloud:
+        """Return the cloud, after earlier writes have ended."""
         self._writer.finish()
-        self._around = sums_around(stepper.cloud.flow, stepper.cloud.time)
-        return stepper.cloud
+        cloud = self._job.cloud
+        self._around = sums_around(cloud.flow, cloud.time)
+        return cloud
 
     def _begin_cloud(self, snapshot: Snapshot) -> Callable[[], object]:
         """Return a function that writes and lists a snapshot while the cloud advances."""
@@ -270,10 +261,11 @@ class Results:
         """Return a cloud with the arrays of the run, see :func:`foamprb.cloud.report.report`."""
         return report(particles, flow, self._job.cloud.medium.mu, time, self._names, self._further, ids)
 
-    def _begin_pieces(self, stepper: RankStepper, stem: Path) -> Callable[[], object]:
-        """Let all processes write their pieces; return a function that lists them."""
-        time = stepper.cloud.time
-        list_pieces = stepper.begin_pieces(stem, time, self._names, self._further)
+    def _begin_pieces(self, stem: Path) -> Callable[[], object]:
+        """Let all ranks write their pieces; return a function that lists them."""
+        cloud, time = self._job.cloud, self._job.cloud.time
+        cloud.publish()
+        list_pieces = cloud.comm.write_pieces(stem, time, self._names, self._further)
         return lambda: self._series.add(time, list_pieces())
 
     def _end_write(
@@ -286,10 +278,10 @@ class Results:
         write_cloud()
         self._write_checkpoint(snapshot, memory, parts)
 
-    def _write_parts(self, stepper: Stepper) -> list[tuple[int, str]]:
-        """Let several processes write their parts of the checkpoint; return these."""
-        homes, time = stepper.cloud.homes, stepper.cloud.time
-        return [] if homes is None else homes.write_parts(self._checkpoints.file(time), time)
+    def _write_parts(self) -> list[tuple[int, str]]:
+        """Let several ranks write their parts of the checkpoint; return these."""
+        cloud = self._job.cloud
+        return cloud.comm.write_parts(self._checkpoints.file(cloud.time), cloud.time)
 
     def _write_checkpoint(
         self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]], parts: Sequence[tuple[int, str]]
@@ -298,13 +290,12 @@ class Results:
         given = self._fingerprint, parts, self._around
         self._checkpoints.write(checkpoint_of(cloud, memory, entries, *given))
 
-    def _checkpoint_files(self, stepper: Stepper | None = None) -> list[Path]:
-        """Return the files of checkpoints: those on disk, and with a stepper those of the present time."""
+    def _checkpoint_files(self, *, now: bool = False) -> list[Path]:
+        """Return the files of checkpoints: those on disk, and perhaps those of the present time."""
         found = [f for file in self._checkpoints.files().values() for f in (file, *parts_of(file))]
-        if stepper is not None:
-            file = self._checkpoints.file(stepper.cloud.time)
-            homes = stepper.cloud.homes
-            found += [file, *(part_file(file, first) for first in (homes.firsts if homes else ()))]
+        if now:
+            file, cloud = self._checkpoints.file(self._job.cloud.time), self._job.cloud
+            found += [file, *(part_file(file, first) for first in cloud.comm.parts)]
         return found
 
     def _write_functions(self) -> list[Path]:

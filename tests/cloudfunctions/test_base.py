@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from observing import go_on, observe, observed, pipe_cloud
+from observing import go_on, observe, observed, pipe_cloud, restore
 
 from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
@@ -63,7 +63,7 @@ def test_what_is_remembered_survives_a_restart(function, tmp_path):
         array[:] = saved
     second.step = first.step
     with np.load(tmp_path / "state.npz", allow_pickle=False) as saved:
-        functions.restore(saved, lambda name: saved[name].copy())
+        restore(functions, saved)
     go_on(second, functions, tmp_path / "parts", (400, 700))
     whole = sorted(path.relative_to(tmp_path / "whole") for path in (tmp_path / "whole").rglob("*.*"))
     assert whole

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from observing import MEAN, RADIUS, WATER, column, go_on, observe, observed, pipe_cloud, table
+from observing import MEAN, RADIUS, WATER, column, go_on, observe, observed, pipe_cloud, restore, table
 from scipy.integrate import quad, solve_ivp
 
 from foamprb import analytic
@@ -188,12 +188,12 @@ def test_the_viscosity_is_that_at_the_particle_or_of_whole_blood():
 
 
 def test_stresses_beyond_the_experiments_are_reported_once(tmp_path, caplog):
-    cloud, function = observed(pipe_cloud(n=4)), Haemolysis(constants="Zhang", stress="KelvinVoigt")
-    memory = function.begin(cloud)
+    cloud, function = pipe_cloud(n=4), Haemolysis(constants="Zhang", stress="KelvinVoigt")
+    functions = CloudFunctions({"damage": function}, observed(cloud))
     cloud.particles.status[:] = Status.ACTIVE
-    memory["peak"][0] = 321.0
+    cloud.comm.arrays_here()["damage/peak"][0] = 321.0
     for _ in range(2):
-        function.write(memory, cloud, tmp_path / "damage")
+        functions.write(tmp_path)
     (record,) = caplog.records
     assert (
         "cloudFunctions/damage: 1 of 4 particles are beyond the range of the constants Zhang"
@@ -210,9 +210,9 @@ def test_cells_with_a_memory_go_on_after_a_restart_with_the_same_bits(tmp_path):
             cloud = pipe_cloud(n=8, medium=WATER)
             functions = observe(cloud, function, tmp_path, writes=first)
             if len(first) == 1:
+                state = {name: array.copy() for name, array in functions.state().items()}
                 again = CloudFunctions({"f": function}, observed(cloud))
-                state = functions.state()
-                again.restore(state, state.get)
+                restore(again, state)
                 go_on(cloud, again, tmp_path, (100,))
             texts.append([(tmp_path / f"f/{name}.csv").read_text() for name in ("haemolysis", "means")])
         assert texts[0] == texts[1]
@@ -239,16 +239,16 @@ def test_no_more_is_set_free_than_there_is(tmp_path):
 
 def test_failed_particles_are_not_in_the_means(tmp_path):
     """Their shapes, and so their stresses, may be anything; in the table of particles they stay."""
-    cloud, law = observed(pipe_cloud(n=8)), Haemolysis(constants="Song")
-    memory = law.begin(cloud)
+    cloud, law = pipe_cloud(n=8), Haemolysis(constants="Song")
+    functions = CloudFunctions({"f": law}, observed(cloud))
     cloud.particles.status[:] = Status.ACTIVE
     cloud.particles.status[:4] = Status.FAILED
-    memory["dose"][:] = np.where(np.arange(8) < 4, 1e9, 1.0)
-    law.write(memory, cloud, tmp_path)
+    cloud.comm.arrays_here()["f/dose"][:] = np.where(np.arange(8) < 4, 1e9, 1.0)
+    functions.write(tmp_path)
     expected = float(index_of_haemolysis(law.law, np.array(1.0)))
-    for row in table(tmp_path / "means.csv"):
+    for row in table(tmp_path / "f/means.csv"):
         assert (int(row["parcels"]), float(row["haemolysis"])) == (2, pytest.approx(expected, rel=1e-6))
-    assert len(table(tmp_path / "haemolysis.csv")) == 8
+    assert len(table(tmp_path / "f/haemolysis.csv")) == 8
 
 
 def test_where_the_flow_is_unknown_the_last_stress_goes_on():

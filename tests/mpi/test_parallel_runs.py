@@ -23,8 +23,8 @@ from transient_case import SCALE, scaled, write_transient_case
 
 from foamprb.cli import main
 from foamprb.cloud.forces import FORCES
+from foamprb.distributed.shared_memory import NODE_RANKS
 from foamprb.flow.read.openfoam import read_fields
-from foamprb.parallel.shared_memory import NODE_RANKS
 from foamprb.results.checkpoint import read_checkpoint
 from foamprb.results.pieces import XMLPPolyDataReader
 from foamprb.results.pvd import read_pvd
@@ -100,9 +100,9 @@ def after_hook(folder: Path, hook: str) -> Path:
     script.write_text(
         "import errno, os, signal, sys\n"
         "from foamprb.cli import main\n"
-        "from foamprb.parallel import shared_memory\n"
-        "from foamprb.parallel.ranks import RankStepper\n"
-        "from foamprb.parallel.worker import Worker\n"
+        "from foamprb.distributed import shared_memory\n"
+        "from foamprb.distributed.ranks import Ranks, _PartedFlow\n"
+        "from foamprb.distributed.worker import Worker\n"
         "rank = int(os.environ['OMPI_COMM_WORLD_RANK'])\n"
         f"{hook}\n"
         "sys.exit(main())\n"
@@ -113,12 +113,12 @@ def after_hook(folder: Path, hook: str) -> Path:
 def at_write(action: str, number: int, when: float = 0.0029) -> str:
     """Let a process do something as it writes its piece of the cloud of 3 ms."""
     return f"""
-write = Worker.write
+write = Worker.write_piece
 def hooked(self, folder, time, *others):
     if rank == {number} and {when} < time < {when} + 0.0002:
         {action}
     return write(self, folder, time, *others)
-Worker.write = hooked
+Worker.write_piece = hooked
 """
 
 
@@ -323,8 +323,7 @@ def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
 
 REGROUPING = """
 # Nodes read their parts again at each write time.
-from foamprb.parallel.ranks import PartStepper
-PartStepper._pays = lambda self: True
+_PartedFlow._pays = lambda self: True
 """
 
 
@@ -413,13 +412,13 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
 
 
 LANDING = """
-carry = RankStepper._carry
-def hooked(self, flow, steps, stop):
-    outcome = carry(self, flow, steps, stop)
+advance = Ranks.advance
+def hooked(self, *given):
+    outcome = advance(self, *given)
     with open({log!r}, "a") as file:
         print(*(int(counts[1]) for counts in self._counts), file=file)
     return outcome
-RankStepper._carry = hooked
+Ranks.advance = hooked
 """
 
 
@@ -447,9 +446,8 @@ SHARING = """
 import json, pathlib, sys
 import numpy as np
 from foamprb import prepare
-from foamprb.parallel.launch import connect
-from foamprb.parallel.ranks import RankStepper
-from foamprb.parallel.worker import Worker
+from foamprb.distributed.launch import connect
+from foamprb.distributed.worker import Worker
 
 def private():
     # Memory that is this process' alone, kB.
@@ -478,16 +476,16 @@ Worker.touch, Worker.tell = touch, tell
 found = connect()
 if isinstance(found, Worker):
     sys.exit(found.serve(()))
-job = prepare(sys.argv[1], threads=1, ranks=found)
-stepper = RankStepper(job.cloud, found, job.functions)
-shared = stepper.published.move(np.full(1 << 24, 1.5))
+job = prepare(sys.argv[1], threads=1, comm=found)
+found.begin(job.cloud)
+shared = found._way.publisher.move(np.full(1 << 24, 1.5))
 # The flow's own arrays and those of its mesh are the shared ones.
-flow, windows = job.cloud.flow, found.worker.windows.arrays.values()
+flow, windows = job.cloud.flow, found.rank.windows.arrays.values()
 for array in (flow.arrays().nodes, flow.arrays().tets, flow.arrays().neighbours):
     assert any(array is window for window in windows)
 assert flow.mesh.tets is flow.arrays().tets
 shared[-1] = 2.5
-print(json.dumps([found.order("touch"), found.order("tell")]))
+print(json.dumps([found.call(Worker.touch), found.call(Worker.tell)]))
 found.dismiss(0)
 """
 
@@ -513,11 +511,11 @@ import sys, tracemalloc
 from foamprb.cloud import measures
 # Parts of a cloud take little memory beside the whole.
 measures.PER_CONTEXT = 200
-from foamprb.cloud import cloud
-cloud.PART = 200
+from foamprb.cloud import communicator
+communicator.PART = 200
 from foamprb import execute, prepare
-from foamprb.parallel.launch import connect
-from foamprb.parallel.worker import Worker
+from foamprb.distributed.launch import connect
+from foamprb.distributed.worker import Worker
 from foamprb.run import job as runs
 from foamprb.run.log import log_description
 
@@ -531,9 +529,9 @@ def assemble_anew(*given):
     return assemble(*given)
 
 def peak_of_run(case):
-    job = prepare(case, threads=1, ranks=found)
+    job = prepare(case, threads=1, comm=found)
     log_description(job)
-    execute(job, "startTime", ranks=found)
+    execute(job, "startTime")
     return tracemalloc.get_traced_memory()[1]
 
 runs.assemble = assemble_anew
@@ -643,12 +641,12 @@ def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_pa
         tmp_path,
         REGROUPING
         + """
-hand_over = Worker._hand_over
+migrate = Worker.migrate
 def hooked(self):
     if rank == 1 and max(self.particles.t, default=0.0) > 0.0115:
         os.kill(os.getpid(), signal.SIGKILL)
-    return hand_over(self)
-Worker._hand_over = hooked
+    return migrate(self)
+Worker.migrate = hooked
 """,
     )
     killed = run(3, case, "-resume", script=kill)

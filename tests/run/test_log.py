@@ -88,7 +88,7 @@ def test_steps_of_the_last_tracking_step_are_counted(caplog):
     moved = (cloud.particles.status == 1) & (cloud.particles.substeps > 0)
     job = type("Job", (), {"cloud": cloud})
     with caplog.at_level(logging.INFO, "foamprb"):
-        log.RunLog(job)._log_steps(Stepper(cloud))
+        log.RunLog(job)._log_steps()
     mean = cloud.particles.substeps[moved].mean()
     assert (
         f"{mean:.3g} in the mean, {int(cloud.particles.substeps[moved].max())} at most" in caplog.messages[0]

@@ -14,10 +14,9 @@ from foamprb.run.loop import _Schedule
 
 def calls(wanted: float, target: int, most: float = 1e9, whole: int = 1, step: int = 0) -> list[int]:
     """Lengths of the calls to a target, of four particles."""
-    cloud = SimpleNamespace(
-        step=step, tracker=SimpleNamespace(whole=whole, movable=(Status.PENDING, Status.ACTIVE))
-    )
-    stepper = SimpleNamespace(cloud=cloud, counts=lambda: {Status.PENDING: 1, Status.ACTIVE: 3})
+    tracker = SimpleNamespace(whole=whole, movable=(Status.PENDING, Status.ACTIVE))
+    cloud = SimpleNamespace(step=step, tracker=tracker, counts=lambda: {Status.PENDING: 1, Status.ACTIVE: 3})
+    stepper = SimpleNamespace(cloud=cloud)
     schedule, found = _Schedule(cast("Any", stepper)), []
     schedule._steps = wanted
     with pytest.MonkeyPatch.context() as patch:

@@ -56,7 +56,7 @@ def test_particles_do_not_depend_on_the_size_of_the_parts(most, flow, monkeypatc
     whole = concatenate(Release(INJECTIONS, flow, AIR).parts())
     assert whole.size == 1000
     assert whole.number.tolist() == list(range(1000))
-    monkeypatch.setattr("foamprb.cloud.cloud.PART", most)
+    monkeypatch.setattr("foamprb.cloud.communicator.PART", most)
     release = Release(INJECTIONS, flow, AIR)
     parts = list(release.parts(most))
     assert release.size == 1000
@@ -70,7 +70,7 @@ def test_particles_do_not_depend_on_the_size_of_the_parts(most, flow, monkeypatc
 def test_the_draw_of_places_does_not_depend_on_the_size_of_its_parts(flow, monkeypatch):
     model = PatchInjection("inlet", 1e5, 0.005)
     whole = models.pending(model.places(flow, np.random.default_rng(1), None))
-    monkeypatch.setattr("foamprb.cloud.cloud.PART", 7)
+    monkeypatch.setattr("foamprb.cloud.communicator.PART", 7)
     again = models.pending(model.places(flow, np.random.default_rng(1), None))
     assert again.x.tobytes() == whole.x.tobytes()
 

@@ -18,7 +18,6 @@ from pipe_case import edit, message, results
 
 from foamprb import execute, prepare
 from foamprb.cli import main
-from foamprb.cloud.cloud import Stepper
 from foamprb.cloud.state import Status
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
@@ -334,12 +333,11 @@ def test_the_cost_of_a_write_is_linear_in_the_number_of_snapshots(case):
     with atomic.only_writer(job.folder.path), Writer() as thread:
         written = results_of_run.Results(job, thread)
         written.begin("startTime")
-        stepper = Stepper(job.cloud, job.functions)
         threading.setprofile(count)
         sys.setprofile(count)
         try:
             for job.cloud.step in range(1, 61):
-                written.write(stepper)
+                written.write()
                 thread.finish()
                 calls.append(0)
         finally:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import logging
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
 
 from foamprb import Medium, analytic, spheres
-from foamprb.cloud.cloud import Stepper
+from foamprb.cloud.cloud import Cloud
 from foamprb.run.log import RunLog
 from foamprb.run.slip import SlipRecord, drag_excess
 
@@ -19,21 +18,15 @@ RATE, D, RHO = 100.0, 1e-4, 2500.0
 
 
 def sliding(speeds):
-    """Stepper of active particles where the fluid of a simple shear is at rest, with these velocities."""
+    """Active particles where the fluid of a simple shear is at rest, with these velocities."""
     p = spheres(np.zeros((len(speeds), 3)), d=D, rho=RHO, mu=10.0)
+    cloud = Cloud(p, analytic.shear(RATE), WATER, (), 1e-3)
     p.v[:, 0], p.status[:], p.host[:] = speeds, 1, 0
-    cloud: Any = SimpleNamespace(
-        particles=p,
-        medium=WATER,
-        flow=analytic.shear(RATE),
-        time=0.0,
-        at_homes=lambda function, *arguments: [function(p, *arguments)],
-    )
-    return Stepper(cloud)
+    return cloud
 
 
-def record_of(stepper):
-    return stepper.each(SlipRecord.of, WATER)[0]
+def record_of(cloud):
+    return cloud.map_in_flow(SlipRecord.of, WATER)[0]
 
 
 def test_usual_and_worst_of_both_numbers():
@@ -50,9 +43,9 @@ def test_usual_and_worst_of_both_numbers():
 
 
 def test_the_velocity_of_its_eddy_is_no_slip_of_a_particle():
-    stepper = sliding([0.1])
-    stepper.cloud.particles.eddy[:, 0] = 0.09
-    assert record_of(stepper).worst.reynolds[0] == pytest.approx(1.0)
+    cloud = sliding([0.1])
+    cloud.particles.eddy[:, 0] = 0.09
+    assert record_of(cloud).worst.reynolds[0] == pytest.approx(1.0)
 
 
 def test_drag_of_a_sphere_exceeds_that_of_stokes():
@@ -60,13 +53,13 @@ def test_drag_of_a_sphere_exceeds_that_of_stokes():
 
 
 def test_a_large_reynolds_number_is_warned_of_once(caplog):
-    stepper = sliding([1e-4])
-    log = RunLog(SimpleNamespace(cloud=stepper.cloud))
+    cloud = sliding([1e-4])
+    log = RunLog(SimpleNamespace(cloud=cloud))
     with caplog.at_level(logging.WARNING, "foamprb"):
-        log._log_slip(stepper)
+        log._log_slip()
         assert not caplog.records
-        stepper.cloud.particles.v[:, 0] = 0.01
-        log._log_slip(stepper)
-        log._log_slip(stepper)
+        cloud.particles.v[:, 0] = 0.01
+        log._log_slip()
+        log._log_slip()
     (record,) = caplog.records
     assert "slip is up to 1: drag is that of Stokes flow, which is 15 % too small" in record.message

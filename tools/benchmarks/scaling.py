@@ -15,7 +15,7 @@ from typing import NamedTuple
 from benchmarks import pipe
 from benchmarks.records import KILO, MEGA, Options, Row
 from benchmarks.tracker import OPENFOAM_STEP, openfoam_environment
-from foamprb.parallel.shared_memory import NODE_RANKS
+from foamprb.distributed.shared_memory import NODE_RANKS
 
 WALL, SPEED_UP, MEMORY = "wall time by cores", "speed-up by cores", "memory of the largest process by cores"
 PARTICLE = "memory per particle by cores"

@@ -17,7 +17,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import parts_of
+from foamprb.cloud.communicator import parts_of
 from foamprb.cloud.state import VARIABLES, Particles, empty
 from foamprb.dictionary.constraints import (
     Angle,

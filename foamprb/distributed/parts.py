@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.distributed.shared_memory import Publisher, Windows, wait_for_all
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields
@@ -21,7 +22,6 @@ from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.rotating import RotatingArrays, RotatingZone
 from foamprb.flow.series import SeriesArrays
-from foamprb.parallel.shared_memory import Publisher, Windows, wait_for_all
 
 T = TypeVar("T")
 
@@ -150,7 +150,7 @@ class Part:
         self.sampled: Fields | None = None
         """Fields that are sampled."""
         self._loaded: SeriesArrays | None = None
-        self.torn = False
+        self.in_collective = False
         """True while the processes of the node might not agree on what comes next."""
 
     def close(self) -> None:
@@ -245,7 +245,7 @@ class Part:
         self._loaded, self.sampled = self.shared.find(placed)
         return found if self._leads else None
 
-    def ask(self, name: str, *arguments: Any) -> Any:
+    def call(self, name: str, *arguments: Any) -> Any:
         """Return the result of a method of the flow on the first process of the node, else None."""
         return self._lead(lambda _: getattr(self.flow, name)(*arguments))
 
@@ -261,7 +261,7 @@ class Part:
             with self._team.united():
                 found = work(self._team)
         except Exception as error:
-            if not self.torn:
+            if not self.in_collective:
                 self._tell((None, (error,)))
             raise
         self._tell((None, (None,)))
@@ -283,9 +283,9 @@ class Part:
             self._execute(name, arguments)
 
     def _execute(self, name: str, arguments: tuple[Any, ...]) -> None:
-        self.torn = True
+        self.in_collective = True
         getattr(self.shared, name)(*arguments)
-        self.torn = False
+        self.in_collective = False
 
     def _tell(self, message: Any = None) -> Any:
         """Return the message of the first process of the node."""

@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+import pickle
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 import small_clouds
 import thread_mpi
-from observing import observed, pipe_cloud
+from hypothesis import given
+from hypothesis import strategies as st
+from mesh_shapes import cyclic_row
+from observing import WATER, observed, pipe_cloud
 
-from foamprb.cloud.cloud import Cloud, Stepper, regrouped, same
-from foamprb.cloud.patches import Escape, Rebound
+from foamprb.cloud.cloud import Cloud, Stepper, regrouped
+from foamprb.cloud.communicator import Communicator, same
+from foamprb.cloud.patches import Cyclic, Escape, Rebound
 from foamprb.cloud.state import Particles, concatenate, empty, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
-from foamprb.cloudfunctions.base import StepObserver
+from foamprb.cloud.tracker import Models
+from foamprb.cloudfunctions.base import _sums_of, in_time, per_cell, per_event
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.haemolysis import Haemolysis
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
@@ -27,14 +33,15 @@ from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.cloudfunctions.suspension_stress import SuspensionStress
+from foamprb.distributed import worker as worker_module
+from foamprb.distributed.ranks import Ranks
+from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError
-from foamprb.parallel import worker as worker_module
-from foamprb.parallel.homes import RankHomes
-from foamprb.parallel.sampling import Sampling
-from foamprb.parallel.worker import Worker
+from foamprb.flow.loaded import LoadedFlow, loaded_fields
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.results.checkpoint import Checkpoint, part_file, read_checkpoint, write_checkpoint
 from foamprb.run.description import _surveyed
-from foamprb.run.restart import _agree, _sums_of_particles
+from foamprb.run.restart import _agree, _restore_rank, _sums_of_particles
 
 PLANE = (0.004, 0.0, 0.0), (1.0, 0.0, 0.0)
 FUNCTIONS = {
@@ -48,33 +55,39 @@ FUNCTIONS = {
 }
 
 
-class Processes:
-    """Workers of several processes, without a flow of their own."""
+class Processes(Ranks):
+    """Ranks of several processes in one, without a flow of their own."""
 
     def __init__(self, n: int) -> None:
         self._comms = thread_mpi.processes(n)
         modules = [thread_mpi.Mpi(comm) for comm in self._comms]
         self.workers = thread_mpi.together([partial(Worker, module) for module in modules])
+        super().__init__(self.workers[0], 1)
 
-    def order(self, name: str, *arguments: Any, own: tuple[Any, ...] = ()) -> list[Any]:
-        works = [partial(getattr(w, name), *arguments, *(own if w.rank == 0 else ())) for w in self.workers]
-        return thread_mpi.together(works)
+    def call(self, function: Any, *arguments: Any, own: tuple[Any, ...] = ()) -> list[Any]:
+        # Each process unpickles arguments of its own.
+        message = pickle.dumps((function, arguments))
 
-    def homes_of(self, p: Particles) -> RankHomes:
-        parts = [p.take(slice(k, k + 11)) for k in range(0, p.size, 11)]
-        return RankHomes(self.workers[0], self.order, p.size, parts)
+        def work(worker: Worker) -> Any:
+            name, given = (function, arguments) if worker.number == 0 else pickle.loads(message)
+            return name(worker, *given, *(own if worker.number == 0 else ()))
 
-    def set_out(self, sampling: Sampling, cloud: Cloud) -> None:
-        """Let the particles set out, and the workers sample them."""
+        return thread_mpi.together([partial(work, w) for w in self.workers])
+
+    def publish(self, arrays: Any, flow: Any) -> None:
         for worker in self.workers:
-            worker._sampling, worker._tracker = sampling, cloud.tracker
-            worker._flow = cloud.make_ready()
-        self.order("set_out", [list(range(len(self.workers)))])
+            worker.flow, worker.sampled = arrays, loaded_fields(flow)
+
+    def begin(self, cloud: Cloud) -> None:
+        """Let the particles go to the ranks that advance them."""
+        self.call(Worker.prepare, cloud.tracker, 1)
+        cloud.publish()
+        cloud.particles = empty(0)
+        self.call(Worker.distribute, [list(range(self.size))])
 
     def before_steps(self, start: float, until: float) -> None:
         for worker in self.workers:
-            functions = worker._sampling.names_of(StepObserver)
-            worker._observe(functions, start, lambda f, memory, cloud: f.before_steps(memory, cloud, until))
+            worker.sampling.before_steps(worker, start, until)
 
     def take(self, p: Particles) -> None:
         """Take the state of all particles as that of the particles of each process."""
@@ -87,29 +100,32 @@ class Processes:
         """Send some particles from each process to others."""
         rows = [np.flatnonzero(random.random(w.particles.size) < 0.4) for w in self.workers]
         to = [random.integers(0, len(self.workers), len(own)) for own in rows]
-        works = [partial(w._send, *given) for w, *given in zip(self.workers, rows, to, strict=True)]
+        works = [partial(w.send, *given) for w, *given in zip(self.workers, rows, to, strict=True)]
         thread_mpi.together(works)
 
     def joined(self) -> dict[str, np.ndarray]:
-        """Return what cloud functions remember of all particles, by their numbers, and sums of all cells."""
+        """Return what cloud functions store of all particles, by their numbers, and sums of all cells."""
         order = np.argsort(np.concatenate([w.particles.number for w in self.workers]))
-        names, sums = self.workers[0].own.memory, self.workers[0]._sums
-        found = {k: np.concatenate([w.own.memory[k] for w in self.workers])[order] for k in names}
-        return found | {f"{k}/sums": np.concatenate([w._sums[k][1] for w in self.workers]) for k in sums}
+        names, sums = self.workers[0].share.memory, self.workers[0].sampling.sums
+        found = {k: np.concatenate([w.share.memory[k] for w in self.workers])[order] for k in names}
+        return found | {k: np.concatenate([w.sampling.sums[k][1] for w in self.workers]) for k in sums}
 
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
-    monkeypatch.setattr("foamprb.cloud.cloud.PART", 7)
+    monkeypatch.setattr("foamprb.cloud.communicator.PART", 7)
     monkeypatch.setattr("foamprb.cloudfunctions.base.CELLS", 5)
 
 
-def at_homes(cloud: Cloud, n: int, **changes: Any) -> tuple[Cloud, Processes]:
+def on_ranks(cloud: Cloud, n: int, **changes: Any) -> tuple[Cloud, Processes]:
     """Return a cloud of the same particles that n processes hold."""
-    processes = Processes(n)
-    homes = processes.homes_of(cloud.particles.copy())
-    made_of = {f.name: getattr(cloud, f.name) for f in dataclasses.fields(cloud)}
-    return Cloud(**{**made_of, **changes, "particles": homes.particles, "homes": homes}), processes
+    ranks, made_of = Processes(n), {f.name: getattr(cloud, f.name) for f in dataclasses.fields(cloud)}
+    p = ranks.place(cloud.size, partial(cut, cloud.particles.copy()))
+    return Cloud(**{**made_of, **changes, "particles": p, "comm": ranks}), ranks
+
+
+def cut(p: Particles, _most: int) -> list[Particles]:
+    return [p.take(slice(k, k + 11)) for k in range(0, p.size, 11)]
 
 
 def assert_same_files(folder: Path, others: Path) -> None:
@@ -119,37 +135,33 @@ def assert_same_files(folder: Path, others: Path) -> None:
         assert (folder / file).read_bytes() == (others / file).read_bytes(), file
 
 
-def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path) -> None:
-    """Observe a cloud here and elsewhere; all files and all that is remembered are the same."""
-    afar, processes = at_homes(cloud, n)
+def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, steps: int = 10) -> None:
+    """Observe a cloud here and elsewhere; all files and all data are the same."""
+    afar, ranks = on_ranks(cloud, n)
     here, there = (CloudFunctions(functions, observed(c)) for c in (cloud, afar))
-    travelling = there.travelling
-    rest = [name for name in functions if name not in travelling]
-    processes.set_out(Sampling.of(there, cloud.medium), cloud)
-    afar.particles, random = empty(0), np.random.default_rng(1)
+    ranks.begin(afar)
+    random = np.random.default_rng(1)
     for k in range(30):
-        start, until = (cloud.start + (cloud.step + steps) * cloud.dt for steps in (0, 10))
-        processes.before_steps(start, until)
-        Stepper(cloud, here).advance(10)
-        processes.take(cloud.particles)
-        processes.mix(random)
+        ranks.before_steps(cloud.time, cloud.start + (cloud.step + steps) * cloud.dt)
+        Stepper(cloud).advance(steps)
+        ranks.take(cloud.particles)
+        ranks.mix(random)
         afar.step = cloud.step
         rows = cloud.take_rebounds()
-        for functions_of, names in ((here, functions), (there, rest)):
-            functions_of.record_rebounds(rows, names)
-        processes.order("record", rows, cloud.time)
-        here.sample(list(functions))
-        processes.order("sample", travelling, cloud.time)
-        processes.order("add_up", there.summing)
-        there.sample(rest)
-        there.add_events(processes.order("take_events"))
+        for some in (cloud, afar):
+            # Both take the records of the one loop.
+            some.tracker.rebounds = [rows]
+            (here if some is cloud else there)._record_rebounds()
+        names = list(functions) if k % 10 == 9 else here.due
+        here.sample(names)
+        there.sample(names)
         if k % 10 == 9:
             here.write(folder / "here")
             there.write(folder / "there")
     assert_same_files(folder / "here", folder / "there")
-    found, expected = there.state() | processes.joined(), here.state()
-    assert list(found) == list(expected)
-    assert len({w.particles.size for w in processes.workers}) > 1 or n == 1
+    found, expected = there.state() | ranks.joined(), here.state()
+    assert found.keys() == expected.keys()
+    assert len({w.particles.size for w in ranks.workers}) > 1 or n == 1
     for name, array in expected.items():
         assert found[name].dtype == array.dtype
         assert found[name].tobytes() == array.tobytes(), name
@@ -172,6 +184,49 @@ def test_rebounds_of_particles_elsewhere_are_recorded(tmp_path):
     assert (tmp_path / "here/hits/wall.csv").read_text().count("rebound") > 10
 
 
+def period_cloud(n: int = 30) -> Cloud:
+    """Particles that pass coupled patches at several speeds, and turn in shear."""
+    mesh = cyclic_row(0.0, 1)
+    l = np.zeros((3, 3))
+    l[0, 1] = 3.0
+    u = mesh.nodes @ l.T + [1.0, 0.0, 0.0]
+    flow = MeshFlow(mesh, u, np.broadcast_to(l, (len(u), 3, 3)))
+    random = np.random.default_rng(5)
+    p = spheres(random.uniform(0.2, 0.8, (n, 3)), d=1e-3, rho=1e3, mu=1.0)
+    walls = [Cyclic() if patch.neighbour else Rebound() for patch in flow.patches]
+    return Cloud(p, flow, WATER, walls, 2e-3, Models(integrator="stokes", rebounds=True), threads=1)
+
+
+def test_passages_are_recorded_by_the_rank_that_has_the_particle(tmp_path):
+    """Whichever it is when the records come; the functions sample at different times."""
+    plane = (0.9, 0.0, 0.0), (1.0, 0.0, 0.0)
+    functions = {
+        "plane": ParticleCollector("plane", *plane, sampleInterval=20),
+        "camera": DeformabilityCytometry(*plane, view=(0.0, 0.0, 1.0), sampleInterval=40),
+        "blood": Haemolysis("Ding", "morphology", sampleInterval=100),
+    }
+    for name in ("here", "there"):
+        (tmp_path / name).mkdir()
+    observe_both(period_cloud(), functions, 3, tmp_path, steps=20)
+    assert len((tmp_path / "here/plane/crossings.csv").read_text().splitlines()) > 40
+
+
+def test_cells_of_a_part_have_their_numbers_in_the_whole_mesh():
+    cloud = period_cloud()
+    flow, hosts = cloud.flow, cloud.particles.host
+    numbers = np.random.default_rng(1).permutation(flow.mesh.n_cells) + 100
+    loaded = LoadedFlow(flow.kernels, cloud.make_ready(), None)
+    np.testing.assert_array_equal(loaded.cell_of(hosts), flow.cell_of(hosts))
+    np.testing.assert_array_equal(loaded._replace(cells=numbers).cell_of(hosts), numbers[flow.cell_of(hosts)])
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 2)), max_size=8), st.booleans())
+def test_events_are_ordered_by_time_then_by_number(rows, sort):
+    events = np.array([(n, t, k) for k, (n, t) in enumerate(rows)], dtype=float).reshape(-1, 3)
+    expected = sorted(events.tolist(), key=lambda row: (row[1], row[0]))
+    assert in_time(np.reshape(expected, (-1, 3)) if sort else events).tolist() == expected
+
+
 def test_fields_on_the_mesh_are_those_of_one_process(tmp_path):
     cloud = small_clouds.box_cloud("stokes")
     for name in ("here", "there"):
@@ -182,25 +237,27 @@ def test_fields_on_the_mesh_are_those_of_one_process(tmp_path):
 
 def test_particles_are_found_by_their_numbers():
     cloud = pipe_cloud()
-    afar, processes = at_homes(cloud, 3)
+    afar, ranks = on_ranks(cloud, 3)
     assert (afar.size, afar.particles.size) == (40, 14)
-    processes.set_out(Sampling.of(CloudFunctions({}, observed(afar)), cloud.medium), cloud)
-    processes.mix(np.random.default_rng(2))
+    ranks.begin(afar)
+    ranks.mix(np.random.default_rng(2))
     numbers = np.array([39, 0, 17, 17, 2])
     for found, expected in zip(afar.of(numbers), cloud.of(numbers), strict=True):
         assert found.tobytes() == expected.tobytes()
     assert afar.values_of(numbers, "x").tolist() == cloud.values_of(numbers, "x").tolist()
     assert afar.whole().x.tobytes() == cloud.particles.x.tobytes()
     assert afar.counts() == cloud.counts()
-    assert [p.number[0] for p in afar.in_order(same)] == [0, 7, 14, 21, 28, 35]
-    assert [p.size for p in afar.in_order(same)] == [7, 7, 7, 7, 7, 5]
-    assert [p.size for p in Processes(3).homes_of(empty(0)).in_order(same)] == [0]
+    assert [p.number[0] for p in afar.map_by_id(same)] == [0, 7, 14, 21, 28, 35]
+    assert [p.size for p in afar.map_by_id(same)] == [7, 7, 7, 7, 7, 5]
+    nothing = Processes(3)
+    nothing.place(0, lambda _: [])
+    assert [p.size for p in nothing.map_by_id(same)] == [0]
 
 
 def test_a_cloud_elsewhere_is_the_same_cloud():
     """Its models, its limits, its fingerprint and what notes and warnings read."""
     cloud = pipe_cloud(integrator="auto")
-    afar, _ = at_homes(cloud, 3, models=dataclasses.replace(cloud.models, integrator="auto"))
+    afar, _ = on_ranks(cloud, 3, models=dataclasses.replace(cloud.models, integrator="auto"))
     assert (afar.models, afar.stokes_numbers, afar._largest) == (
         cloud.models, cloud.stokes_numbers, cloud._largest,
     )  # fmt: skip
@@ -223,65 +280,74 @@ def test_faults_of_particles_elsewhere_have_the_same_message():
         p = cloud.particles.copy()
         getattr(p, name)[[20, 35]] = value
         messages = []
-        for homes in (None, Processes(3).homes_of(p)):
+        for comm in (Communicator(), Processes(3)):
             made_of = {f.name: getattr(cloud, f.name) for f in dataclasses.fields(cloud)}
-            own = p if homes is None else homes.particles
+            own = comm.place(p.size, lambda *_, p=p: cut(p, 0))
             with pytest.raises(InputError) as caught:
-                Cloud(**{**made_of, "particles": own, "homes": homes})
+                Cloud(**{**made_of, "particles": own, "comm": comm})
             messages.append(str(caught.value))
         assert messages[0] == messages[1]
         assert "20" in messages[0] or "2 of 40" in messages[0]
 
 
+class Sums(ParticleHistogram):
+    """A function with sums of 11 cells."""
+
+    arrays: ClassVar[Any] = {**ParticleHistogram.arrays, "passed": per_event, "sums": per_cell}
+
+    def initial(self, cloud: Any) -> Any:
+        return {**super().initial(cloud), "passed": np.empty((0, 5)), "sums": np.zeros((11, 2))}
+
+
 @pytest.mark.parametrize("before", [1, 2, 5])
-def test_homes_read_their_particles_from_parts_of_other_numbers(before, tmp_path):
+def test_ranks_read_their_particles_from_parts_of_other_numbers(before, tmp_path):
+    functions = {**FUNCTIONS, "cells": Sums()}
     cloud = pipe_cloud()
-    written, processes = at_homes(cloud, before)
-    functions = CloudFunctions(FUNCTIONS, observed(written))
-    written.homes.share_sums("cells", (11, 2))
-    for worker in processes.workers:
-        first, sums = worker._sums["cells"]
-        sums[:] = np.arange(*first[worker.rank : worker.rank + 2])[:, None] + [0.5, 0.25]
-    processes.set_out(Sampling.of(functions, cloud.medium), cloud)
+    written, ranks = on_ranks(cloud, before)
+    CloudFunctions(functions, observed(written))
+    for worker in ranks.workers:
+        first, sums = worker.sampling.sums["cells/sums"]
+        sums[:] = np.arange(*first[worker.number : worker.number + 2])[:, None] + [0.5, 0.25]
+    ranks.begin(written)
     cloud.advance(20)
-    processes.take(cloud.particles)
-    processes.mix(np.random.default_rng(3))
-    for worker in processes.workers:
-        for array in worker.own.memory.values():
+    ranks.take(cloud.particles)
+    ranks.mix(np.random.default_rng(3))
+    for worker in ranks.workers:
+        for array in worker.share.memory.values():
             array[:] = (np.arange(array[:1].size) + worker.particles.number[:, None]).reshape(array.shape) % 7
     file = tmp_path / "1.checkpoint"
-    parts = written.homes.write_parts(file, 1.0)
+    parts = ranks.write_parts(file, 1.0)
     assert len(parts) == before
-    assert [first for first, _ in parts] == list(written.homes.firsts)
+    assert [first for first, _ in parts] == list(ranks.parts)
     assert all(part_file(file, first).exists() for first, _ in parts)
     empty_rows = {f"particles/{k}": a for k, a in empty(0)._asdict().items()}
-    empty_rows |= {f"functions/{k}": a[:0] for k, a in processes.joined().items()}
+    empty_rows |= {f"functions/{k}": a[:0] for k, a in ranks.joined().items()}
     write_checkpoint(file, Checkpoint(1.0, {"parts": parts}, empty_rows))
 
-    again, others = at_homes(pipe_cloud(), 3)
-    CloudFunctions(FUNCTIONS, observed(again))
-    again.homes.share_sums("cells", (11, 2))
-    again.homes.restore(file)
-    assert again.homes.of_cells("cells", slice(2, 9))[:, 0].tolist() == (np.arange(2, 9) + 0.5).tolist()
-    for found, expected in zip(again.whole(), cloud.particles, strict=True):
-        assert found.tobytes() == expected.tobytes()
-    expected = processes.joined()
-    for name, found in others.joined().items():
-        assert found.tobytes() == expected[name].tobytes(), name
-    assert others.workers[1].particles.size == 13
+    for again, comm in (on_ranks(pipe_cloud(), 3), ((alone := pipe_cloud()), alone.comm)):
+        CloudFunctions(functions, observed(again))
+        comm.call(_restore_rank, file)
+        sums = comm.call(_sums_of, "cells/sums", slice(2, 9))
+        assert np.concatenate(sums)[:, 0].tolist() == (np.arange(2, 9) + 0.5).tolist()
+        for found, expected in zip(again.whole(), cloud.particles, strict=True):
+            assert found.tobytes() == expected.tobytes()
+        restored = comm.joined() if comm.size > 1 else comm.arrays_here()
+        assert {k: a.tobytes() for k, a in restored.items()} == {
+            k: a.tobytes() for k, a in ranks.joined().items()
+        }
 
 
 @pytest.mark.parametrize("particles", [0, 1, 2, 40])
 def test_processes_that_write_checkpoints_have_all_sums(particles):
-    processes = Processes(3)
-    homes = processes.homes_of(pipe_cloud().particles.take(slice(particles)))
-    homes.share_sums("cells", (11, 2))
-    of_each = [len(w._sums["cells"][1]) for w in processes.workers]
+    cloud = pipe_cloud(n=particles)
+    afar, ranks = on_ranks(cloud, 3)
+    CloudFunctions({"cells": Sums()}, observed(afar))
+    of_each = [len(w.sampling.sums["cells/sums"][1]) for w in ranks.workers]
     assert of_each == {0: [11, 0, 0], 1: [11, 0, 0], 2: [5, 6, 0], 40: [3, 4, 4]}[particles]
 
 
 def test_a_process_that_cannot_write_still_sends_what_the_others_need(tmp_path, monkeypatch):
-    written, _ = at_homes(pipe_cloud(), 3)
+    _, ranks = on_ranks(pipe_cloud(), 3)
     file, write = tmp_path / "1.checkpoint", worker_module.write_arrays
 
     def on_a_full_disk(path, time, header, arrays):
@@ -292,7 +358,7 @@ def test_a_process_that_cannot_write_still_sends_what_the_others_need(tmp_path, 
 
     monkeypatch.setattr(worker_module, "write_arrays", on_a_full_disk)
     with pytest.raises(OSError, match="No space left"):
-        written.homes.write_parts(file, 1.0)
+        ranks.write_parts(file, 1.0)
     for first, n in ((0, 14), (27, 13)):
         assert read_checkpoint(part_file(file, first)).arrays["particles/R"].shape == (n,)
 

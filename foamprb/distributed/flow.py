@@ -1,4 +1,4 @@
-"""A flow of which every node holds a part, as the first process uses it."""
+"""Proxy, on rank 0, of a flow distributed over nodes."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from foamprb.distributed.parts import Summary
+from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, FieldValues, by_name, width
@@ -25,7 +27,6 @@ from foamprb.flow.read.source import FlowSource
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.timeline import Timeline
-from foamprb.parallel.parts import Summary
 
 log = logging.getLogger("foamprb")
 
@@ -97,8 +98,8 @@ class DistributedFlow:
 
     Parameters
     ----------
-    order
-        Lets all processes call a method of their worker; see :meth:`foamprb.parallel.ranks.Ranks.order`.
+    call
+        Applies a function to the workers of all processes; see :meth:`foamprb.distributed.ranks.Ranks.call`.
     open_parts
         Lets all nodes read their parts with at least a number of layers around their cells in which bodies
         may move, and a load of the processor folders.
@@ -117,9 +118,9 @@ class DistributedFlow:
     span = (-math.inf, math.inf)
 
     def __init__(
-        self, order: Callable[..., list[Any]], open_parts: OpenParts, step: float, summaries: Summaries
+        self, call: Callable[..., list[Any]], open_parts: OpenParts, step: float, summaries: Summaries
     ) -> None:
-        self._order, self._open_parts, self._step = order, open_parts, step
+        self._call, self._open_parts, self._step = call, open_parts, step
         self._load: NDArray[np.int64] | None = None
         self._shared: tuple[Any, ...] | None = None
         self.shared_bytes = 0
@@ -199,7 +200,7 @@ class DistributedFlow:
         walls = reach, tuple(touchable), sight, tuple(seen)
         if walls != self._shared:
             self._shared = None
-            self.shared_bytes = sum(self._order("share_part", *walls))
+            self.shared_bytes = sum(self._call(Worker.share_part, *walls))
             self._shared = walls
         return self.nothing()
 
@@ -208,7 +209,7 @@ class DistributedFlow:
 
     def _ask(self, name: str, *arguments: Any) -> list[Any]:
         """Return the results of a method of the flows of all nodes."""
-        return [found for found in self._order("ask_part", name, *arguments) if found is not None]
+        return [found for found in self._call(Worker.call_flow, name, *arguments) if found is not None]
 
     def _ask_own(self, name: str, empty: Sequence[NDArray[Any]], *arguments: Any) -> list[NDArray[Any]]:
         """Return results, whose rows the nodes have, as arrays of all rows."""
@@ -299,17 +300,10 @@ class DistributedFlow:
         """See :meth:`foamprb.flow.base.Flow.ends_at_nodes`."""
         return joined(self._ask("ends_at_nodes", function))
 
-    def normals_of(self, particles: NDArray[np.int64]) -> Floats:
-        """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""
-        normals, order = np.full((len(particles), 3), np.nan), np.argsort(particles)
-        for numbers, found in self._order("normals", particles):
-            normals[order[np.searchsorted(particles[order], numbers)]] = found
-        return normals
-
     def wall_distances(self, x: Floats, hosts: NDArray[Any], *others: Any) -> Floats:
         """See :func:`foamprb.cloud.surroundings.wall_lift.wall_distances`; by the walls listed last."""
         nearest = np.full(len(x), np.inf)
-        for found in self._order("wall_distances", x, hosts, *others):
+        for found in self._call(Worker.wall_distances, x, hosts, *others):
             if found is not None:
                 nearest[found[0]] = found[1]
         return nearest
@@ -370,14 +364,14 @@ class DistributedSeries(Timeline, DistributedFlow):
         return total
 
     def _load_all(self, start: float, end: float) -> float:
-        found = [own for own in self._order("load_part", start, end) if own is not None]
+        found = [own for own in self._call(Worker.load_part, start, end) if own is not None]
         self._fluid = max(rate for _, rate in found)
         return float(found[0][0])
 
 
-def distributed_flow(order: Callable[..., list[Any]], open_parts: OpenParts, step: float) -> DistributedFlow:
+def distributed_flow(call: Callable[..., list[Any]], open_parts: OpenParts, step: float) -> DistributedFlow:
     """Return the flow of which all nodes hold parts; see :class:`DistributedFlow`."""
     summaries = open_parts(LEAST_LAYERS, None)
     first = next(summary for summary in summaries if summary is not None)
     kind = DistributedSeries if first.times else DistributedRotating if first.rotating else DistributedFlow
-    return kind(order, open_parts, step, summaries)
+    return kind(call, open_parts, step, summaries)

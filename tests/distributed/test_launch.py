@@ -1,4 +1,4 @@
-"""Steppers that advance a cloud, and the end of the processes of a parallel run."""
+"""Start and end of the processes of a parallel run."""
 
 from __future__ import annotations
 
@@ -7,50 +7,13 @@ import signal
 import threading
 from dataclasses import fields
 
-import numpy as np
 import pytest
-from small_clouds import pipe_cloud
 
-from foamprb.cloud.cloud import Cloud, Stepper
-from foamprb.cloud.state import Particles
-from foamprb.cloud.tracker import never
+from foamprb.cloud.cloud import Cloud
+from foamprb.distributed import launch
+from foamprb.distributed.launch import caught_signals
+from foamprb.distributed.ranks import Ranks
 from foamprb.errors import RunStopped
-from foamprb.parallel import launch
-from foamprb.parallel.launch import caught_signals
-from foamprb.parallel.ranks import Ranks
-
-
-class Apart(Stepper):
-    """Advances copies of the particles, as a stepper with memory of its own does."""
-
-    def __init__(self, cloud: Cloud) -> None:
-        super().__init__(cloud)
-        self.own = Particles(*(array.copy() for array in cloud.particles))
-
-    def _carry(self, flow, steps, stop=never):
-        cloud = self.cloud
-        return cloud.tracker.advance(flow, self.own, cloud.step, steps, cloud.threads, cloud.bounds, stop)
-
-    def counts(self):
-        return self.own.counts()
-
-    def gather(self):
-        for array, own in zip(self.cloud.particles, self.own, strict=True):
-            array[:] = own
-
-
-def test_steppers_with_and_without_own_memory_agree():
-    alone, handed = pipe_cloud("paper"), pipe_cloud("paper")
-    alone.advance(12)
-    for kind, steps in ((Apart, 3), (Stepper, 4), (Apart, 5)):
-        stepper = kind(handed)
-        stepper.advance(steps)
-        if steps == 5:
-            assert stepper.counts() == alone.particles.counts()
-            assert handed.particles.t[0] < alone.particles.t[0]
-        stepper.gather()
-    for array, expected in zip(handed.particles, alone.particles, strict=True):
-        np.testing.assert_array_equal(array, expected)
 
 
 def test_default_threads_are_the_processors_of_the_process():

@@ -14,10 +14,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pipe_case import copy_of_pipe, message
 
+from foamprb.cloud.communicator import Share
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
-from foamprb.parallel.exchange import Share, homes_of, idle_share, pack, plan_exchange, unpack
-from foamprb.parallel.route import Route
+from foamprb.distributed.exchange import firsts_of, idle_share, pack, plan_exchange, unpack, with_others
+from foamprb.distributed.route import Route
 
 
 @given(st.lists(st.integers(0, 40 * LANES), min_size=2, max_size=9))
@@ -38,10 +39,10 @@ def test_an_exchange_leaves_all_with_as_many(active):
 
 
 @given(st.integers(0, 100), st.integers(1, 9))
-def test_every_particle_has_one_home(n, size):
-    homes = homes_of(n, size)
-    assert (homes[0], homes[-1], len(homes)) == (0, n, size + 1)
-    counts = np.diff(homes)
+def test_every_particle_is_written_by_one_rank(n, size):
+    firsts = firsts_of(n, size)
+    assert (firsts[0], firsts[-1], len(firsts)) == (0, n, size + 1)
+    counts = np.diff(firsts)
     assert counts.min() >= 0
     # The first process writes the first rows of a checkpoint.
     assert (counts[0] > 0) == (n > 0)
@@ -86,7 +87,7 @@ def test_shares_keep_every_bit_when_particles_are_replaced(data):
             others.particles.eddy[k] = -0.0 if number % 2 else 0.0
         for gone in share.particles.number[rows]:
             del expected[gone]
-        share = share.with_others(rows, others)
+        share = with_others(share, rows, others)
         p = share.particles
         assert dict(zip(p.number.tolist(), p.bonds.tolist(), strict=True)) == expected
         assert (np.signbit(p.eddy).all(axis=1) == (p.number % 2 == 1)).all()
@@ -94,10 +95,10 @@ def test_shares_keep_every_bit_when_particles_are_replaced(data):
 
 
 def test_a_share_of_changing_size_stays_in_its_memory():
-    share = Share(empty(100)).with_others(np.empty(0, dtype=np.int64), Share(empty(5)))
+    share = with_others(Share(empty(100)), np.empty(0, dtype=np.int64), Share(empty(5)))
     before = share.particles.F.ctypes.data
     for leaving, arriving in ((20, 3), (1, 15), (0, 3)):
-        share = share.with_others(np.arange(leaving), Share(empty(arriving)))
+        share = with_others(share, np.arange(leaving), Share(empty(arriving)))
     assert (share.particles.size, share.particles.F.ctypes.data) == (105, before)
 
 
@@ -142,8 +143,7 @@ def test_without_mpi4py_there_is_one_message_in_all(number, tmp_path, capsys, mo
 
 
 def test_mpi4py_is_loaded_only_for_parallel_runs():
-    script = (
-        "import sys, foamprb.cli, foamprb.run.loop, foamprb.parallel.launch; print('mpi4py' in sys.modules)"
-    )
+    modules = "sys, foamprb.cli, foamprb.run.loop, foamprb.distributed.launch"
+    script = f"import {modules}; print('mpi4py' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"

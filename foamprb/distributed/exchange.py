@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from types import MappingProxyType
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.communicator import Share
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.state import Particles
-from foamprb.parallel.route import has_bits
+from foamprb.distributed.route import has_bits
 
 Rows = NDArray[np.int64]
 
@@ -19,38 +18,18 @@ UNEVEN = 1.1
 """How much longer than with even shares a step may take before particles change hands."""
 
 
-class Share(NamedTuple):
-    """Particles, and what cloud functions remember of them."""
+def with_others(share: Share, rows: Rows, others: Share) -> Share:
+    """Return particles with others in place of some rising rows, perhaps in other rows.
 
-    particles: Particles
-    memory: Mapping[str, NDArray[Any]] = MappingProxyType({})
-
-    @classmethod
-    def of(cls, arrays: Mapping[str, NDArray[Any]]) -> Share:
-        """Return the particles of some arrays by their names in a record."""
-        memory = dict(arrays)
-        return cls(Particles(*(memory.pop(name) for name in Particles._fields)), memory)
-
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        """Return all arrays by their names in a record."""
-        return {**self.particles._asdict(), **self.memory}
-
-    def take(self, rows: Any) -> Share:
-        """Return the particles of some rows."""
-        return Share.of({name: array[rows] for name, array in self.arrays().items()})
-
-    def with_others(self, rows: Rows, others: Share) -> Share:
-        """Return these particles with others in place of those of some rising rows, perhaps in other rows.
-
-        They are in the memory of these as far as it suffices.
-        """
-        n = len(self.particles.number) - len(rows) + len(others.particles.number)
-        found, new = self.arrays(), others.arrays()
-        return Share.of({name: _replaced(array, rows, new[name], n) for name, array in found.items()})
+    They are in the same memory as far as it suffices.
+    """
+    n = len(share.particles.number) - len(rows) + len(others.particles.number)
+    found, new = share.arrays(), others.arrays()
+    return Share.of({name: _replaced(array, rows, new[name], n) for name, array in found.items()})
 
 
 def _replaced(array: NDArray[Any], rows: Rows, others: NDArray[Any], n: int) -> NDArray[Any]:
-    """Return an array with n rows, others in place of some of them; the last rows fill what remains free."""
+    """Replace rows of an array by others; fill gaps with the last rows (swap-remove), to n rows."""
     # An array of zeros takes no memory of the machine until its rows are written.
     written, both = has_bits(others), min(len(rows), len(others))
     if written or has_bits(array[rows[:both]]):
@@ -104,15 +83,15 @@ def unpack(records: NDArray[Any]) -> Share:
     return Share.of({name: records[name].copy() for name in records.dtype.names or ()})
 
 
-def homes_of(n: int, size: int) -> NDArray[np.int64]:
-    """Return the number of the first particle whose home is each of several processes, and n, (size + 1,).
+def firsts_of(n: int, size: int) -> NDArray[np.int64]:
+    """Return the number of the first particle that each rank writes to checkpoints, and n, (size + 1,).
 
-    A process is the home of particles of consecutive numbers: it writes them to checkpoints.
+    A rank writes particles of consecutive numbers.
 
     Parameters
     ----------
     n, size
-        Number of particles and of processes.
+        Number of particles and of ranks.
     """
     # Rounded up, so that the first process has some if there are any.
     return -(-np.arange(size + 1, dtype=np.int64) * n // size)
@@ -124,10 +103,9 @@ def idle_share(before: int, after: int) -> float:
 
 
 def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:
-    """Who gives how many active particles to whom, so that all have as many; None if it does not pay.
+    """Return the exchange after which all have as many active particles; None if it does not pay.
 
-    The processes wait for the one with most blocks of particles, a block taking its time however few are in
-    it.
+    The processes wait for the one with most blocks of particles. A block takes the same time full or not.
 
     Parameters
     ----------

@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from foamprb.distributed.ranks import Ranks
+from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError
 from foamprb.memory import spread_over
-from foamprb.parallel.ranks import Ranks
-from foamprb.parallel.worker import Worker
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU)
 _RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID")
@@ -26,7 +26,7 @@ def run_together(lead: Callable[[Ranks | None], int]) -> int:
     ----------
     lead
         Called on the first process with all processes, None if there is only one; it returns
-        an exit status. The others meanwhile carry out its orders.
+        an exit status. The others meanwhile execute its calls.
 
     Returns
     -------
@@ -87,7 +87,7 @@ def connect() -> Ranks | Worker | None:
     threads = min(len(own), max(1, len(shared) // worker.windows.node.size))
     threads = worker.comm.allreduce(threads, MPI.MIN)
     spread_over(worker.windows.nodes)
-    return Ranks(worker, threads) if worker.rank == 0 else worker
+    return Ranks(worker, threads) if worker.number == 0 else worker
 
 
 @contextmanager

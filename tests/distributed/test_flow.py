@@ -19,6 +19,9 @@ from transient_case import scaled
 from foamprb.cloud.block import Medium
 from foamprb.cloud.measures import largest_slip
 from foamprb.cloud.state import empty
+from foamprb.distributed.flow import deepest, distributed_flow, require_divisible
+from foamprb.distributed.parts import summary_of
+from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError
 from foamprb.flow.mesh.fragment import IndivisibleMeshError
 from foamprb.flow.read.decomposed import DecomposedCase
@@ -27,8 +30,6 @@ from foamprb.flow.read.foamfile import FoamFile
 from foamprb.flow.read.openfoam import flow_of, steady_flow
 from foamprb.flow.read.parts import PartCase, ends_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.parallel.distributed import deepest, distributed_flow, require_divisible
-from foamprb.parallel.parts import summary_of
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +48,7 @@ def whole(case):
 
 
 def distributed(case, times, source=FlowSource()):  # noqa: B008
-    """The flow of two nodes, which carry out orders together."""
+    """The flow of two nodes, which execute calls together."""
 
     def read(team):
         part = flow_of(PartCase(case, "", team, 2), times, source)
@@ -55,8 +56,8 @@ def distributed(case, times, source=FlowSource()):  # noqa: B008
 
     found = together(2, read)
 
-    def order(name, *arguments):
-        if name == "load_part":
+    def call(function, *arguments):
+        if function is Worker.load_part:
 
             def load(team):
                 part = found[team.rank][0]
@@ -65,10 +66,10 @@ def distributed(case, times, source=FlowSource()):  # noqa: B008
                 return until, part.rate
 
             return together(2, load)
-        assert name == "ask_part"
+        assert function is Worker.call_flow
         return together(2, lambda team: getattr(found[team.rank][0], arguments[0])(*arguments[1:]))
 
-    return distributed_flow(order, lambda *_: [summary for _, summary in found], 0.0)
+    return distributed_flow(call, lambda *_: [summary for _, summary in found], 0.0)
 
 
 @pytest.fixture(scope="module")

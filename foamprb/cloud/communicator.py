@@ -1,0 +1,285 @@
+"""Access to the particles of a cloud, wherever they are: on this process, or on several ones.
+
+A function is applied to the particles of each process (:meth:`Communicator.call`), and the results return.
+:mod:`foamprb.distributed` has the communicator of several processes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.limits import LoopLimits
+from foamprb.cloud.state import Particles, Status, concatenate, empty
+from foamprb.cloud.tracker import Outcome, Tracker
+from foamprb.flow.base import Flow
+from foamprb.flow.loaded import LoadedFlow, loaded_fields
+
+__all__ = ["Communicator", "Rank", "Share", "applied", "parts_of", "same"]
+
+Value = TypeVar("Value")
+Arrays = Mapping[str, NDArray[Any]]
+PART = 1 << 14
+"""Particles in a block of :meth:`Communicator.map_by_id`."""
+
+
+class Share(NamedTuple):
+    """Particles, and the arrays that cloud functions store of them, by ``function/array``."""
+
+    particles: Particles
+    memory: Arrays = MappingProxyType({})
+
+    @classmethod
+    def of(cls, arrays: Arrays) -> Share:
+        """Return the particles of some arrays by their names in a record."""
+        memory = dict(arrays)
+        return cls(Particles(*(memory.pop(name) for name in Particles._fields)), memory)
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Return all arrays by their names in a record."""
+        return {**self.particles._asdict(), **self.memory}
+
+    def take(self, rows: Any) -> Share:
+        """Return the particles of some rows."""
+        memory = {name: array[rows] for name, array in self.memory.items()}
+        return Share(self.particles.take(rows), memory)
+
+    def apply(self, function: Callable[..., Value], of: str | None, *arguments: Any) -> Value:
+        """Apply a function to the particles and, with a name ``of`` a cloud function, to its arrays.
+
+        An empty name stands for the arrays of all cloud functions, by ``function/array``.
+        """
+        if of is None:
+            return function(self.particles, *arguments)
+        own = f"{of}/" if of else ""
+        memory = {k.removeprefix(own): array for k, array in self.memory.items() if k.startswith(own)}
+        return function(self.particles, memory, *arguments)
+
+
+class Rank:
+    """Process with its share of the particles; this one has all, in the order of their numbers."""
+
+    number = 0
+    cells: NDArray[np.int64] | None = None
+    """Numbers of the cells in the whole mesh, if this process has a part of it."""
+    tracker: Tracker
+    threads: int
+
+    def __init__(self) -> None:
+        self.share = Share(empty(0))
+        self.sampling: Any = None
+        """Cloud functions here, see :class:`foamprb.cloudfunctions.sampling.Sampling`."""
+        self.flow: Any = None
+        """Arguments of the flow's kernels."""
+        self.sampled: Any = None
+        """Fields of the flow that are sampled."""
+
+    @property
+    def particles(self) -> Particles:
+        """Particles of this process."""
+        return self.share.particles
+
+    @property
+    def firsts(self) -> NDArray[np.int64]:
+        """Number of the first particle that each process writes to checkpoints, and of all particles."""
+        return np.array([0, self.particles.size])
+
+    @property
+    def seen(self) -> LoadedFlow:
+        """The flow around the particles, at the loaded times."""
+        return LoadedFlow(self.tracker.kernels, self.flow, self.sampled, self.cells)
+
+    def complete(self) -> Share:
+        """Return the particles with hosts of the whole mesh."""
+        return self.share
+
+    def find(self, numbers: NDArray[np.int64]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
+        """Return which of the given particles this rank owns, and the rows of these."""
+        return np.ones(len(numbers), dtype=bool), numbers
+
+    def sent(self, to: NDArray[np.int64], array: NDArray[Any]) -> NDArray[Any]:  # noqa: ARG002
+        """Send each row of an array to a rank; return the rows that arrive. All ranks call it together."""
+        return array
+
+    def advance(self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool]) -> Outcome:
+        """Advance the particles by some steps in the loaded flow."""
+        tracker = self.tracker
+        start, until = (tracker.start + n * tracker.dt for n in (step, step + steps))
+        if self.sampling is not None:
+            self.sampling.before_steps(self, start, until)
+        given = self.flow, self.particles, step, steps, self.threads, bounds, stop, self.sampled
+        outcome = tracker.advance(*given)
+        if self.sampling is not None:
+            self.sampling.after_steps(self, until)
+        return outcome
+
+
+class Communicator:
+    """Ranks that hold the particles of a cloud; here there is one, this process."""
+
+    size = 1
+    """Number of ranks."""
+    threads: int | None = None
+    """Number of threads of each rank; by default all processors."""
+    signals: Sequence[int] = ()
+    """Signals that any rank has received."""
+    parts: tuple[int, ...] = ()
+    """Number of the first particle of each part of a checkpoint, if several ranks write parts."""
+
+    def __init__(self) -> None:
+        self.rank = Rank()
+
+    @property
+    def n_particles(self) -> int:
+        """Number of particles of all ranks."""
+        return self.rank.particles.size
+
+    def call(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+        """Return the results of a function of a :class:`Rank` and the arguments on each rank."""
+        return [function(self.rank, *arguments)]
+
+    def place(self, size: int, parts: Callable[..., Iterable[Particles]]) -> Particles:  # noqa: ARG002
+        """Give each rank its particles; return those of this one.
+
+        Parameters
+        ----------
+        size
+            Number of particles.
+        parts
+            Returns the particles in the order of their numbers, at most as many together as its argument.
+        """
+        return concatenate(parts())
+
+    def adopt(self, p: Particles) -> None:
+        """Take the particles that :meth:`place` returned, or others on one process, and number them."""
+        p.number[:] = np.arange(p.size)
+        self.rank.share = Share(p)
+
+    def map_by_id(
+        self, function: Callable[..., Value], *arguments: Any, of: str | None = None
+    ) -> Iterator[Value]:
+        """Apply a function to blocks of particles sorted by number, at least one; see :meth:`Share.apply`."""
+        share = self.rank.share
+        blocks = parts_of(share.particles.size)
+        return (share.take(rows).apply(function, of, *arguments) for rows in blocks)
+
+    def store(self, layout: Arrays, first: Callable[[Particles], Arrays]) -> None:
+        """Add arrays of a cloud function with a row for each particle.
+
+        Parameters
+        ----------
+        layout
+            The arrays without rows, by ``function/array``.
+        first
+            Returns the first rows of some particles.
+        """
+        self.call(add_arrays, layout)
+        for p in self.map_by_id(same):
+            self.put(p.number, first(p))
+
+    def put(self, numbers: NDArray[np.int64], arrays: Arrays) -> None:
+        """Store rows of arrays of particles of consecutive numbers."""
+        own = self.rank.share.arrays()
+        for name, array in arrays.items():
+            own[name][numbers] = array
+
+    def arrays_here(self) -> Arrays:
+        """Return the arrays of cloud functions that the first rank writes to checkpoints."""
+        sums = {} if self.rank.sampling is None else self.rank.sampling.sums
+        return {**self.rank.share.memory, **{name: array for name, (_, array) in sums.items()}}
+
+    def begin(self, cloud: Any) -> None:
+        """Prepare the ranks for the steps of a :class:`~foamprb.cloud.cloud.Cloud`."""
+        self.rank.tracker, self.rank.threads = cloud.tracker, cloud.threads
+        self.rank.share = self.rank.share._replace(particles=cloud.particles)
+
+    def publish(self, arrays: Any, flow: Flow) -> None:
+        """Give all ranks the arguments of a flow's kernels, and its fields that are sampled."""
+        self.rank.flow, self.rank.sampled = arrays, loaded_fields(flow)
+
+    def advance(self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool]) -> Outcome:
+        """Advance all particles by some steps in the flow that was published."""
+        return self.rank.advance(step, steps, bounds, stop)
+
+    def counts(self) -> dict[Status, int]:
+        """Return the number of particles of each status."""
+        return self.rank.particles.counts()
+
+    def regroup(self) -> None:
+        """Distribute the particles again if that pays; no-op on one rank."""
+
+    def piece_files(self, stem: Any) -> tuple[Any, ...]:  # noqa: ARG002
+        """Return the files of a snapshot that several ranks write; none on one rank."""
+        return ()
+
+    def write_pieces(self, stem: Any, *options: Any) -> Callable[[], Any]:
+        """Let all ranks write a piece of a snapshot; return a function that lists these in a file."""
+        raise NotImplementedError
+
+    def write_parts(self, file: Any, time: float) -> list[tuple[int, str]]:  # noqa: ARG002
+        """Let all ranks write their part of a checkpoint; return first numbers and checksums of the parts.
+
+        On one rank there are none: the checkpoint has the particles.
+        """
+        return []
+
+    def signal(self) -> int:
+        """Return a signal that any rank has received while all wait for something, 0 for none."""
+        return 0
+
+    def open_flow(self, read: Callable[[], Flow], *source: Any) -> Flow:  # noqa: ARG002
+        """Return the flow of a source, which ``read`` reads on this process."""
+        return read()
+
+
+def applied(rank: Rank, function: Callable[..., Value], of: str | None, *arguments: Any) -> Value:
+    """Apply a function to the particles of a rank; see :meth:`Share.apply`."""
+    return rank.complete().apply(function, of, *arguments)
+
+
+def chosen(rank: Rank, numbers: NDArray[np.int64]) -> Particles:
+    """Return the requested particles that a rank holds."""
+    return rank.complete().particles.take(rank.find(numbers)[1])
+
+
+def values_of(rank: Rank, numbers: NDArray[np.int64], name: str) -> tuple[NDArray[Any], ...]:
+    """Return the requested particles that a rank holds, and their values of an array."""
+    rows = rank.find(numbers)[1]
+    return rank.particles.number[rows], getattr(rank.particles, name)[rows]
+
+
+def in_flow(rank: Rank, function: Callable[..., Value], time: float, *arguments: Any) -> Value:
+    """Apply a function to the particles of a rank, the flow around them, the time, and the arguments."""
+    return function(rank.particles, rank.seen, time, *arguments)
+
+
+def normals_at(rank: Rank, numbers: NDArray[np.int64]) -> tuple[NDArray[Any], ...]:
+    """Return the requested particles that a rank holds, and the normals of the walls where they ended."""
+    rows = rank.find(numbers)[1]
+    return rank.particles.number[rows], rank.tracker.contact_normals(rank.flow, rank.particles, rows)
+
+
+def take_rebounds(rank: Rank) -> NDArray[np.float64]:
+    """Return the rebounds on a rank since the last call."""
+    return rank.tracker.take_rebounds()
+
+
+def add_arrays(rank: Rank, layout: Arrays) -> None:
+    """Add arrays of cloud functions for the particles of a rank, given without rows."""
+    n = rank.particles.size
+    more = {name: np.zeros((n, *array.shape[1:]), dtype=array.dtype) for name, array in layout.items()}
+    rank.share = rank.share._replace(memory={**rank.share.memory, **more})
+
+
+def parts_of(n: int) -> Iterator[slice]:
+    """Yield the rows of each block of n particles; once without particles."""
+    return (slice(start, start + PART) for start in range(0, max(n, 1), PART))
+
+
+def same(p: Particles) -> Particles:
+    """Return the particles themselves, for :meth:`Communicator.map_by_id`."""
+    return p
