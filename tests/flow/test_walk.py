@@ -6,8 +6,6 @@ from itertools import combinations, permutations, product
 import numpy as np
 import pytest
 import pyvista
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from mesh_shapes import (
     KINDS,
     block,
@@ -17,25 +15,19 @@ from mesh_shapes import (
     grid,
     interfaces,
     period,
-    pipe,
-    pipe_patches,
     rings,
 )
 
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.arrays import FREE, frame, no_mesh
-from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.walk import (
     FAILED,
     REACHED,
-    cell_volume,
     cross,
     holds,
-    nearest_point,
-    normal,
     recover,
     sample,
     sample_ahead,
@@ -43,8 +35,6 @@ from foamprb.flow.walk import (
     walk,
     walk_on,
 )
-from foamprb.flow.wall_lists import near_walls, wall_tree
-from foamprb.flow.walls import gap
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 
@@ -57,24 +47,10 @@ def follow(flow, hosts, start, end, found, fractions):
         found[i, 0], found[i, 1], found[i, 2], fractions[i] = host, patch, triangle, fraction
 
 
-def clearances(flow, hosts, x, F, R, gaps, triangles):
-    for i in range(x.shape[0]):
-        f = (F[i, 0], F[i, 1], F[i, 2], F[i, 3], F[i, 4], F[i, 5], F[i, 6], F[i, 7], F[i, 8])
-        gaps[i], _, triangles[i] = gap(flow, hosts[i], (x[i, 0], x[i, 1], x[i, 2]), f, R)
-
-
 def walked(flow, hosts, start, end):
     found, fractions = np.empty((len(start), 3), dtype=np.int32), np.empty(len(start))
     link(follow, separate=LONG)(flow.arrays(), hosts, start, end, found, fractions)
     return found[:, 0], fractions, found[:, 1], found[:, 2]
-
-
-def cleared(flow, x, F, R, reach):
-    gaps, triangles = np.empty(len(x)), np.empty(len(x), dtype=np.int32)
-    link(clearances, separate=LONG)(
-        flow.arrays(reach), flow.locate(x), x, np.asarray(F, dtype=float).reshape(-1, 9), R, gaps, triangles
-    )
-    return gaps, triangles
 
 
 def at_rest(mesh):
@@ -96,17 +72,6 @@ def weights(flow, tets, x):
     a, b, c, d = (flow.mesh.nodes[flow.mesh.tets[tets, k]] for k in range(4))
     part = np.linalg.solve(np.stack([b - a, c - a, d - a], axis=2), (x - a)[:, :, None])[:, :, 0]
     return np.column_stack([1.0 - part.sum(axis=1), part])
-
-
-def test_tree_finds_what_trying_all_tetrahedra_finds(random):
-    flow = flow_on("mixed", 3)
-    points = random.uniform(-0.1, 1.1, (400, 3))
-    hosts = flow.locate(points)
-    n = len(flow.mesh.tets)
-    best = np.array([weights(flow, np.arange(n), np.tile(x, (n, 1))).min(axis=1).max() for x in points])
-    assert np.array_equal(hosts >= 0, best >= -1e-9)
-    inside = hosts >= 0
-    assert weights(flow, hosts[inside], points[inside]).min(axis=1) == pytest.approx(best[inside], abs=1e-12)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -293,21 +258,6 @@ def test_a_start_outside_by_round_off_meets_the_wall_at_once():
     assert fractions == pytest.approx([0.0, 1.0])
 
 
-@given(st.integers(0, 10_000), st.floats(0.0, 1.5))
-@settings(max_examples=15)
-def test_no_particle_is_lost_in_a_crumpled_mesh(seed, perturbation):
-    """With tetrahedra turned inside out a walk may fail, but openly, and the tree knows the place."""
-    flow = linear(build_mesh(block(3, perturbation, seed=seed)))
-    random = np.random.default_rng(seed)
-    start, end = random.random((2, 500, 3))
-    hosts, _, patches, _ = walked(flow, flow.locate(start), start, end)
-    assert np.all((patches == REACHED) | (patches == FAILED))
-    good = patches == REACHED
-    assert weights(flow, hosts[good], end[good]).min() >= -1.01e-9
-    assert np.count_nonzero(~good) <= (0 if flow.mesh.inverted == 0 else 60)
-    assert np.all(flow.locate(end[~good]) >= 0)
-
-
 def test_walks_around_a_corner_that_points_inwards(random):
     """An L-shaped room: the planes of some walls cut through the room."""
     points, hexes = corners(4, 0.0)
@@ -339,68 +289,6 @@ def test_kernels_mean_the_same_uncompiled(random):
     ] == list(zip(last.tolist(), fractions.tolist(), strict=True))
 
 
-def random_deformations(random, n):
-    F = np.eye(3) + 0.6 * random.uniform(-1.0, 1.0, (n, 3, 3))
-    return F / np.cbrt(np.linalg.det(F))[:, None, None]
-
-
-def test_gap_over_a_plane_wall_is_the_support_function(random):
-    flow = flow_on("hexahedra", 8, 0.2)
-    n, R = 500, 0.03
-    F = random_deformations(random, n)
-    F = F[np.linalg.det(F) > 0.0]
-    reach = R * np.linalg.norm(F, axis=(1, 2)).max()
-    x = 0.4 + 0.2 * random.random((len(F), 3))
-    x[:, 2] = reach * random.random(len(F))
-    gaps, _ = cleared(flow, x, F, R, reach)
-    stretch = np.linalg.norm(F[:, 2, :], axis=1)
-    near = x[:, 2] < R * stretch
-    assert np.array_equal(gaps < 0.0, near)
-    assert gaps[near] == pytest.approx((x[:, 2] / stretch - R)[near], abs=1e-12)
-
-
-def test_gap_at_an_edge_that_points_inwards():
-    points, hexes = corners(8, 0.0)
-    middle = points[hexes].mean(axis=1)
-    shape = grid(points, [(12, hexes[~np.all(middle[:, :2] > 0.5, axis=1)])])
-    flow = linear(build_mesh(shape))
-    x = np.array([[0.47, 0.46, 0.4], [0.44, 0.47, 0.5]])
-    F = np.tile(np.diag([1.2, 1.0, 1.0 / 1.2]), (2, 1, 1))
-    F[1] = [[1.0, 0.4, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-    gaps, _ = cleared(flow, x, F, 0.02, 0.05)
-    for index in range(2):
-        z = np.linspace(0.2, 0.8, 200_001)
-        edge = np.column_stack([np.full(len(z), 0.5), np.full(len(z), 0.5), z]) - x[index]
-        distance = np.linalg.norm(edge @ np.linalg.inv(F[index]).T, axis=1).min()
-        assert gaps[index] == pytest.approx(distance - 0.02, abs=1e-9)
-
-
-def test_gap_is_infinite_away_from_walls_and_before_other_patches():
-    flow = flow_on("hexahedra", 8, 0.2)
-    x = np.array([[0.5, 0.5, 0.5], [0.5, 0.5, 0.999], [0.5, 0.5, 0.001]])
-    gaps, triangles = cleared(flow, x, np.tile(np.eye(3), (3, 1, 1)), 0.01, 0.01)
-    assert np.isinf(gaps).tolist() == [True, True, False]
-    assert triangles[:2].tolist() == [-1, -1]
-    assert normal(flow.arrays(), triangles[2], (0.0, 0.0, 0.0)) == pytest.approx((0.0, 0.0, 1.0))
-
-
-def test_near_walls_lists_all_that_are_near():
-    shape = pipe(6)
-    mesh = build_mesh(shape, pipe_patches(shape))
-    boxes, reach = cell_boxes(mesh), 0.11
-    corner = mesh.points[mesh.triangles]
-    walls = np.flatnonzero(mesh.triangle_patch == 2).astype(np.int32)
-    tree = wall_tree(corner[walls], mesh.triangle_normals[walls])
-    start, near = near_walls(tree, boxes, reach, walls, 1.0)
-    low, high = corner.min(axis=1) - reach, corner.max(axis=1) + reach
-    for cell in range(mesh.n_cells):
-        meets = np.all((boxes[cell, :3] <= high) & (boxes[cell, 3:] >= low), axis=1) & (
-            mesh.triangle_patch == 2
-        )
-        found = near[start[cell] : start[cell + 1]]
-        assert sorted(np.maximum(found, -1 - found)) == np.flatnonzero(meets).tolist()
-
-
 def test_bodies_many_cells_wide_are_refused_before_memory_is_full(monkeypatch):
     shape = block(8, 0.2)
     flow = linear(build_mesh(shape, box_patches(shape)))
@@ -413,24 +301,6 @@ def test_bodies_many_cells_wide_are_refused_before_memory_is_full(monkeypatch):
     assert f"more than {pairs - 1} entries" in str(refused.value)
     monkeypatch.setattr("foamprb.flow.wall_lists._MOST_ENTRIES", pairs)
     assert len(flow.arrays(0.2).near) == pairs
-
-
-def test_cells_and_patches_of_a_flow():
-    shape = block(4, 0.0)
-    flow = linear(build_mesh(shape, box_patches(shape)))
-    hosts = flow.locate(np.array([[0.1, 0.1, 0.1], [0.9, 0.9, 0.9], [2.0, 0.0, 0.0]]))
-    assert flow.cell_of(hosts[:2]).tolist() == [0, 63]
-    assert hosts[2] == -1
-    assert flow.cell_size(hosts[:2]) == pytest.approx([0.25, 0.25])
-    assert np.array_equal(flow.bounds, [[0.0] * 3, [1.0] * 3])
-    lid = flow.patch_faces("lid", 0.0)
-    assert np.sum(lid.areas) == pytest.approx(1.0)
-    assert np.all(lid.vertices[:, :, 2] == 1.0)
-    assert np.allclose(lid.normals, [0.0, 0.0, -1.0])
-    assert lid.velocity == pytest.approx(lid.vertices @ GRADIENT.T)
-    assert weights(flow, lid.hosts, lid.vertices.mean(axis=1)).min() > -1e-12
-    with pytest.raises(InputError, match="patch lidd is not in the mesh\\. Did you mean 'lid'"):
-        flow.patch_faces("lidd", 0.0)
 
 
 @pytest.fixture
@@ -489,18 +359,6 @@ def test_a_tetrahedron_holds_what_is_in_it_to_round_off(tetrahedra, random):
                 assert holds(arrays, host, tuple(shifted @ corners)) == inside
 
 
-def test_the_volume_of_a_cell_is_that_of_its_tetrahedra():
-    flow = flow_on("mixed", 3)
-    arrays = flow.arrays()
-    cells = [0, 5, flow.mesh.n_cells - 1]
-    for cell in cells:
-        a, b, c, d = (flow.mesh.nodes[flow.mesh.tets[:, k]] for k in range(4))
-        volumes = np.einsum("ti,ti->t", b - a, np.cross(c - a, d - a)) / 6.0
-        own = slice(*flow.mesh.cell_start[cell : cell + 2])
-        for host in (own.start, own.stop - 1):
-            assert cell_volume(arrays, host) == pytest.approx(volumes[own].sum(), rel=1e-12, abs=0.0)
-
-
 @pytest.mark.parametrize("angle", [0.0, 40.0])
 def test_who_meets_a_coupled_patch_goes_on_beyond_its_neighbour(angle, random):
     """At the place that the motion gives, in the tetrahedron that holds it."""
@@ -519,31 +377,6 @@ def test_who_meets_a_coupled_patch_goes_on_beyond_its_neighbour(angle, random):
             assert host in mesh.triangle_tet[mesh.triangle_patch == patch]
     lone = int(np.flatnonzero(mesh.triangle_patch == names.index("floor"))[0])
     assert cross(arrays, lone, (0.1, 0.2, 0.3))[0] == -1
-
-
-def test_who_meets_a_patch_cut_differently_lands_on_the_nearest_triangle_across(random):
-    """Segments of two rings: chords of a circle, between which there is a gap or an overlap."""
-    mesh = rings()
-    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
-    arrays, names = flow.arrays(), [patch.name for patch in mesh.patches]
-    moved = 0
-    for name, other in (("in", "out"), ("out", "in")):
-        there = np.flatnonzero(mesh.triangle_patch == names.index(other))
-        for triangle in np.flatnonzero(mesh.triangle_patch == names.index(name))[:20]:
-            x = random.dirichlet(np.ones(3)) @ mesh.points[mesh.triangles[triangle]]
-            host, y, rotation = cross(arrays, int(triangle), tuple(x))
-            assert rotation == (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-            assert host in mesh.triangle_tet[there]
-            assert weights(flow, np.array([host]), np.array([y])).min() > -1e-9
-            apart = [
-                np.linalg.norm(nearest_point(*map(tuple, mesh.points[mesh.triangles[k]] - x))) for k in there
-            ]
-            inside = weights(flow, mesh.triangle_tet[there], np.tile(x, (len(there), 1))).min(axis=1).max()
-            assert np.linalg.norm(np.subtract(y, x)) == pytest.approx(
-                0.0 if inside > 0.0 else min(apart), abs=1e-6
-            )
-            moved += inside < -1e-6
-    assert moved > 5
 
 
 @pytest.mark.parametrize("axis", range(3))
