@@ -132,23 +132,6 @@ def test_an_interaction_of_a_coupled_patch_is_refused():
     assert [i.code for i in patch_interactions(flow)] == [4, 4, *(i.code for i in walls[2:])]
 
 
-def test_beyond_a_symmetry_plane_the_mirror_image_goes_on():
-    shape = block(4, 0.2)
-    patches = [p._replace(type="symmetryPlane") if p.name == "floor" else p for p in box_patches(shape)]
-    l = np.diag([-0.1, -0.1, 0.2])
-    flow = linear(build_mesh(shape, patches), l)
-    x, v = np.array([[0.5, 0.5, 0.1]]), np.array([[0.1, 0.02, -1.0]])
-    cloud = tracked(moving(x, v), flow, actions(flow), 300)
-    free = tracked(moving(x, v), analytic.linear(l), [], 300)
-    p, q, mirror = cloud.particles, free.particles, np.diag([1.0, 1.0, -1.0])
-    assert q.x[0, 2] < -0.05
-    assert p.x == pytest.approx(q.x @ mirror, abs=1e-12)
-    assert p.v == pytest.approx(q.v @ mirror, abs=1e-12)
-    for name in ("F", "A"):
-        ours, theirs = (getattr(c, name).reshape(3, 3) for c in (p, q))
-        assert ours == pytest.approx(mirror @ theirs @ mirror, abs=1e-9)
-
-
 def test_a_snapshot_has_a_copy_of_shapes_at_rest_if_a_mirror_changes_them():
     """Else the cloud's own serve."""
     shape, copied = block(4, 0.2), []

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
-import re
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -16,7 +14,6 @@ from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets, rows_of
 from foamprb.cloud.state import CHANGING, VARIABLES, Particles, empty
-from foamprb.compile.link import link
 
 PARTS = {
     "paper": (at,),
@@ -135,29 +132,6 @@ def test_a_row_that_is_declared_needs_nothing_else():
 def test_name_of_a_row_is_taken_once():
     with pytest.raises(ValueError, match="x is declared twice"):
         layout(at, offsets(Rows, ROWS))
-
-
-def sum_of_rows(block, i):
-    return block[at.F * LANES + i] + block[(at.new_F + 8) * LANES + i] * block[at.clearance * LANES + i]
-
-
-def test_offsets_are_constants_in_compiled_code(monkeypatch, tmp_path):
-    """The machine code is that of the same text with the numbers in it."""
-    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
-    scope = {"__name__": __name__, "LANES": LANES}
-    text = re.sub(r"\bat\.(\w+)", lambda name: str(getattr(at, name[1])), inspect.getsource(sum_of_rows))
-    assert "at." not in text
-    exec(text, scope)
-    code = []
-    for function in (sum_of_rows, scope["sum_of_rows"]):
-        compiled = link(function)
-        compiled(np.zeros(ROWS * LANES), 3)
-        (assembly,) = compiled.inspect_asm().values()
-        # Labels and names of data belong to the function's own name.
-        instructions = re.findall(r"^\t([a-z]\w*\t[^\n]*)$", assembly, re.MULTILINE)
-        code.append([re.sub(r"\$?\.?\w*sum_of_rows\w*", "name", line) for line in instructions])
-    assert len(code[0]) > 10
-    assert code[0] == code[1]
 
 
 def test_idle_lanes_hold_a_sphere_that_is_not_deformed():

@@ -169,9 +169,11 @@ def test_the_body_behind_a_mirror_is_the_mirror_image(turn):
         p.F0[:] = rest.ravel()
         sides = [Mirror() if patch.type == "symmetryPlane" else Rebound() for patch in domain.patches]
         Cloud(p, domain, NOTHING, sides, 0.02, Models(integrator="paper"), threads=1).advance(20)
-        bodies.append((p.F0[0].reshape(3, 3), p.F[0].reshape(3, 3)))
+        bodies.append((p.F0[0].reshape(3, 3), p.F[0].reshape(3, 3), p.x[0], p.v[0]))
     mirror = turn @ np.diag([1.0, 1.0, -1.0]) @ turn.T
-    (rest_there, F_there), (rest_free, F_free) = bodies
+    (rest_there, F_there, x, v), (rest_free, F_free, x_free, v_free) = bodies
+    assert x == pytest.approx(mirror @ x_free, abs=1e-12)
+    assert v == pytest.approx(mirror @ v_free, abs=1e-12)
     assert rest_there == pytest.approx(mirror @ rest_free @ mirror, abs=1e-15 if turn[0, 0] == 1.0 else 1e-7)
     there, free = F_there @ rest_there, F_free @ rest_free
     near = 1e-12 if turn[0, 0] == 1.0 else 1e-7

@@ -52,13 +52,6 @@ def test_the_constants_are_those_of_the_papers():
     assert max(found, key=lambda name: found[name]) == "Giersiepen"
 
 
-@pytest.mark.parametrize("parts", [1, 2, 17, 1000])
-def test_the_index_does_not_depend_on_how_the_time_is_divided(parts):
-    law = POWER_LAWS["Giersiepen"]
-    dose = sum(30.0 ** (law.alpha / law.beta) * 0.2 / parts for _ in range(parts))
-    assert index_of_haemolysis(law, np.array(dose)) == pytest.approx(law.A * 30.0**law.alpha * 0.2**law.beta)
-
-
 def test_samples_of_a_changing_stress_converge_with_second_order(tmp_path):
     """A body that settles from slow to fast shear: against a sample every step."""
     index = {}

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
 import pyvista
@@ -19,7 +17,6 @@ from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometr
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
 from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.registry import CloudFunctions
-from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
 
 
@@ -132,11 +129,6 @@ def test_counts_may_begin_anew_at_each_writing(tmp_path):
     observe(other, collector(), tmp_path / "all")
     totals = column(table(tmp_path / "all/f/collector.csv"), "parcels")
     np.testing.assert_array_equal(np.cumsum(parts.reshape(3, 2), axis=0), totals.reshape(3, 2))
-
-
-def test_a_plane_needs_a_normal():
-    with pytest.raises(InputError, match=re.escape("normal (0 0 0)")):
-        ParticleCollector("plane", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 @pytest.mark.parametrize("every", [1, 7, 400])

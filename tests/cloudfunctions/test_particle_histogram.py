@@ -65,11 +65,6 @@ def test_the_bins_hold_everybody(tmp_path):
             assert column(rows, name).sum() == 20
 
 
-def test_an_unknown_field():
-    with pytest.raises(InputError, match=r"field residenceTim\. Did you mean 'residenceTime'"):
-        ParticleHistogram(fields=("residenceTim",))
-
-
 def test_an_injection_model_called_as_a_column_is_refused():
     cloud = ObservedCloud(pipe_cloud(2), {"injector": ("lower", "two"), "patch": ()})
     with pytest.raises(InputError, match="cloudFunctions/f: no injection model may be called lower"):

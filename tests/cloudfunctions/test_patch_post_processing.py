@@ -7,10 +7,8 @@ from observing import AIR, RADIUS, D, column, go_on, observe, observed, pipe_clo
 
 from foamprb.body.tensor import principal_frame
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import Status
-from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import ObservedCloud
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 from foamprb.cloudfunctions.registry import CloudFunctions
@@ -44,22 +42,6 @@ def test_who_hits_when_and_in_what_shape(tmp_path):
         cosine = np.abs(np.einsum("ni,ni->n", e, out))
         np.testing.assert_allclose(np.cos(np.radians(column(rows, "axisAngle"))), cosine, atol=1e-9)
     assert seen == p.size
-
-
-def test_touching_by_the_centre(tmp_path):
-    cloud = pipe_cloud()
-    centre = Cloud(
-        cloud.particles,
-        cloud.flow,
-        AIR,
-        cloud.interactions,
-        cloud.dt,
-        Models(touching="centre", integrator="rosenbrock"),
-    )
-    observe(centre, PatchPostProcessing(("wall",), maxStoredParcels=3), tmp_path)
-    rows = table(tmp_path / "f/wall.csv")
-    assert len(rows) == 3
-    assert np.isfinite(column(rows, "impactAngle")).all()
 
 
 def test_a_patch_with_any_name_stays_in_the_folder(tmp_path):

@@ -147,33 +147,61 @@ def test_a_baffle_parts_the_cells_on_its_two_sides(whole, copies, random):
     assert l[:, 1, 0] == pytest.approx(np.where(x[:, 0] < 0.5, -1.0, 0.0), abs=1e-11)
 
 
-def test_boundary_faces_without_patch_are_refused():
+CUBE, CUBE_CELLS = corners(1, 0.0)
+CUBE_FACES = [CUBE_CELLS[0][list(face)] for face in HEXAHEDRON_FACES]
+
+
+def of_patches(change):
     shape = block(2)
-    with pytest.raises(
-        InputError, match=r"4 of 24 boundary faces belong to no patch; the patches are floor, sides"
-    ):
-        build_mesh(shape, [patch for patch in box_patches(shape) if patch.name != "lid"])
+    return lambda: build_mesh(shape, change(box_patches(shape)))
 
 
-def test_boundary_faces_with_two_patches_are_refused():
-    shape = block(2)
-    patches = box_patches(shape)
-    with pytest.raises(InputError, match="4 boundary faces belong to more than one"):
-        build_mesh(shape, [*patches, patches[0]])
-
-
-def test_a_patch_beside_the_mesh_is_refused():
-    shape = block(2)
-    patches = box_patches(shape)
+def beside(patches):
     patches[0].surface.points += 0.25
-    with pytest.raises(InputError, match="4 of the 4 faces of patch floor are not on the boundary"):
-        build_mesh(shape, patches)
+    return patches
 
 
-def test_a_face_of_three_cells_is_refused():
-    points, hexes = corners(1, 0.0)
-    with pytest.raises(InputError, match="three or more cells"):
-        build_mesh(grid(points, [(12, np.concatenate([hexes, hexes, hexes]))]))
+def of_other_faces():
+    shape = polyhedra(CUBE, [CUBE_FACES])
+    vtk_to_numpy(shape.GetPolyhedronFaceLocations().GetConnectivityArray())[-1] = 6
+    return build_mesh(shape)
+
+
+def of_cells(kind, cells):
+    return lambda: build_mesh(grid(CUBE, [(kind, cells)]))
+
+
+REFUSED = {
+    "faces without a patch": (
+        of_patches(lambda patches: [patch for patch in patches if patch.name != "lid"]),
+        "4 of 24 boundary faces belong to no patch; the patches are floor, sides",
+    ),
+    "faces of two patches": (
+        of_patches(lambda patches: [*patches, patches[0]]), "4 boundary faces belong to more than one"
+    ),
+    "a patch beside the mesh": (
+        of_patches(beside), "4 of the 4 faces of patch floor are not on the boundary"
+    ),
+    "a face of three cells": (of_cells(12, np.tile(CUBE_CELLS, (3, 1))), "three or more cells"),
+    "an open cell": (lambda: build_mesh(polyhedra(CUBE, [CUBE_FACES[:5]])), "1 cells are not closed"),
+    "too few points": (
+        of_cells(12, CUBE_CELLS[:, :6]), "cell 0 has 6 points, but its type is hexahedron"
+    ),
+    "a point beyond the mesh": (
+        lambda: build_mesh(polyhedra(CUBE[:7], [CUBE_FACES])),
+        "a cell names point 7, but there are 7 points",
+    ),
+    "faces that are not there": (of_other_faces, "the faces of the polyhedra do not fit its cells"),
+    "cells of type 41": (of_cells(41, CUBE_CELLS), "cells of VTK type 41; allowed are tetrahedron"),
+    "cells of type 9": (of_cells(9, CUBE_CELLS[:, :4]), "cells of VTK type 9; allowed are tetrahedron"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("mesh", REFUSED)
+def test_what_is_no_mesh_is_refused(mesh):
+    make, message = REFUSED[mesh]
+    with pytest.raises(InputError, match=message):
+        make()
 
 
 def test_a_hexahedron_with_repeated_points_is_what_its_points_make(random):
@@ -204,41 +232,6 @@ def test_voxels_and_cells_of_higher_order_have_the_volume_of_their_corners():
     mesh = build_mesh(grid(np.concatenate([points, middles]), [(25, curved)]))
     assert mesh.volumes == pytest.approx(np.full(8, 0.125))
     assert np.isfinite(Reconstruction(mesh)(mesh.centres, mesh.boundary_centres)[1]).all()
-
-
-def test_an_open_cell_is_refused():
-    points, hexes = corners(1, 0.0)
-    faces = [hexes[0][[0, 4, 7, 3]], hexes[0][[1, 2, 6, 5]], hexes[0][[0, 1, 5, 4]], hexes[0][[3, 7, 6, 2]]]
-    with pytest.raises(InputError, match="1 cells are not closed"):
-        build_mesh(polyhedra(points, [[*faces, hexes[0][[0, 3, 2, 1]]]]))
-
-
-def test_a_cell_with_too_few_points_is_refused():
-    points, hexes = corners(1, 0.0)
-    with pytest.raises(InputError, match="cell 0 has 6 points, but its type is hexahedron"):
-        build_mesh(grid(points, [(12, hexes[:, :6])]))
-
-
-def test_polyhedra_with_points_beyond_the_mesh_are_refused():
-    points, hexes = corners(1, 0.0)
-    faces = [hexes[0][list(face)] for face in HEXAHEDRON_FACES]
-    with pytest.raises(InputError, match="a cell names point 7, but there are 7 points"):
-        build_mesh(polyhedra(points[:7], [faces]))
-
-
-def test_polyhedra_whose_faces_are_not_there_are_refused():
-    points, hexes = corners(1, 0.0)
-    shape = polyhedra(points, [[hexes[0][list(face)] for face in HEXAHEDRON_FACES]])
-    vtk_to_numpy(shape.GetPolyhedronFaceLocations().GetConnectivityArray())[-1] = 6
-    with pytest.raises(InputError, match="the faces of the polyhedra do not fit its cells"):
-        build_mesh(shape)
-
-
-@pytest.mark.parametrize(("kind", "size"), [(41, 8), (9, 4)])
-def test_other_kinds_of_cell_are_refused(kind, size):
-    points, hexes = corners(1, 0.0)
-    with pytest.raises(InputError, match=f"cells of VTK type {kind}; allowed are tetrahedron"):
-        build_mesh(grid(points, [(kind, hexes[:, :size])]))
 
 
 def test_centres_of_faces_and_cells_without_size_stay_where_the_points_are():

@@ -10,7 +10,6 @@ import pytest
 from foam_writer import decompose, header, write_case
 
 from foamprb.errors import InputError
-from foamprb.flow.base import Caveat
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.openfoam import read_case, read_series, steady_flow
 from foamprb.flow.read.source import FlowSource
@@ -107,11 +106,3 @@ def test_what_is_missing_or_wrong_is_named(case):
     (folder / "1e1/k").unlink()
     with pytest.raises(InputError, match=r"1e1/k: no such field\. The dispersionModel needs k and epsilon"):
         read_case(folder, turbulent=True)
-
-
-def test_without_a_model_a_warning_names_the_entry(case):
-    folder, _ = case
-    (warning,) = [note for note in read_case(folder).notes if isinstance(note, Caveat)]
-    assert "there is k" in warning
-    assert "subModels/dispersionModel stochasticDispersionRAS" in warning
-    assert not [note for note in read_case(folder, turbulent=True).notes if isinstance(note, Caveat)]
