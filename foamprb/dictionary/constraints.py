@@ -83,7 +83,7 @@ class Each:
 class Meaning:
     """Documentation of an entry, in Markdown: beside its rule, in the same type hint.
 
-    ``deltaT: Annotated[float, Positive, Meaning("tracking step", "s")]``. :mod:`foamprb.settings.reference`
+    ``deltaT: Annotated[float, Positive, Meaning("tracking step", "s")]``. ``tools/settings_reference.py``
     makes the settings page, ``foamprb help`` and the comments of ``foamprb init`` from it.
     """
 
