@@ -10,6 +10,8 @@ import numpy as np
 from mesh_shapes import block, box_patches
 
 from foamprb.flow.mesh.mesh import Mesh, build_mesh
+from foamprb.flow.read.field import VELOCITY_FIELD
+from foamprb.flow.read.openfoam import Case, velocities
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 
@@ -251,3 +253,11 @@ def decompose(case: Path, mesh: Mesh, part_of: np.ndarray, times: tuple[str, ...
                 f"{rows(mesh.centres[cells] @ GRADIENT.T)}\n);\n"
                 f"// of the part\nboundaryField\n{{\n{values}}}\n"
             )
+
+
+def read_fields(case, time="latestTime", region=""):
+    """Return the mesh, the velocity at its cells and boundary faces, and the name of the time."""
+    opened = Case(case, region)
+    name = opened.select_time(time)
+    whole = opened.mesh(name)
+    return whole.mesh, *velocities(opened.field(name, "U", VELOCITY_FIELD), whole), name

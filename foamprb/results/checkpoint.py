@@ -316,11 +316,6 @@ class StoredCheckpoint:
         return Checkpoint(self.time, self.header, {name: self.read(name) for name in self.layout})
 
 
-def read_checkpoint(path: Path) -> Checkpoint:
-    """Read a whole checkpoint, after comparing checksums with bytes; see :class:`StoredCheckpoint`."""
-    return StoredCheckpoint(path, verify=True).whole()
-
-
 def _open(path: Path, verify: bool) -> tuple[_File, str]:
     """Read the header of one file; return also its checksum. See :class:`StoredCheckpoint`."""
     with path.open("rb") as file:

@@ -9,9 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from foam_writer import read_fields
 from scipy.spatial import KDTree
-
-from foamprb.flow.read.openfoam import read_fields
 
 pytestmark = pytest.mark.openfoam
 

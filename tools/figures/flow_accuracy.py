@@ -22,7 +22,8 @@ from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import select_time
-from foamprb.flow.read.openfoam import read_fields
+from foamprb.flow.read.field import VELOCITY_FIELD
+from foamprb.flow.read.openfoam import Case, velocities
 from foamprb.flow.reconstruct import Reconstruction
 
 Floats = NDArray[np.float64]
@@ -156,7 +157,10 @@ def main() -> None:
     results: dict[tuple[str, str], list[list[tuple[float, float]]]] = {}
     sizes = []
     for case in options.cases:
-        mesh, cells, boundary, _ = read_fields(case)
+        opened = Case(case)
+        name = opened.select_time("latestTime")
+        whole = opened.mesh(name)
+        mesh, (cells, boundary) = whole.mesh, velocities(opened.field(name, "U", VELOCITY_FIELD), whole)
         x = random_points(mesh, pipe, options.points)
         sizes.append(mesh.n_cells)
         exact, exact_boundary = pipe.velocity(mesh.centres), pipe.velocity(mesh.boundary_centres)

@@ -250,17 +250,6 @@ def _part_faces(numbers: Ints, start: Ints, points: Ints) -> bool:
     return bool(at == numbers.shape[0])
 
 
-def read_labels(path: Path) -> Labels:
-    """Read a ``labelList``, (n,).
-
-    Raises
-    ------
-    InputError
-        The file is missing or broken.
-    """
-    return FoamFile(path).labels()
-
-
 def read_vectors(path: Path) -> Floats:
     """Read a ``vectorField``, (n, 3); raise InputError if it is missing or broken."""
     values: Floats = FoamFile(path).list(3)

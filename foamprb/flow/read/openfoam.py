@@ -348,27 +348,6 @@ def _refuse_moving(case: Case, time: str) -> None:
             raise InputError(f"{path}: the mesh changes in time; only meshes at rest can be read.")
 
 
-def read_fields(
-    case: Path, time: float | str = "latestTime", velocity: str = "U", region: str = ""
-) -> tuple[Mesh, Floats, Floats, str]:
-    """Read the mesh with the velocity at its cells (n_cells, 3) and boundary faces (n_boundary, 3), m/s.
-
-    Returns
-    -------
-    mesh, cells, boundary, name
-        Boundary faces of patches without values carry zeros; ``name`` is the time directory's.
-
-    Raises
-    ------
-    InputError
-        See :func:`read_case`.
-    """
-    opened = Case(case, region)
-    name = opened.select_time(time)
-    whole = opened.mesh(name)
-    return whole.mesh, *velocities(opened.field(name, velocity, VELOCITY_FIELD), whole), name
-
-
 def velocities(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
     """Return the velocity at the cells (n_cells, 3) and at the boundary faces (n_boundary, 3), m/s.
 

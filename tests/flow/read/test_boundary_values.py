@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from foam_writer import header, rows, write_case
+from foam_writer import header, read_fields, rows, write_case
 
 from foamprb.errors import InputError
-from foamprb.flow.read.openfoam import read_case, read_fields
+from foamprb.flow.read.openfoam import read_case
 
 CELLS = re.compile(r"internalField .*?\)\s*;\n", re.DOTALL)
 

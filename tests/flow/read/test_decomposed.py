@@ -18,7 +18,7 @@ from foamprb.flow.read.case import is_only_decomposed
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import VELOCITY_FIELD, read_field
 from foamprb.flow.read.flows import read_flow
-from foamprb.flow.read.foamfile import read_labels
+from foamprb.flow.read.foamfile import FoamFile
 from foamprb.flow.read.openfoam import read_case, read_series, steady_flow, transient_flow
 from foamprb.flow.read.source import FlowSource
 
@@ -63,7 +63,7 @@ def test_the_flow_is_that_of_the_whole_to_the_last_bit(written):
         np.testing.assert_array_equal(a, b, err_msg=name)
     counts = DecomposedCase(written).processors.cells(MESH)
     assert counts.tolist() == [
-        len(read_labels(written / f"processor{k}" / MESH / "cellProcAddressing")) for k in range(3)
+        len(FoamFile(written / f"processor{k}" / MESH / "cellProcAddressing").labels()) for k in range(3)
     ]
     assert parts.notes == ("The flow was put together from 3 processor folders.", *whole.notes)
 
@@ -107,7 +107,7 @@ def test_collated_files_are_read(written, tmp_path):
         processors.chosen = range(1, 3)
         for file, k in zip(processors.files(MESH / "owner"), (1, 2), strict=True):
             path = written / f"processor{k}" / MESH / "owner"
-            np.testing.assert_array_equal(file.labels(), read_labels(path))
+            np.testing.assert_array_equal(file.labels(), FoamFile(path).labels())
     cut = tmp_path / "one/processors3/constant/polyMesh/owner"
     cut.write_bytes(cut.read_bytes()[:-40])
     with pytest.raises(InputError, match=r"owner: byte .* the file of processor 2"):
@@ -155,7 +155,7 @@ def test_a_part_may_be_empty(tmp_path):
     parts = np.zeros(mesh.n_cells, dtype=int)
     parts[mesh.n_cells // 2 :] = 2
     decompose(tmp_path / "case", mesh, parts, ("0",))
-    assert len(read_labels(tmp_path / "case/processor1/constant/polyMesh/owner")) == 0
+    assert len(FoamFile(tmp_path / "case/processor1/constant/polyMesh/owner").labels()) == 0
     a, b = read_case(tmp_path / "case"), read_parts(tmp_path / "case")
     np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
 
@@ -183,7 +183,7 @@ def add_gradient(case):
     values = np.random.default_rng(2).random((read_case(case).mesh.n_cells, 9))
     parts = [(case, np.arange(len(values)))]
     for path in case.glob("processor*"):
-        parts.append((path, read_labels(path / "constant/polyMesh/cellProcAddressing")))
+        parts.append((path, FoamFile(path / "constant/polyMesh/cellProcAddressing").labels()))
     for folder, cells in parts:
         names = re.findall(r"(\w+)\s*\{ type", (folder / "constant/polyMesh/boundary").read_text())
         patches = "".join(
@@ -263,7 +263,7 @@ def test_parts_alone_are_found_and_described(case, capsys):
 
 def test_zones_of_cells_are_put_together(case):
     for part in range(3):
-        n = len(read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing"))
+        n = len(FoamFile(case / f"processor{part}/constant/polyMesh/cellProcAddressing").labels())
         zone = f"first {{ type cellZone; cellLabels List<label> 2 (0 {n - 1}); }}"
         none = "none { type cellZone; cellLabels List<label> 0 (); }"
         (case / f"processor{part}/constant/polyMesh/cellZones").write_text(
@@ -271,7 +271,7 @@ def test_zones_of_cells_are_put_together(case):
         )
     flow = read_parts(case)
     found = np.unique(flow.cell_of(flow.cell_zone("first").hosts))
-    expected = [read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing")[[0, -1]]
+    expected = [FoamFile(case / f"processor{part}/constant/polyMesh/cellProcAddressing").labels()[[0, -1]]
                 for part in range(3)]  # fmt: skip
     np.testing.assert_array_equal(found, np.unique(expected))
     assert len(flow.cell_zone("none").hosts) == 0

@@ -14,7 +14,6 @@ from foamprb.flow.read.foamfile import (
     FoamFile,
     header,
     read_cell_zones,
-    read_labels,
     read_vectors,
 )
 
@@ -44,7 +43,7 @@ def file_of(folder, body, kind="labelList", style="ascii", arch="", name="list")
     ],
 )
 def test_labels(body, numbers, tmp_path):
-    found = read_labels(file_of(tmp_path, body))
+    found = FoamFile(file_of(tmp_path, body)).labels()
     assert found.tolist() == numbers
     assert found.dtype == np.int64
 
@@ -73,7 +72,7 @@ def test_binary_lists_of_every_width_and_order(order, label, scalar, tmp_path):
     labels, vectors = np.array([3, -1, 70000]), np.array([[1.5, -2.0, 3.0], [0.25, 0.5, 1e6]])
     packed = labels.astype(f"{sign}i{label // 8}").tobytes()
     path = file_of(tmp_path, b"3(" + packed + b")\n", "labelList", "binary", arch)
-    assert read_labels(path).tolist() == labels.tolist()
+    assert FoamFile(path).labels().tolist() == labels.tolist()
     packed = vectors.astype(f"{sign}f{scalar // 8}").tobytes()
     path = file_of(tmp_path, b"2\n(" + packed + b")\n", "vectorField", "binary", arch)
     np.testing.assert_array_equal(read_vectors(path), vectors)
@@ -82,7 +81,7 @@ def test_binary_lists_of_every_width_and_order(order, label, scalar, tmp_path):
     np.testing.assert_array_equal(read_vectors(path), [[1, 2, 3]] * 4)
     path = file_of(tmp_path, b"3(" + packed[:5] + b")", "labelList", "binary", arch)
     with pytest.raises(InputError, match="a list of 3 entries in binary expected"):
-        read_labels(path)
+        FoamFile(path).labels()
 
 
 @pytest.mark.parametrize(
@@ -105,7 +104,7 @@ def test_a_broken_list_is_named_with_its_line(body, line, what, tmp_path):
     with pytest.raises(
         InputError, match=rf"^{path}: line {line}: {what}.* expected; the file is broken or cut"
     ):
-        read_labels(path)
+        FoamFile(path).labels()
 
 
 @pytest.mark.parametrize(

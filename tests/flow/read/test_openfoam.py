@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from foam_writer import GRADIENT, Format, header, number_list, write_case
+from foam_writer import GRADIENT, Format, header, number_list, read_fields, write_case
 from mesh_shapes import block, box_patches, pipe
 from paths import PIPE
 
@@ -22,7 +22,7 @@ from foamprb.flow.read.boundary import read_boundary
 from foamprb.flow.read.case import available_times
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.meshfile import read_mesh_file
-from foamprb.flow.read.openfoam import Case, read_case, read_fields
+from foamprb.flow.read.openfoam import Case, read_case
 from foamprb.settings.patches import KindRule, match_patches, needs_entry
 
 POLY = "constant/polyMesh/"
