@@ -131,7 +131,7 @@ def read_unit(text: str) -> tuple[Dimensions, float] | None:
     dimensions = read_dimensions(text)
     if dimensions is not None:
         return dimensions, 1.0
-    found, factor = text.strip(), 1.0
+    unit, factor = text.strip(), 1.0
 
     def plain(match: re.Match[str]) -> str:
         nonlocal factor
@@ -139,7 +139,7 @@ def read_unit(text: str) -> tuple[Dimensions, float] | None:
         factor *= scale ** (int(match[3] or 1) * (-1 if match[1] else 1))
         return f"{match[1] or ''}{unit}{f'^{match[3]}' if match[3] else ''}"
 
-    dimensions = read_dimensions(_SCALED_UNIT.sub(plain, found))
+    dimensions = read_dimensions(_SCALED_UNIT.sub(plain, unit))
     return None if dimensions is None else (dimensions, factor)
 
 

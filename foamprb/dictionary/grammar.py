@@ -84,12 +84,12 @@ def read_dictionary_list(path: Path, case: Path, text: str | None = None) -> Dic
 
 
 def _read_text(path: Path, mistake: Callable[[str], InputError]) -> str:
-    found = existing(path) or path
+    file = existing(path) or path
     try:
         # Reading a pipe or a device may never end.
-        if found.exists() and not found.is_file():
+        if file.exists() and not file.is_file():
             raise mistake("is not a file")
-        with gzip.open(found) if found.suffix == ".gz" else found.open("rb") as stream:
+        with gzip.open(file) if file.suffix == ".gz" else file.open("rb") as stream:
             # Editors of Windows begin a text with a byte order mark.
             return stream.read().decode("utf-8-sig")
     except UnicodeDecodeError as error:

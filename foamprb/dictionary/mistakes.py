@@ -108,8 +108,8 @@ class Mistakes:
         InputError
             A single mistake, or SeveralMistakes; ReportedError if they are reported elsewhere.
         """
-        found = [error for error in self._errors.values() if isinstance(error, Mistake)]
-        meant = frozenset[str]().union(*(error.meant for error in found))
+        mistakes = [error for error in self._errors.values() if isinstance(error, Mistake)]
+        meant = frozenset[str]().union(*(error.meant for error in mistakes))
         errors = [
             error
             for error in self._errors.values()

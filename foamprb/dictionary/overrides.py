@@ -39,10 +39,10 @@ def override(root: Dictionary, values: Mapping[str, object]) -> dict[str, str]:
                 what = f"overrides: '{path}': {root.source} has no dictionary '{name}' there"
                 raise InputError(f"{what}. {suggestion(name, where.entries)}")
             where = where.entries[name].dictionary()
-        found = parse_dictionary(f"{key} {text}", Path("overrides"), root.source.case).entries
-        if list(found) != [key]:
+        entries = parse_dictionary(f"{key} {text}", Path("overrides"), root.source.case).entries
+        if list(entries) != [key]:
             raise InputError(f"overrides: '{path}': '{text}' is not the value of one entry.")
-        where.add(found[key].copy(key, where))
+        where.add(entries[key].copy(key, where))
     return texts
 
 

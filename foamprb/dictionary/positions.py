@@ -129,8 +129,8 @@ def _table(path: Path, data: bytes, columns: Mapping[str, Bounds]) -> Positions:
             raise Mistake(str(path), row + 1, f"no positions. {expected}.")
         for name in known:
             if names.count(name) != 1 and name in (*_COORDINATES, *names):
-                found = suggestion(name, names)[:-1]
-                raise _unexpected(path, row + 1, head, f"Expected: one column {name}. {found}")
+                hint = suggestion(name, names)[:-1]
+                raise _unexpected(path, row + 1, head, f"Expected: one column {name}. {hint}")
     if ignored := [name for name in names if name not in known]:
         log.info("%s: ignored columns: %s.", path, ", ".join(ignored))
     used = [k for k, name in enumerate(names) if name in known]
@@ -170,8 +170,8 @@ def _separator(line: str) -> str | None:
 
 def _words(line: str) -> tuple[str, ...]:
     """Return the words of a line, separated by commas or semicolons or, without these, by white space."""
-    found = (word.strip().strip("\"'") for word in line.split(_separator(line)))
-    return tuple(_ALIASES.get(name, name) for name in found)
+    words = (word.strip().strip("\"'") for word in line.split(_separator(line)))
+    return tuple(_ALIASES.get(name, name) for name in words)
 
 
 def _blank(comment: re.Match[bytes]) -> bytes:

@@ -92,10 +92,10 @@ def _dimensioned(expected: Dimensions) -> Callable[[Stream], float | None]:
 
 def factor_of(text: str, expected: Dimensions) -> float:
     """Return the factor of a unit to SI; raise ValueError if its dimensions differ from the expected ones."""
-    found = read_unit(text)
-    if found is None:
+    unit = read_unit(text)
+    if unit is None:
         raise ValueError("whose dimensions cannot be read")
-    dimensions, factor = found
+    dimensions, factor = unit
     if dimensions != expected:
         raise ValueError(f"with the dimensions {described(dimensions)}, not {described(expected)}")
     return factor
@@ -201,8 +201,8 @@ def _files(entry: Stream) -> tuple[Path, ...] | None:
     if len(entry.tokens) < 2 or (entry.tokens[0], entry.tokens[-1]) != ("(", ")"):
         return None
     paths = [_existing(entry, unquoted(name)) for name in entry.tokens[1:-1]]
-    found = tuple(path for path in paths if path is not None)
-    return found if len(found) == len(paths) else None
+    there = tuple(path for path in paths if path is not None)
+    return there if len(there) == len(paths) else None
 
 
 def _empty_list(entry: Stream) -> DictionaryList | None:

@@ -82,7 +82,7 @@ def remove_unfinished(files: Collection[Path]) -> None:
     """Remove the temporary files that killed processes left of some files."""
     for folder in {file.parent for file in files}:
         for file in tuple(folder.iterdir()) if folder.is_dir() else ():
-            if (found := _TEMPORARY.fullmatch(file.name)) and folder / found[1] in files:
+            if (match := _TEMPORARY.fullmatch(file.name)) and folder / match[1] in files:
                 file.unlink(missing_ok=True)
 
 

@@ -75,8 +75,8 @@ class Checkpoints:
 
     def files(self) -> dict[float, Path]:
         """Return the files by their times, s, damaged or not, in order of time."""
-        found = tuple(self.folder.iterdir()) if self.folder.is_dir() else ()
-        times = {float(match[1]): file for file in found if (match := _NAME.fullmatch(file.name))}
+        files = tuple(self.folder.iterdir()) if self.folder.is_dir() else ()
+        times = {float(match[1]): file for file in files if (match := _NAME.fullmatch(file.name))}
         return dict(sorted(times.items()))
 
     def file(self, time: float) -> Path:

@@ -87,29 +87,29 @@ class ResultsFolder:
         if not case.is_dir():
             raise InputError(f"{case}: no such folder.")
         top = root or case / _ROOT
-        found = sorted(_written(top))
-        if not found:
+        folders = sorted(_written(top))
+        if not folders:
             raise InputError(f"{top}: no results here ([<region>/]<cloud>/<cloud>.pvd). {HOW}")
-        regions = {folder.region for folder in found}
+        regions = {folder.region for folder in folders}
         if region and region not in regions:
             raise InputError(f"{case}: no results of region '{region}'. {suggestion(region, regions - {''})}")
         if region:
-            found = [folder for folder in found if folder.region == region]
-        clouds = {folder.cloud for folder in found}
+            folders = [folder for folder in folders if folder.region == region]
+        clouds = {folder.cloud for folder in folders}
         if cloud is not None and cloud not in clouds:
             raise InputError(f"{case}: no results of a cloud '{cloud}'. {suggestion(cloud, clouds)}")
         if cloud is not None:
-            found = [folder for folder in found if folder.cloud == cloud]
-        found = [folder for folder in found if folder.region == region] or found
-        clouds = {folder.cloud for folder in found}
+            folders = [folder for folder in folders if folder.cloud == cloud]
+        folders = [folder for folder in folders if folder.region == region] or folders
+        clouds = {folder.cloud for folder in folders}
         name = cloud or DEFAULT_CLOUD
         if name in clouds:
-            found = [folder for folder in found if folder.cloud == name]
-        if len(found) > 1:
-            names = ", ".join(folder.path.relative_to(top).as_posix() for folder in found)
+            folders = [folder for folder in folders if folder.cloud == name]
+        if len(folders) > 1:
+            names = ", ".join(folder.path.relative_to(top).as_posix() for folder in folders)
             option = "-cloud" if len(clouds) > 1 and name not in clouds else "-region"
-            raise InputError(f"{case}: results of {len(found)} clouds: {names}. Choose one with {option}.")
-        return found[0]
+            raise InputError(f"{case}: results of {len(folders)} clouds: {names}. Choose one with {option}.")
+        return folders[0]
 
     @property
     def pvd(self) -> Path:
@@ -179,8 +179,8 @@ def fault_of_word(name: str) -> str:
     """Return why a name is not a valid OpenFOAM word and file name; empty if it is."""
     if not name:
         return "it is empty"
-    if found := _NO_WORD.search(name):
-        return f"it contains {found[0]!r}"
+    if fault := _NO_WORD.search(name):
+        return f"it contains {fault[0]!r}"
     if not name.isprintable():
         return "it contains a character that cannot be printed"
     if name.startswith("."):

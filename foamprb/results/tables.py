@@ -146,7 +146,7 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
     if not names:
         raise InputError(f"{path}: not a table: its lines have different numbers of columns.")
     kinds = [{part.dtype.kind for part in parts} for parts in columns]
-    mixed = {name for name, found in zip(names, kinds, strict=True) if "U" in found and len(found) > 1}
+    mixed = {name for name, letters in zip(names, kinds, strict=True) if "U" in letters and len(letters) > 1}
     if mixed:
         # Some of the rows look like numbers.
         return read_table(path, {*words, *mixed})

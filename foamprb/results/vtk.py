@@ -343,7 +343,9 @@ def _cells(offsets: NDArray[np.int64]) -> vtkCellArray:
 def _add_texts(data: vtkPolyData, units: Mapping[str, str], names: Mapping[str, Sequence[str]]) -> None:
     """Add the units of the arrays and the meanings of codes as field data."""
     texts = {"units": [f"{name} {unit}" for name, unit in units.items()]} if units else {}
-    for name, values in (texts | {f"{name}Names": list(found) for name, found in names.items()}).items():
+    for name, values in (
+        texts | {f"{name}Names": list(meanings) for name, meanings in names.items()}
+    ).items():
         array = vtkStringArray()
         array.SetName(name)
         for value in values:

@@ -77,8 +77,8 @@ def groups(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> Group
         :func:`extension_rates` of the flow.
     """
     parts = [(p.size, _ranges(cloud, p)) for p in cloud.map_by_id(_released_by, injector) if p.size]
-    found = np.array([own for _, own in parts]) if parts else np.full((1, 8, 2), np.nan)
-    lowest, largest = found[:, :, 0].min(axis=0), found[:, :, 1].max(axis=0)
+    ranges = np.array([own for _, own in parts]) if parts else np.full((1, 8, 2), np.nan)
+    lowest, largest = ranges[:, :, 0].min(axis=0), ranges[:, :, 1].max(axis=0)
     rate, capillary, reynolds, stokes, step, size, path, stiffness = (
         (float(low), float(high)) for low, high in zip(lowest, largest, strict=True)
     )
@@ -127,12 +127,12 @@ def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> f
     A solid has none beyond a capillary number of extension. A drop breaks up where it grows faster than its
     surface tension restores it.
     """
-    found = [own for of_rank in cloud.map_ranks(_softest_of, injector) for own in of_rank]
-    if len(extension) == 0 or not found:
+    softest = [own for of_rank in cloud.map_ranks(_softest_of, injector) for own in of_rank]
+    if len(extension) == 0 or not softest:
         return 0.0
     values = _at_few_nodes(cloud.flow)
     mu = np.asarray(viscosity_at_nodes(cloud.medium.mu, values))
-    modulus, eta = min(found, key=lambda own: own[0])
+    modulus, eta = min(softest, key=lambda own: own[0])
     times = mu / modulus
     if MATERIALS[cloud.models.material].liquid:
         ratio = eta / mu
@@ -155,44 +155,44 @@ def doubts(g: Groups, integrator: str, where: str, liquid: bool = False) -> list
     liquid
         Whether the particles are drops.
     """
-    found = []
+    sentences = []
     scheme = INTEGRATORS[integrator]
     if g.step[1] > scheme.stable_steps:
-        found.append(
+        sentences.append(
             f"{where}: deltaT is {g.step[1]:.3g} times the shape's relaxation time; the integrator is stable "
             f"only below about {scheme.stable_steps:g}, less for elongated particles."
         )
     if not scheme.inertia and g.stokes[1] > 10 * SMALL_STOKES:
-        found.append(
+        sentences.append(
             f"{where}: the shape Stokes number is {g.stokes[1]:.3g}; the integrator {integrator} leaves out "
             "the inertia of the solid, which matters there."
         )
     if not scheme.inertia and g.path[1] > 10 * SMALL_STOKES:
-        found.append(
+        sentences.append(
             f"{where}: drag stops the particles within {g.path[1]:.3g} times the width of the flow; the "
             f"integrator {integrator} leaves out their inertia: use rosenbrock."
         )
     if not scheme.inertia and g.stiffness[1] > _STIFF:
-        found.append(
+        sentences.append(
             f"{where}: the shear modulus is {g.stiffness[1]:.2g} times mu/deltaT; above about {_STIFF:g} "
             f"round-off shortens the steps of {integrator}. A body of Ca = 1e-6 is as good as rigid."
         )
     if g.reynolds[1] > SMALL_REYNOLDS:
-        found.append(
+        sentences.append(
             f"{where}: the particle Reynolds number is {g.reynolds[1]:.3g}; the traction and the drag are "
             f"those of Stokes flow, which needs it small (below {SMALL_REYNOLDS:g})."
         )
     if g.extending > _SMALL_SHARE:
         share = f"{where}: in {100 * g.extending:.3g} % of the flow"
-        found.append(
+        sentences.append(
             f"{share} a drop has no steady shape: one that stays there breaks up, and fails at maxStretch."
             if liquid
             else f"{share} the capillary number is beyond {STEADY_CAPILLARY:g} in extension, where a body "
             "has no steady shape: one that stays there is stretched on and on, and fails at maxStretch."
         )
     if g.size[1] > 1.0:
-        found.append(
+        sentences.append(
             f"{where}: a particle is {g.size[1]:.3g} times as large as the cell that it starts in; the flow "
             "is taken as linear over the particle."
         )
-    return found
+    return sentences

@@ -78,14 +78,12 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
 def _sums_of_particles(cloud: Cloud) -> dict[str, Sums]:
     """Return the fingerprint of each array of the particles."""
     n, totals = cloud.size, cloud.map_ranks(_totals_of)
-    found: dict[str, Sums] = {
-        name: _means(np.sum([t[name] for t in totals], axis=0), n) for name in totals[0]
-    }
+    sums: dict[str, Sums] = {name: _means(np.sum([t[name] for t in totals], axis=0), n) for name in totals[0]}
     checksums = dict.fromkeys(_INTEGERS, 0)
     for arrays in cloud.map_by_id(_integers_of):
         checksums = {name: zlib.crc32(array.tobytes(), checksums[name]) for name, array in arrays.items()}
-    found |= {name: [[float(n), float(value)]] for name, value in checksums.items()}
-    return {name: found[name] for name in Particles._fields}
+    sums |= {name: [[float(n), float(value)]] for name, value in checksums.items()}
+    return {name: sums[name] for name in Particles._fields}
 
 
 _INTEGERS = tuple(name for name, variable in VARIABLES.items() if not variable.dtype.startswith("f"))

@@ -292,11 +292,11 @@ class Results:
 
     def _checkpoint_files(self, *, now: bool = False) -> list[Path]:
         """Return the files of checkpoints: those on disk, and perhaps those of the present time."""
-        found = [f for file in self._checkpoints.files().values() for f in (file, *parts_of(file))]
+        files = [f for file in self._checkpoints.files().values() for f in (file, *parts_of(file))]
         if now:
             file, cloud = self._checkpoints.file(self._job.cloud.time), self._job.cloud
-            found += [file, *(part_file(file, first) for first in cloud.comm.parts)]
-        return found
+            files += [file, *(part_file(file, first) for first in cloud.comm.parts)]
+        return files
 
     def _write_functions(self) -> list[Path]:
         """Let the cloud functions write; return the files that changed in their folders."""
@@ -385,14 +385,14 @@ class Results:
 
 def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
     """Return the files in folders, and the time of the last change of each, ns."""
-    found = {}
+    times = {}
     for folder in folders:
         for file in folder.rglob("*"):
             # Another program may remove files at any time.
             with suppress(FileNotFoundError):
                 if file.is_file():
-                    found[file] = file.stat().st_mtime_ns
-    return found
+                    times[file] = file.stat().st_mtime_ns
+    return times
 
 
 def _number_due(p: Particles, time: float) -> int:

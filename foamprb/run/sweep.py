@@ -100,19 +100,19 @@ def read_study(path: Path) -> Study:
         If the file cannot be read, or is not a study.
     """
     try:
-        found = tomllib.loads(path.read_text(encoding="utf-8"))
+        document = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: {error}") from error
-    for key in found:
+    for key in document:
         if key not in _KEYS:
             raise InputError(f"{path}: {key} is not known. {suggestion(key, _KEYS)}")
-    words = {key: found.get(key) for key in ("case", "dict", "time", "region")}
+    words = {key: document.get(key) for key in ("case", "dict", "time", "region")}
     for key, word in words.items():
         if word is not None and not isinstance(word, str):
             raise InputError(f'{path}: {key} is {word!r}. Allowed: a text in quotes, such as "a".')
-    entries = found.get("entries")
+    entries = document.get("entries")
     if not isinstance(entries, dict) or not entries:
         raise InputError(
             f'{path}: no entries. Needed: [entries], and in it "solution/deltaT" = [1e-5, 2e-5], for example.'
@@ -244,12 +244,12 @@ def require_entries(study: Study, outside_libs: bool = False) -> None:
 def _require_same(folder: ResultsFolder, job: Job) -> None:
     """Refuse to continue a run whose entries had other values."""
     try:
-        found = json.loads(folder.record.read_text(encoding="utf-8"))["settings"]["overrides"]
+        before = json.loads(folder.record.read_text(encoding="utf-8"))["settings"]["overrides"]
     except (OSError, ValueError, LookupError, TypeError):
         return
-    if found != job.settings.overrides:
+    if before != job.settings.overrides:
         raise InputError(
-            f"{folder.path}: a run with other values of the entries is here ({found}). "
+            f"{folder.path}: a run with other values of the entries is here ({before}). "
             "-overwrite replaces it; or give the study another name."
         )
 

@@ -285,8 +285,8 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
     try:
         if file is not None:
             time = None if source.file else "latestTime"
-            found = read_viscosity(file, case, None, source.region, time)
-            nu, mu, lines = _typical(found, rate, where)
+            viscosity = read_viscosity(file, case, None, source.region, time)
+            nu, mu, lines = _typical(viscosity, rate, where)
     except InputError:
         lines.append(f"// {where} has no viscosity that is read")
     if nu is None and mu is None:
@@ -303,16 +303,20 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
     return rho, nu if nu is not None else float(mu or 0.0) / rho, lines
 
 
-def _typical(found: CaseViscosity, rate: float, where: str) -> tuple[float | None, float | None, list[str]]:
+def _typical(
+    viscosity: CaseViscosity, rate: float, where: str
+) -> tuple[float | None, float | None, list[str]]:
     """Return a viscosity, m²/s or else Pa s, and a comment: one that varies at a rate, 1/s, or its mean."""
-    nu, mu, at = found.nu, found.mu, "on average"
-    if found.law is not None:
-        nu, at = found.law(rate), f"at {rate:.3g} 1/s"
-    elif found.field is not None:
-        nu, mu = (found.field.mean, None) if found.field.kinematic else (None, found.field.mean)
+    nu, mu, at = viscosity.nu, viscosity.mu, "on average"
+    if viscosity.law is not None:
+        nu, at = viscosity.law(rate), f"at {rate:.3g} 1/s"
+    elif viscosity.field is not None:
+        nu, mu = (viscosity.field.mean, None) if viscosity.field.kinematic else (None, viscosity.field.mean)
     name = f"// {'nu' if nu else 'mu':12s}"
     comment = (
-        f"local, by {found.origin}; {nu or mu:.4g} {at}" if found.origin else f"{nu or mu:g}: from {where}"
+        f"local, by {viscosity.origin}; {nu or mu:.4g} {at}"
+        if viscosity.origin
+        else f"{nu or mu:g}: from {where}"
     )
     return nu, mu, [name + comment]
 

@@ -172,20 +172,20 @@ def _density_of_case(
     case: Path, region: str, constant: Dictionary, file: Path | None, time: float | str | None
 ) -> float:
     """Read ρ_f, kg/m3, from the dictionary of the fluid or from the field."""
-    found = _find_density(case, region, file, time)
-    if found is None:
+    density = _find_density(case, region, file, time)
+    if density is None:
         also = str(CaseFile(file, case)) if file is not None else f"constant/{FILES[0]}"
         raise constant.missing("rhoInf", f"Allowed: {Positive.text}; also in {also}.")
-    log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, *found)
-    return found[0]
+    log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, *density)
+    return density[0]
 
 
 def _find_density(
     case: Path, region: str, file: Path | None, time: float | str | None
 ) -> tuple[float, str] | None:
     """Return the density of the case, kg/m3, and its source; None if the case has no density."""
-    if file is not None and (found := read_density(file, case)) is not None:
-        return found, str(CaseFile(file, case))
+    if file is not None and (density := read_density(file, case)) is not None:
+        return density, str(CaseFile(file, case))
     field = None if time is None else mean_density(case, region, time)
     return None if field is None else (field[0], f"the field rho at time {field[1]}, its mean")
 
@@ -225,10 +225,10 @@ def read_medium(
     case = Path(case)
     file = fluid_file(case, region)
     if rho is None:
-        found = _find_density(case, region, file, time)
-        if found is None:
+        density = _find_density(case, region, file, time)
+        if density is None:
             raise InputError(f"{case}: the density is not in the case; give rho, kg/m3.")
-        rho = found[0]
+        rho = density[0]
     if mu is None:
         if file is None:
             raise InputError(f"{case}: constant/{FILES[0]} does not exist; give mu, Pa s.")

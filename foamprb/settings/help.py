@@ -168,9 +168,9 @@ def _section_lines(name: str) -> list[str]:
     return [*lines, *_list_lines(_texts().of(name)), ""]
 
 
-def _list_lines(found: Sequence[EntryText]) -> list[str]:
+def _list_lines(texts: Sequence[EntryText]) -> list[str]:
     lines = []
-    for text in found:
+    for text in texts:
         if not text.why_idle:
             unit = f", {text.unit}" if text.unit else ""
             default = f" [{plain(text.default)}]" if text.default else ""

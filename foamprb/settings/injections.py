@@ -206,11 +206,11 @@ def read_injections(
     InputError
         If there are mistakes, all of them.
     """
-    found = [entry for entry in models.entries.values() if isinstance(entry, Dictionary) or not entry.used]
-    if not found:
+    entries = [entry for entry in models.entries.values() if isinstance(entry, Dictionary) or not entry.used]
+    if not entries:
         raise models.mistake("is empty: there would be no particles.")
     mistakes, injections = Mistakes(), []
-    for entry in found:
+    for entry in entries:
         with mistakes:
             injections.append(_injection(entry.dictionary(), constant, properties, fluid))
     mistakes.raise_any()
@@ -320,11 +320,11 @@ def _solid_entries(dictionary: Dictionary) -> dict[str, Any]:
     mistakes = Mistakes()
     with mistakes:
         solid = read_entries(Solid, dictionary, also=third)
-        found = {name: getattr(solid, name) for name in names_of(Solid) if name in dictionary.entries}
+        values = {name: getattr(solid, name) for name in names_of(Solid) if name in dictionary.entries}
     for name, hint in third.items():
         with mistakes:
             if name in dictionary.entries:
-                found[name] = read_entry(dictionary, name, hint)
+                values[name] = read_entry(dictionary, name, hint)
     for one_of in (STIFFNESS, COMPRESSIBILITY):
         given = [key for key in one_of if key in dictionary.entries]
         if len(given) > 1:
@@ -332,7 +332,7 @@ def _solid_entries(dictionary: Dictionary) -> dict[str, Any]:
                 dictionary.mistake(f"gives {' and '.join(given)}. Allowed: one of {', '.join(one_of)}.")
             )
     mistakes.raise_any()
-    return found
+    return values
 
 
 def _with_shear_modulus(solid: Solid, fluid: Fluid) -> Solid:

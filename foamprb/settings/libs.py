@@ -129,10 +129,10 @@ def compiling_libs() -> Iterator[None]:
 def _fault_of(error: Exception, files: Sequence[Path]) -> str:
     """Return a message with the line of a file that numba could not compile, if it names one."""
     for path in files:
-        found = re.search(rf'File "[^"]*{re.escape(path.name)}", line (\d+)', str(error))
-        if found is not None:
-            line = path.read_text().splitlines()[int(found[1]) - 1].strip()
-            return f"{path}, line {found[1]}: '{line}' cannot be compiled. {_ADVICE}"
+        match = re.search(rf'File "[^"]*{re.escape(path.name)}", line (\d+)', str(error))
+        if match is not None:
+            line = path.read_text().splitlines()[int(match[1]) - 1].strip()
+            return f"{path}, line {match[1]}: '{line}' cannot be compiled. {_ADVICE}"
     first = next((line.strip() for line in str(error).splitlines() if line.strip()), "")
     return f"{', '.join(map(str, files))}: the models cannot be compiled: {first} {_ADVICE}"
 

@@ -280,18 +280,18 @@ T = TypeVar("T")
 
 def _chosen(registry: Mapping[str, type[T]], dictionary: Dictionary, mistakes: Mistakes) -> dict[str, T]:
     """Read the models of a registry whose names are entries of a dictionary, in the registry's order."""
-    found: dict[str, Any] = {}
+    chosen: dict[str, Any] = {}
     for name, kind in registry.items():
         with mistakes:
             if name in dictionary.entries:
-                found[name] = read_entry(dictionary, name, kind)
-    return found
+                chosen[name] = read_entry(dictionary, name, kind)
+    return chosen
 
 
 def _dispersion(sub_models: Dictionary) -> dict[str, Surrounding]:
     """Read the ``dispersionModel`` of ``subModels`` with its coefficients; empty if there is none."""
     mistakes = Mistakes()
-    chosen, found = "none", {}
+    chosen, models = "none", {}
     with mistakes:
         if "dispersionModel" in sub_models.entries:
             rule = Annotated[str, Choice(("none", *DISPERSIONS))]
@@ -299,9 +299,9 @@ def _dispersion(sub_models: Dictionary) -> dict[str, Surrounding]:
     for name, model in DISPERSIONS.items():
         with mistakes:
             given = f"{name}Coeffs" in sub_models.entries
-            found[name] = read_entry(sub_models, f"{name}Coeffs", model) if given else model()
+            models[name] = read_entry(sub_models, f"{name}Coeffs", model) if given else model()
     mistakes.raise_any()
-    return {name: model for name, model in found.items() if name == chosen}
+    return {name: model for name, model in models.items() if name == chosen}
 
 
 def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:

@@ -247,26 +247,26 @@ def _time_control(case: Path) -> dict[str, tuple[Entry, float]]:
     It is empty if the file is missing or broken, or if the time of a steady solver counts iterations. A write
     interval that is not a time is left out.
     """
-    found: dict[str, tuple[Entry, float]] = {}
+    times: dict[str, tuple[Entry, float]] = {}
     try:
         if not (case / _CONTROL).is_file() or _counts_iterations(case):
-            return found
+            return times
         control = read_dictionary(case / _CONTROL, case)
         for key in ("deltaT", "endTime", "writeInterval"):
             if key in control.entries:
-                found[key] = control.entries[key], read_entry(control, key, _TIME)
-        if "writeInterval" in found:
-            entry, interval = found.pop("writeInterval")
+                times[key] = control.entries[key], read_entry(control, key, _TIME)
+        if "writeInterval" in times:
+            entry, interval = times.pop("writeInterval")
             kind = "timeStep"
             if "writeControl" in control.entries:
                 kind = read_entry(control, "writeControl", str)
             if kind in ("runTime", "adjustable", "adjustableRunTime"):
-                found["writeInterval"] = entry, interval
-            elif kind == "timeStep" and "deltaT" in found:
-                found["writeInterval"] = entry, interval * found["deltaT"][1]
+                times["writeInterval"] = entry, interval
+            elif kind == "timeStep" and "deltaT" in times:
+                times["writeInterval"] = entry, interval * times["deltaT"][1]
     except InputError as error:
         log.info("%s", error)
-    return found
+    return times
 
 
 def _counts_iterations(case: Path) -> bool:

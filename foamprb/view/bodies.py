@@ -240,9 +240,9 @@ def gather(
             array[t, places] = _known(own[name][sound], run.names[name])
         for name, array in values.items():
             with np.errstate(over="ignore", invalid="ignore"):
-                found = own[name][sound].reshape(-1, valued[name]).astype(np.float32)
-            found[~np.isfinite(found)] = np.nan
-            array[t, places] = found
+                numbers = own[name][sound].reshape(-1, valued[name]).astype(np.float32)
+            numbers[~np.isfinite(numbers)] = np.nan
+            array[t, places] = numbers
         first = places[~met[places]]
         radius[first] = 0.5 * d[sound][~met[places]]
         met[first] = True
@@ -279,7 +279,7 @@ def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles |
     """
     valued = name in run.components and name not in run.names
     stride = 1 + len(run.entries) * len(run.cloud(-1, ("origId",)).points) // _MOST_VALUES
-    counts, found = [], [np.zeros(0, dtype=np.float32)]
+    counts, collected = [], [np.zeros(0, dtype=np.float32)]
     for frame in range(len(run.entries)):
         arrays = run.cloud(frame, ("status", *([name] if valued else ()))).arrays
         shown = np.flatnonzero(_inside(arrays["status"], run.names.get("status", ())))
@@ -287,8 +287,8 @@ def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles |
         if valued:
             values = arrays[name][shown[::stride]].astype(np.float32)
             channel = _quantity(run, name, values.reshape(1, -1, run.components[name])).channel(part)
-            found.append(channel[np.isfinite(channel)])
-    return np.array(counts), np.concatenate(found) if valued else None
+            collected.append(channel[np.isfinite(channel)])
+    return np.array(counts), np.concatenate(collected) if valued else None
 
 
 def _inside(codes: NDArray[Any], meanings: Sequence[str]) -> Mask:
@@ -323,11 +323,11 @@ def fields_of_fates(bodies: Bodies, fates: Table) -> dict[str, Quantity]:
     """Return the :data:`FATE_COLUMNS` of ``fates.csv`` as arrays that never change."""
     ids = fates["id"]
     place = np.minimum(np.searchsorted(ids, bodies.ids), max(len(ids) - 1, 0))
-    found = ids[place] == bodies.ids if len(ids) else np.zeros(len(bodies.ids), dtype=bool)
+    there = ids[place] == bodies.ids if len(ids) else np.zeros(len(bodies.ids), dtype=bool)
     columns = {}
     for name, (label, unit) in FATE_COLUMNS.items():
         values = np.full(len(bodies.ids), np.nan, dtype=np.float32)
-        values[found] = fates[name][place[found]]
+        values[there] = fates[name][place[there]]
         columns[name] = Quantity(name, label, unit, ("",), values[None, :, None])
     return columns
 

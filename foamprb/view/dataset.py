@@ -61,17 +61,17 @@ def dataset_of(times: NDArray[np.float64], read: Callable[[int], PointCloud], so
 
 def _samples(cloud: PointCloud) -> dict[str, NDArray[Any]]:
     """Return the coordinates and the arrays of a cloud by name, without the numbers of the particles."""
-    found = {name: cloud.points[:, k] for name, k in _POINTS.items()}
-    return found | {name: array for name, array in cloud.arrays.items() if name != _ID}
+    coordinates = {name: cloud.points[:, k] for name, k in _POINTS.items()}
+    return coordinates | {name: array for name, array in cloud.arrays.items() if name != _ID}
 
 
 def _attributes(units: Mapping[str, str], names: Mapping[str, Sequence[str]], name: str) -> dict[str, Any]:
     """Return the attributes of a variable, as the CF conventions name them."""
     if name in _POINTS:
         return {"units": "m", "long_name": f"{name} of the centre", "axis": name.upper()}
-    found: dict[str, Any] = {"units": units.get(name) or "1", "coordinates": "x y z"}
+    attributes: dict[str, Any] = {"units": units.get(name) or "1", "coordinates": "x y z"}
     if name in names:
         # Blanks separate the meanings.
         meanings = ["_".join(meaning.split()) or "none" for meaning in names[name]]
-        found |= {"flag_values": np.arange(len(meanings)), "flag_meanings": " ".join(meanings)}
-    return found
+        attributes |= {"flag_values": np.arange(len(meanings)), "flag_meanings": " ".join(meanings)}
+    return attributes

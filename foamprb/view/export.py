@@ -85,9 +85,9 @@ def _write_lagrangian(target: Path, run: Run, flow: MeshFlow) -> None:
     remove_lagrangian(target, run.name)
     for time in run.times:
         for part in ("lagrangian", "uniform/lagrangian"):
-            if (found := target / f"{time:.12g}" / part / run.name).exists():
+            if (folder := target / f"{time:.12g}" / part / run.name).exists():
                 raise InputError(
-                    f"{found}: not written by foamprb; it is kept. Use another -output, or remove it."
+                    f"{folder}: not written by foamprb; it is kept. Use another -output, or remove it."
                 )
     for index in range(len(run.entries)):
         cloud = run.cloud(index)

@@ -130,11 +130,11 @@ def field_of(flow: MeshFlow, plane: str | None, *, drawn: bool) -> FlowField:
 def scales_of(flow: MeshFlow) -> dict[str, Scale]:
     """Return the scales of the quantities of a plane, from the values at the nodes."""
     _, u, l = flow.at_nodes()
-    found = {}
+    scales = {}
     for name, values in (("speed", np.linalg.norm(u, axis=1)), ("shearRate", _rate(l))):
         low, high = float(values.min()), float(values.max())
-        found[name] = Scale(round_limits(low, float(np.percentile(values, _HIGHEST)) or high), (low, high))
-    return found
+        scales[name] = Scale(round_limits(low, float(np.percentile(values, _HIGHEST)) or high), (low, high))
+    return scales
 
 
 def sample_grid(flow: MeshFlow) -> Grid:
@@ -293,10 +293,10 @@ def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
     grid.cell_data["tet"] = np.arange(len(tets), dtype=np.int32)
     # Nodes on the plane, such as cell centres of a mesh with one layer, count as above it.
     below = origin - 1e-9 * np.ptp(nodes, axis=0).max() * normal
-    found = grid.slice(normal=normal, origin=below).triangulate()
-    points, triangles = np.array(found.points, dtype=np.float64), np.array(found.regular_faces)
+    section = grid.slice(normal=normal, origin=below).triangulate()
+    points, triangles = np.array(section.points, dtype=np.float64), np.array(section.regular_faces)
     hosts = np.zeros(len(points), dtype=np.int32)
-    hosts[triangles] = found.cell_data["tet"][:, None]
+    hosts[triangles] = section.cell_data["tet"][:, None]
     u, l = flow.sample(points, hosts, 0.0)
     values = {"speed": np.linalg.norm(u, axis=1), "shearRate": _rate(l.reshape(-1, 9))}
     return Slice(points, triangles.astype(np.int64), values)

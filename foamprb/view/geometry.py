@@ -91,8 +91,8 @@ def _edges(nodes: Floats, triangles: Ints, patch: NDArray[Any]) -> Floats:
     for index in np.unique(patch):
         data = pyvista.PolyData.from_regular_faces(nodes, triangles[patch == index])
         data.point_data["node"] = np.arange(len(nodes))
-        found = data.extract_feature_edges(_FEATURE_ANGLE)
-        pairs.append(np.asarray(found.point_data["node"])[found.lines.reshape(-1, 3)[:, 1:]])
+        sharp = data.extract_feature_edges(_FEATURE_ANGLE)
+        pairs.append(np.asarray(sharp.point_data["node"])[sharp.lines.reshape(-1, 3)[:, 1:]])
     return np.asarray(nodes[np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)])
 
 

@@ -222,12 +222,12 @@ class Page:
         ranges = {}
         for part in field.parts:
             whole = limits_of(bodies, name, part)
-            found = {
+            limits = {
                 "usual": limits_of(bodies, name, part, PERCENTILES),
                 "whole": whole,
                 "extremes": extremes_of(bodies, name, part) or whole,
             }
-            ranges[part] = {key: _rounded(np.array(values)) for key, values in found.items()}
+            ranges[part] = {key: _rounded(np.array(values)) for key, values in limits.items()}
         described = {"name": name, "label": field.label, "unit": field.unit, "parts": field.parts}
         return described | {"ranges": ranges} | self._add(column)
 

@@ -101,12 +101,12 @@ class Run:
         if not file.exists():
             return {}
         try:
-            found = json.loads(file.read_text(encoding="utf-8"))
+            record = json.loads(file.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             raise InputError(f"{file} is damaged: {error}") from error
-        if not isinstance(found, dict):
+        if not isinstance(record, dict):
             raise InputError(f"{file} is damaged: it is not the record of a run.")
-        return found
+        return record
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -184,15 +184,15 @@ class Run:
         path = self.folder / entry.file
         chosen = tuple(self.components) if arrays is None else tuple(arrays)
         data = _read(path, chosen)
-        found = _arrays(data.GetPointData())
-        if missing := [name for name in chosen if name not in found]:
+        arrays_of_file = _arrays(data.GetPointData())
+        if missing := [name for name in chosen if name not in arrays_of_file]:
             raise InputError(
                 f"{path}: no array '{missing[0]}', which other times have; are these the files of one run?"
             )
         n = data.GetNumberOfPoints()
         # In a file without bodies VTK does not keep the number of components.
         shapes = {name: (n,) if self.components[name] == 1 else (n, self.components[name]) for name in chosen}
-        values = {name: found[name].reshape(shape) for name, shape in shapes.items()}
+        values = {name: arrays_of_file[name].reshape(shape) for name, shape in shapes.items()}
         return PointCloud(entry.time, _points(data), values, self.units, self.names)
 
     def snapshot(self, time: float | None = None) -> pyvista.PolyData:

@@ -77,12 +77,12 @@ class Runs(Mapping[str, Run]):
         def repeated(words: Mapping[str, str]) -> NDArray[Any]:
             return np.repeat(np.array([_number(words[key]) for key in tables]), list(sizes.values()))
 
-        found = {"run": np.repeat(np.array(list(tables)), list(sizes.values()))}
-        found |= {path: repeated({key: entries[key].get(path, "") for key in tables}) for path in paths}
+        columns = {"run": np.repeat(np.array(list(tables)), list(sizes.values()))}
+        columns |= {path: repeated({key: entries[key].get(path, "") for key in tables}) for path in paths}
         for column in next(iter(tables.values())):
             if all(column in table for table in tables.values()):
-                found[column] = np.concatenate([table[column] for table in tables.values()])
-        return found
+                columns[column] = np.concatenate([table[column] for table in tables.values()])
+        return columns
 
     def frame(self, name: str = "fates") -> Any:
         """Return :meth:`table` as a data frame of pandas.

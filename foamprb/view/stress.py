@@ -85,13 +85,13 @@ def write_stress(target: Path, run: Run, case: Path, mesh: Mesh, fraction: float
 
 def _latest(run: Run) -> Path:
     """Return the folder with the stress of the last time."""
-    found = {float(file.parent.name): file.parent for file in run.folder.glob(f"*/[0-9]*/{_STRESS}")}
-    if not found:
+    folders = {float(file.parent.name): file.parent for file in run.folder.glob(f"*/[0-9]*/{_STRESS}")}
+    if not folders:
         raise InputError(
             f"{run.folder}: there is no {_STRESS}. It is written by cloudFunctions {{ fields {{ type "
             f"particleStatistics; {_STRESS} yes; }} }}."
         )
-    return found[max(found)]
+    return folders[max(folders)]
 
 
 def _cells(path: Path, case: Path, mesh: Mesh) -> Floats:

@@ -111,8 +111,8 @@ def _quantile(values: Floats, share: float, unit: str = "") -> str:
     values = values[np.isfinite(values)]
     if not len(values):
         return ""
-    found = float(np.quantile(values, share))
-    return written(found, unit, found) if unit else f"{found:.4g}"
+    quantile = float(np.quantile(values, share))
+    return written(quantile, unit, quantile) if unit else f"{quantile:.4g}"
 
 
 def _places(labels: dict[str, str], own: dict[str, Table]) -> str:
@@ -121,7 +121,7 @@ def _places(labels: dict[str, str], own: dict[str, Table]) -> str:
         name: dict(zip(*np.unique(_where(fates), return_counts=True), strict=True))
         for name, fates in own.items()
     }
-    places = sorted({str(place) for found in counts.values() for place in found})
+    places = sorted({str(place) for by_place in counts.values() for place in by_place})
     rows = [
         (
             labels[name],

@@ -240,25 +240,25 @@ def by_origin(x: Floats, fates: NDArray[np.str_]) -> Plot:
     return _plot(draw)
 
 
-def unrolled(found: Deposits) -> Plot:
+def unrolled(wall: Deposits) -> Plot:
     """Return the particles per area of a wall, unrolled."""
-    factor, name = readable("m", float(max(np.ptp(edges) for edges in found.edges)))
+    factor, name = readable("m", float(max(np.ptp(edges) for edges in wall.edges)))
 
     def draw(figure: Any, axes: Any) -> None:
-        if found.few:
-            axes.plot(*(found.points / factor).T, "o", color=FATES["stuck"], markersize=4.0)
-            axes.set(xlim=found.edges[0][[0, -1]] / factor, ylim=found.edges[1][[0, -1]] / factor)
+        if wall.few:
+            axes.plot(*(wall.points / factor).T, "o", color=FATES["stuck"], markersize=4.0)
+            axes.set(xlim=wall.edges[0][[0, -1]] / factor, ylim=wall.edges[1][[0, -1]] / factor)
         else:
             image = axes.pcolormesh(
-                found.edges[0] / factor, found.edges[1] / factor, found.density.T, rasterized=True, vmin=0.0
+                wall.edges[0] / factor, wall.edges[1] / factor, wall.density.T, rasterized=True, vmin=0.0
             )
             _colour_bar(figure, image, axes)
-        if FEW <= found.number <= 2000:
-            axes.plot(*(found.points / factor).T, ".", color="#ffffff", markersize=1.4, markeredgewidth=0.0)
+        if FEW <= wall.number <= 2000:
+            axes.plot(*(wall.points / factor).T, ".", color="#ffffff", markersize=1.4, markeredgewidth=0.0)
         axes.grid(False)
-        ratio = np.ptp(found.edges[0]) / max(np.ptp(found.edges[1]), 1e-300)
+        ratio = np.ptp(wall.edges[0]) / max(np.ptp(wall.edges[1]), 1e-300)
         axes.set_aspect("equal" if 0.2 < ratio < 5.0 else "auto")
         axes.xaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(6))
-        axes.set(xlabel=f"{found.across[0]} {found.name} [{name}]", ylabel=f"{found.across[1]} [{name}]")
+        axes.set(xlabel=f"{wall.across[0]} {wall.name} [{name}]", ylabel=f"{wall.across[1]} [{name}]")
 
     return _plot(draw)

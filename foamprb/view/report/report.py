@@ -313,11 +313,11 @@ def _deformation(given: _Given) -> PageSection | None:
 
 
 def _exposure(given: _Given) -> PageSection:
-    found = [name for name in given.run.tables if name.endswith("/exposure")]
-    if not found:
+    tables = [name for name in given.run.tables if name.endswith("/exposure")]
+    if not tables:
         text = "<p>The run did not have the cloud function particleHistogram, which integrates γ̇.</p>"
         return PageSection("shear", "Shear exposure", text)
-    own = given.run.table(found[0])
+    own = given.run.table(tables[0])
     shear = given.figure(
         "shearExposure",
         plots.histogram(_by_fate(own["fate"], own["shearExposure"]), "shear exposure ∫γ̇ dt", "1"),
