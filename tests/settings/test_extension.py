@@ -17,7 +17,7 @@ from foamprb.cloud.injection.models import INJECTIONS, Places
 from foamprb.cloud.injection.shapes import SHAPES, Shape
 from foamprb.cloud.patches import ESCAPE, INTERACTIONS
 from foamprb.cloud.state import set_rest_shape
-from foamprb.cloudfunctions.base import CloudFunction
+from foamprb.cloudfunctions.base import CloudFunction, table
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Positive, Vector3
 from foamprb.settings.patches import INTERACTION_MODELS, KindRule
@@ -72,6 +72,8 @@ class Swallow:
 @dataclass(frozen=True)
 class Count(CloudFunction):
     """The number of samples."""
+
+    arrays: ClassVar = {"samples": table}
 
     every: int
 
