@@ -120,11 +120,11 @@ def read_boundary(path: Path, case: Path, file: FoamFile | None = None) -> tuple
         The file is missing or broken; the name of a patch is not a word of OpenFOAM or occurs twice; a patch
         does not begin where the previous one ends; a type is misspelt, like ``wal``.
     """
-    found = existing(path)
-    if found is None:
+    existing_file = existing(path)
+    if existing_file is None:
         raise InputError(f"{path}: no such file.")
     try:
-        return _patches(found, case, file)
+        return _patches(existing_file, case, file)
     except InputError as error:
         raise InputError(f"{case}: {error}") from None
 
@@ -174,17 +174,19 @@ def patches_of_mesh(patches: Sequence[PatchInfo]) -> list[PatchSurface]:
 
     A nonConformalCyclic patch has no faces: it couples those of its ``originalPatch``.
     """
-    found = {p.name: PatchSurface(p.name, p.type, None, p.neighbour, p.transform, p.groups) for p in patches}
+    surfaces = {
+        p.name: PatchSurface(p.name, p.type, None, p.neighbour, p.transform, p.groups) for p in patches
+    }
     originals = {
         p.name: p.entries.get("originalPatch", "") for p in patches if p.type == "nonConformalCyclic"
     }
     names = list(originals.values())
     for patch in patches:
         name = originals.get(patch.name, "")
-        if name in found:
+        if name in surfaces:
             # Of an original with several neighbours, particles cannot know which one they enter.
             other = originals.get(patch.neighbour, "") if names.count(name) == 1 else ""
             # It is no wall, even if its type is.
-            groups = found[name].groups - {"wall"}
-            found[name] = PatchSurface(name, "cyclicAMI", None, other, patch.transform, groups)
-    return list(found.values())
+            groups = surfaces[name].groups - {"wall"}
+            surfaces[name] = PatchSurface(name, "cyclicAMI", None, other, patch.transform, groups)
+    return list(surfaces.values())

@@ -111,16 +111,16 @@ def _values(field: FoamField, patch: PatchInfo, entry: PatchField, faces: PatchG
     always, otherwise = RULES.get(entry.type, (False, None))
     given = entry.fields.get("value")
     try:
-        found = given if given is not None and not always else otherwise and otherwise(entry, faces)
+        values = given if given is not None and not always else otherwise and otherwise(entry, faces)
     except ValueError as error:
         raise InputError(f"{field.path}: patch {patch.name} has an entry {error}.") from None
-    if found is None:
+    if values is None:
         raise InputError(f"{field.path}: {_missing(patch, entry, otherwise)}")
-    if len(found) not in (1, patch.faces):
+    if len(values) not in (1, patch.faces):
         raise InputError(
-            f"{field.path}: {len(found)} values on patch {patch.name}, which has {patch.faces} faces."
+            f"{field.path}: {len(values)} values on patch {patch.name}, which has {patch.faces} faces."
         )
-    return found
+    return values
 
 
 def _missing(patch: PatchInfo, entry: PatchField, rule: Rule | None) -> str:

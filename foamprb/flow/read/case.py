@@ -217,21 +217,21 @@ def field_path(folder: Path, field: str, kind: Kind) -> Path:
     path = existing(folder / field)
     if path is None:
         raise MissingFieldError(f"{folder}: no field {field}; the fields are {listed(fields_of(folder))}.")
-    found = header(path).get("class", "(none)")
-    if found != kind.name:
-        raise InputError(f"{path}: the class is {found}, but {kind.meaning} is a {kind.name}.")
+    kind_of_file = header(path).get("class", "(none)")
+    if kind_of_file != kind.name:
+        raise InputError(f"{path}: the class is {kind_of_file}, but {kind.meaning} is a {kind.name}.")
     return path
 
 
 def fields_of(folder: Path) -> dict[str, str]:
     """Return the classes of the fields of a time directory by name."""
-    found = {}
+    classes = {}
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():
         if path.is_file():
             kind = header(path).get("class", "")
             if kind.endswith("Field"):
-                found[path.name.removesuffix(".gz")] = kind
-    return found
+                classes[path.name.removesuffix(".gz")] = kind
+    return classes
 
 
 def cell_zones(folder: Path) -> Mapping[str, NDArray[np.int64]]:

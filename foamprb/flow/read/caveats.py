@@ -58,10 +58,10 @@ def caveats_of_case(
     halo
         The nodes that hold a part of the mesh each, if this is a part.
     """
-    found = [*_rotating(case, region, relative), *_porous(case, region)]
-    found += () if turbulent else _turbulent(folder)
-    found += [*_compressible(read, halo), *_phases(folder)]
-    return [*found, *([*_moving(case, region, folder), *_frozen(case, region)] if moving else ())]
+    caveats = [*_rotating(case, region, relative), *_porous(case, region)]
+    caveats += () if turbulent else _turbulent(folder)
+    caveats += [*_compressible(read, halo), *_phases(folder)]
+    return [*caveats, *([*_moving(case, region, folder), *_frozen(case, region)] if moving else ())]
 
 
 def refuse_absolute(case: Path, region: str, folder: Path, velocity: str) -> None:
@@ -186,14 +186,14 @@ def _turbulent(folder: Path) -> Iterator[Caveat]:
 
 def turbulence_fields(folder: Path) -> tuple[str, ...]:
     """Return the names of the fields in a time directory that give k and ε, or ()."""
-    found = (("k", second) for second in ("epsilon", "omega") if is_not_zero(folder / second))
-    return next(found, ()) if is_not_zero(folder / "k") else ()
+    pairs = (("k", second) for second in ("epsilon", "omega") if is_not_zero(folder / second))
+    return next(pairs, ()) if is_not_zero(folder / "k") else ()
 
 
 def is_not_zero(path: Path) -> bool:
     """Return True if there is a field that is not zero everywhere."""
-    found = existing(path)
-    return found is not None and not _ZERO.search(read_bytes(found, _HEAD))
+    file = existing(path)
+    return file is not None and not _ZERO.search(read_bytes(file, _HEAD))
 
 
 def _compressible(read: Callable[[str, Kind], FoamField], halo: Halo | None) -> Iterator[Caveat]:
@@ -257,11 +257,11 @@ def _flux(
     values, missing = [], False
     for patch in patches:
         entry = phi.of(patch)
-        found = entry.fields.get("value") if entry else None
-        if found is None or len(found) not in (1, patch.faces):
+        values_there = entry.fields.get("value") if entry else None
+        if values_there is None or len(values_there) not in (1, patch.faces):
             missing |= patch.faces > 0 and patch.type != "empty" and patch.name != CUT.name
-            found = np.zeros((1, 1))
-        values.append(np.broadcast_to(found, (patch.faces, 1))[:, 0])
+            values_there = np.zeros((1, 1))
+        values.append(np.broadcast_to(values_there, (patch.faces, 1))[:, 0])
     if any(of_all(missing)):
         return None
     unit = "kg/s" if phi.dimensions == MASS_FLUX else "m3/s"

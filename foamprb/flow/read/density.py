@@ -63,8 +63,8 @@ def mass_of(
     if flux == VOLUME_FLUX:
         return CONSTANT
     near = sorted({max(index - 1, 0), index, min(index + 1, len(reads) - 1)})
-    found = {i: _values(reads[i], whole, root, halo) for i in near}
-    values = {i: pair for i, pair in found.items() if pair is not None}
+    pairs = {i: _values(reads[i], whole, root, halo) for i in near}
+    values = {i: pair for i, pair in pairs.items() if pair is not None}
     if len(values) < len(near):
         return None
     every = np.concatenate([array for pair in values.values() for array in pair])
@@ -140,9 +140,9 @@ def _values(
             p, T = (of(*field) for field in _STATE)
         except InputError:
             return None
-        found = density_of_state(root, np.concatenate(p), np.concatenate(T))
-        if found is None:
+        of_state = density_of_state(root, np.concatenate(p), np.concatenate(T))
+        if of_state is None:
             return None
-        both = np.broadcast_to(found, len(p[0]) + len(p[1]))
+        both = np.broadcast_to(of_state, len(p[0]) + len(p[1]))
         rho, outside = both[: len(p[0])], both[len(p[0]) :]
     return (rho, outside) if extremes(np.concatenate([rho, outside]), halo)[0] > 0.0 else None

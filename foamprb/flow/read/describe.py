@@ -121,12 +121,12 @@ def _kinds(start: Ints, owner: Ints, neighbour: Ints, n_cells: int) -> dict[str,
             for of in (np.ones(len(sizes)), sizes == 3, sizes == 4)
         ]
     ).astype(int)
-    found = {
+    by_kind = {
         name: int(np.all(counts == np.array(numbers)[:, None], axis=0).sum())
         for numbers, name in _KINDS.items()
     }
-    found["polyhedron"] = n_cells - sum(found.values())
-    return {name: n for name, n in found.items() if n}
+    by_kind["polyhedron"] = n_cells - sum(by_kind.values())
+    return {name: n for name, n in by_kind.items() if n}
 
 
 def _lines_of_mesh(points: int, cells: dict[str, int], bounds: tuple[Floats, Floats]) -> list[str]:

@@ -58,7 +58,7 @@ def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[n
         raise InputError(f"{path}: no surface cells among the cells, for {array} to name patches on.")
     groups = [(str(name), whole.field_data[name]) for name in list(whole.field_data.keys())]
     names = {int(value[0]): name for name, value in groups if np.size(value) == 2 and int(value[1]) == 2}
-    found = {
+    value_of = {
         frozenset(
             map(tuple, np.asarray(whole.points, dtype=np.float64)[whole.get_cell(row).point_ids] + 0.0)
         ): (int(values[row]))
@@ -69,7 +69,7 @@ def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[n
     for face in range(len(labels)):
         begin, end = mesh.face_start[mesh.n_internal + face : mesh.n_internal + face + 2]
         corners = frozenset(map(tuple, mesh.points[mesh.face_points[begin:end]] + 0.0))
-        value = found.get(corners)
+        value = value_of.get(corners)
         name = BOUNDARY if value is None else names.get(value, f"{BOUNDARY}{value}")
         labels[face] = used.setdefault(name, len(used))
     return labels, list(used)

@@ -123,8 +123,8 @@ def read_field(path: Path | FoamFile, kind: Kind, case: Path) -> FoamField:
     """
     file = path if isinstance(path, FoamFile) else FoamFile(path)
     if file.kind != kind.name:
-        found = file.kind or "(none)"
-        raise InputError(f"{file.path}: the class is {found}, but {kind.meaning} is a {kind.name}.")
+        kind_of_file = file.kind or "(none)"
+        raise InputError(f"{file.path}: the class is {kind_of_file}, but {kind.meaning} is a {kind.name}.")
     text, lists = _without_lists(file, kind)
     try:
         root = parse_dictionary(text, file.path, case)
@@ -168,12 +168,12 @@ def _dimensions(root: Dictionary, kind: Kind) -> Dimensions:
     entry = root.entries.get("dimensions")
     if entry is None:
         raise root.missing("dimensions", f"Allowed: {_allowed(kind)}.")
-    found = read_dimensions(entry.text) if isinstance(entry, Stream) else None
-    if found is None:
+    dimensions = read_dimensions(entry.text) if isinstance(entry, Stream) else None
+    if dimensions is None:
         raise entry.mistake(f"is {entry}. Allowed: {_allowed(kind)}.")
-    if kind.dimensions and found not in kind.dimensions:
-        raise entry.mistake(f"is {described(found)}; this should be {kind.meaning}: {_allowed(kind)}.")
-    return found
+    if kind.dimensions and dimensions not in kind.dimensions:
+        raise entry.mistake(f"is {described(dimensions)}; this should be {kind.meaning}: {_allowed(kind)}.")
+    return dimensions
 
 
 def _allowed(kind: Kind) -> str:
@@ -190,12 +190,12 @@ class _Reader:
 
     def field(self, entry: Entry) -> Floats:
         """Return values of the field's type after ``uniform`` or ``nonuniform``."""
-        found = self._values(entry)
-        if found is None or found.shape[1] != self._components:
+        values = self._values(entry)
+        if values is None or values.shape[1] != self._components:
             raise entry.mistake(
                 f"is {entry}. Allowed: uniform and a {self._inner}, or nonuniform and a List<{self._inner}>."
             )
-        return found
+        return values
 
     def patch(self, key: str, dictionary: Dictionary) -> PatchField:
         """Return the entry of a patch."""
@@ -205,11 +205,11 @@ class _Reader:
             if name == "value":
                 fields[name] = self.field(entry)
             elif isinstance(entry, Stream):
-                found = self._values(entry)
-                if found is None:
+                values = self._values(entry)
+                if values is None:
                     words[name] = entry.text
                 else:
-                    fields[name] = found
+                    fields[name] = values
         if "type" not in words:
             raise dictionary.missing("type", "Allowed: the name of a boundary condition.")
         return PatchField(words["type"], key.startswith('"'), fields, words)
@@ -221,9 +221,9 @@ class _Reader:
         """
         unit, tokens = unit_of(entry.tokens if isinstance(entry, Stream) else ())
         if unit:
-            found = self._numbers(tokens)
+            numbers = self._numbers(tokens)
             try:
-                return None if found is None else factor_of(unit, self._dimensions) * found
+                return None if numbers is None else factor_of(unit, self._dimensions) * numbers
             except ValueError as error:
                 raise entry.mistake(f"is {entry}, {error}.") from None
         return self._numbers(tokens)

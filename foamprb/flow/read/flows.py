@@ -38,9 +38,9 @@ def open_case(case: Path, source: FlowSource) -> Case:
     if source.division is not None:
         raise InputError(f"{case}: a case has its own patches; only those of a mesh file are divided.")
     if not source.decomposed and not is_only_decomposed(case, source.region):
-        found = Case(case, source.region, source.reader)
-        found.notes += later_times(case)
-        return found
+        opened = Case(case, source.region, source.reader)
+        opened.notes += later_times(case)
+        return opened
     if source.reader:
         raise InputError(f"{case}: -reader {source.reader} reads no processor folders.")
     return DecomposedCase(case, source.region)

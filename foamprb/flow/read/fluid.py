@@ -155,18 +155,18 @@ def describe_viscosity(case: Path, region: str, fields: Collection[str]) -> list
     if file is None:
         return []
     try:
-        found = read_viscosity(file, case, None, region)
+        viscosity = read_viscosity(file, case, None, region)
     except InputError:
         with suppress(InputError):
             if law := _transport(read_dictionary(file, case)):
                 local = ", at the local T" if "T" in fields else ""
                 return [f"{law} of {file.name}{local}"]
         return [f"{file.name} has none that is read"]
-    if found.law is None:
-        return [f"nu {found.nu:g} m2/s" if found.nu is not None else f"mu {found.mu:g} Pa s"]
-    numbers = ", ".join(f"{name} {value:g}" for name, value in found.law.coefficients.items())
+    if viscosity.law is None:
+        return [f"nu {viscosity.nu:g} m2/s" if viscosity.nu is not None else f"mu {viscosity.mu:g} Pa s"]
+    numbers = ", ".join(f"{name} {value:g}" for name, value in viscosity.law.coefficients.items())
     written = ["the written field nu takes its place"] if "nu" in fields else []
-    return [f"{found.origin}: {numbers}", *written]
+    return [f"{viscosity.origin}: {numbers}", *written]
 
 
 def _nu_of(root: Dictionary) -> float:
@@ -182,22 +182,22 @@ def _nu_of(root: Dictionary) -> float:
 def _law_of(dictionary: Dictionary, model: str, given: Mapping[str, float]) -> RateLaw:
     """Return the law of a model, with coefficients from ``…Coeffs`` or beside it, if they are not given."""
     own = dictionary.entries.get(f"{model}Coeffs", dictionary).dictionary()
-    found, mistakes = dict[str, float](), Mistakes()
+    coefficients, mistakes = dict[str, float](), Mistakes()
     for name, default in LAWS[model].kinematic_names().items():
         with mistakes:
             if name in given:
-                found[name] = given[name]
+                coefficients[name] = given[name]
             elif name in own.entries:
                 number = _number(own, name)
                 if number is None or not math.isfinite(number):
                     raise own.entries[name].mistake(f"is {own.entries[name]}. Allowed: a number.")
-                found[name] = number
+                coefficients[name] = number
             elif default is not None:
-                found[name] = default
+                coefficients[name] = default
             else:
                 raise own.missing(name, f"Allowed: a number, a coefficient of {model}.")
     mistakes.raise_any()
-    return RateLaw(model, found)
+    return RateLaw(model, coefficients)
 
 
 def _generalised(case: Path, region: str) -> Dictionary | None:
@@ -237,10 +237,10 @@ class _Fields(NamedTuple):
         """Return the first of some fields that is there; None if there is none."""
         if self.time is None:
             return None
-        found = solution_times(self.case, self.region)
-        if not found:
+        times = solution_times(self.case, self.region)
+        if not times:
             return None
-        chosen = found if self.transient else (found[pick_time(self.case, found, self.time)],)
+        chosen = times if self.transient else (times[pick_time(self.case, times, self.time)],)
         for name in names:
             if all(has_field(self.case, self.region, time, name) for time in chosen):
                 values = cell_values(self.case, self.region, chosen[-1], name, kind)

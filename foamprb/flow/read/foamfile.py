@@ -51,11 +51,11 @@ class FoamFile:
 
     def __init__(self, path: Path, data: bytes | None = None, entries: dict[str, str] | None = None) -> None:
         """Read a file; or take ``data``, a part of a file, and the ``entries`` of its header."""
-        found = existing(path)
-        if found is None:
+        file = existing(path)
+        if file is None:
             raise InputError(f"{path}: no such file.")
-        self.path, self.data = found, read_bytes(found) if data is None else data
-        entries = entries or header(found)
+        self.path, self.data = file, read_bytes(file) if data is None else data
+        entries = entries or header(file)
         self.kind, self.binary = entries.get("class", ""), entries.get("format") == "binary"
         arch = entries.get("arch", "")
         order = ">" if arch.startswith("MSB") else "<"
@@ -77,11 +77,11 @@ class FoamFile:
 
     def take(self, text: bytes) -> bool:
         """Skip the text if it comes next; return True if it does."""
-        found = self.data.startswith(text, self.at)
-        if found:
+        comes = self.data.startswith(text, self.at)
+        if comes:
             self.at += len(text)
             self.skip()
-        return found
+        return comes
 
     def need(self, text: bytes) -> None:
         """Skip the text; InputError if it does not come next."""
@@ -157,13 +157,13 @@ class FoamFile:
             values = np.frombuffer(self.data, at.dtype, at.n * at.components, at.begin)
             return values.reshape(-1, at.components).astype(wide)
         n = 1 if at.uniform else at.n
-        found = self._parsed(at.begin, at.end, wide)
-        if found is None:
+        numbers = self._parsed(at.begin, at.end, wide)
+        if numbers is None:
             kind = "numbers" if wide is np.float64 else "whole numbers"
             raise self.broken(f"a list of {kind}", at.begin)
-        if len(found) != n * at.components:
-            raise self.broken(f"a list of {n} entries, not {len(found) / at.components:g},", at.begin)
-        values = found.reshape(n, at.components)
+        if len(numbers) != n * at.components:
+            raise self.broken(f"a list of {n} entries, not {len(numbers) / at.components:g},", at.begin)
+        values = numbers.reshape(n, at.components)
         # A view that cannot be written to has other compiled functions.
         return np.broadcast_to(values, (at.n, at.components)) if at.uniform else values
 
@@ -313,12 +313,12 @@ def read_blocks(path: Path, chosen: Container[int], most: int = -1) -> tuple[lis
             text = stream.read(HEADER_BYTES)
             if _BLANK.fullmatch(text):
                 return files, number
-            found = _BLOCK.match(text)
-            n, begin = (int(found[1]), at + found.end()) if found else (0, at)
+            match = _BLOCK.match(text)
+            n, begin = (int(match[1]), at + match.end()) if match else (0, at)
             stream.seek(begin)
             data = stream.read(n if most < 0 else min(n, most)) if number in chosen else b""
             stream.seek(begin + n)
-            if found is None or stream.read(1) != b")":
+            if match is None or stream.read(1) != b")":
                 raise InputError(
                     f"{path}: byte {at}: the file of processor {number}, {n} bytes, expected; the file is "
                     "broken or cut short."
@@ -331,8 +331,8 @@ def read_blocks(path: Path, chosen: Container[int], most: int = -1) -> tuple[lis
 def header(path: Path) -> dict[str, str]:
     """Return the entries of the FoamFile header, in a collated file of the first part; empty without one."""
     text = _COMMENT.sub(" ", read_bytes(path, HEADER_BYTES).decode("latin-1"))
-    found = re.findall(r"FoamFile\s*\{(.*?)\}", text, re.DOTALL)
-    for match in found:
+    headers = re.findall(r"FoamFile\s*\{(.*?)\}", text, re.DOTALL)
+    for match in headers:
         entries = {
             key: value.strip().strip('"') for key, value in re.findall(r'(\w+)\s+("[^"]*"|[^;]*);', match)
         }

@@ -119,8 +119,8 @@ def read_mesh_series(
         whole, now = grid_and_surfaces(read_file(path, name), path)
         cells = solid_cells(whole, path)[0]
         join_components(velocity, cells, *(surface for _, surface in now))
-        found = _topology(cells, now)
-        if topology.keys() != found.keys() or not all(np.array_equal(topology[k], found[k]) for k in found):
+        later = _topology(cells, now)
+        if topology.keys() != later.keys() or not all(np.array_equal(topology[k], later[k]) for k in later):
             raise InputError(
                 f"{path}: the mesh of time {name} is not that of time {names[0]}; only meshes at rest can be "
                 "read."
@@ -235,8 +235,8 @@ def _array(data: Any, name: str, components: int, path: Path, where: str) -> Flo
 
 def _topology(grid: Any, surfaces: Sequence[tuple[str, Any]]) -> dict[str, NDArray[Any]]:
     """Return the arrays that define a mesh and its patches."""
-    found = {f"points of {name}": np.asarray(part.points) for name, part in surfaces}
-    found |= {f"faces of {name}": np.asarray(part.faces) for name, part in surfaces}
+    arrays = {f"points of {name}": np.asarray(part.points) for name, part in surfaces}
+    arrays |= {f"faces of {name}": np.asarray(part.faces) for name, part in surfaces}
     lists = {
         "cells": grid.GetCells(),
         "faces": grid.GetPolyhedronFaces(),
@@ -244,9 +244,9 @@ def _topology(grid: Any, surfaces: Sequence[tuple[str, Any]]) -> dict[str, NDArr
     }
     for name, cells in lists.items():
         if cells is not None:
-            found[name] = vtk_to_numpy(cells.GetConnectivityArray())
-            found[f"start of {name}"] = vtk_to_numpy(cells.GetOffsetsArray())
-    return {**found, "kinds": np.asarray(grid.celltypes), "points": np.asarray(grid.points)}
+            arrays[name] = vtk_to_numpy(cells.GetConnectivityArray())
+            arrays[f"start of {name}"] = vtk_to_numpy(cells.GetOffsetsArray())
+    return {**arrays, "kinds": np.asarray(grid.celltypes), "points": np.asarray(grid.points)}
 
 
 def open_file(
@@ -299,9 +299,9 @@ def join_components(velocity: str, *data: Any) -> None:
 
 def _moving(surfaces: Sequence[tuple[str, Any]], velocity: str) -> set[str]:
     """Return the names of the surfaces on which the fluid moves; the others are walls."""
-    found = set()
+    moving = set()
     for name, surface in surfaces:
         given = [data[velocity] for data in (surface.cell_data, surface.point_data) if velocity in data]
         if given and np.any(np.asarray(given[0]) != 0.0):
-            found.add(name)
-    return found
+            moving.add(name)
+    return moving

@@ -328,12 +328,12 @@ def _at_nodes(
     read, given = partial(case.field, time), None
     if source.gradient:
         given = gradients(read(source.gradient, GRADIENT_FIELD), whole.mesh)
-    found: list[Any] = [*reconstruct(cells, boundary, given)]
+    arrays: list[Any] = [*reconstruct(cells, boundary, given)]
     if source.turbulent:
-        found.append(read_turbulence(read, case.folder(time), whole, reconstruct))
+        arrays.append(read_turbulence(read, case.folder(time), whole, reconstruct))
     if source.viscosity:
-        found.append(read_viscosity_field(read, source.viscosity, whole, reconstruct))
-    return found
+        arrays.append(read_viscosity_field(read, source.viscosity, whole, reconstruct))
+    return arrays
 
 
 def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:

@@ -51,7 +51,7 @@ def kinds_of(
     InputError
         A field is missing at a time, or has no value for each cell.
     """
-    found: list[Kind] = []
+    kinds: list[Kind] = []
     for time in times if names else ():
         at_time = classes(time)
         for name in map(field_of, names):
@@ -64,11 +64,11 @@ def kinds_of(
                     f"fieldSampling and forces read fields, but there is {what} {where}. "
                     f"{suggestion(name, others)}"
                 )
-            found.append(kind)
-    for name, kind in zip(names, found, strict=False):
+            kinds.append(kind)
+    for name, kind in zip(names, kinds, strict=False):
         if name != field_of(name) and kind.inner not in ("scalar", "vector"):
             raise InputError(f"{name} is needed by a force, but {field_of(name)} is no scalar and no vector.")
-    return found[: len(names)]
+    return kinds[: len(names)]
 
 
 def read_sampled(

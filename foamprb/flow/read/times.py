@@ -38,10 +38,10 @@ def choose_times(source: Path, names: Sequence[str], selection: str | None = Non
     chosen: set[str] = set()
     for word in re.split(r"[,\s]+", selection.strip()):
         if _RANGE.fullmatch(word):
-            found = names_in(source, names, word)
-            if not found:
+            inside = names_in(source, names, word)
+            if not inside:
                 raise InputError(f"{source}: no time in {word}; the times go from {names[0]} to {names[-1]}.")
-            chosen |= {*found}
+            chosen |= {*inside}
         else:
             chosen.add(names[pick_time(source, names, word)])
     result = tuple(name for name in names if name in chosen)
@@ -99,16 +99,16 @@ def pick_time(source: Path, names: Sequence[str], time: float | str) -> int:
         raise InputError(
             f"{source}: time '{time}' is neither a number nor latestTime; the times are {listed(names)}."
         ) from None
-    found = [position for position, name in enumerate(names) if _is_same(float(name), value)]
-    if not found:
+    positions = [position for position, name in enumerate(names) if _is_same(float(name), value)]
+    if not positions:
         raise InputError(f"{source}: no time {time}; the times are {listed(names)}.")
-    if len(found) > 1:
-        one, other = names[found[0]], names[found[1]]
+    if len(positions) > 1:
+        one, other = names[positions[0]], names[positions[1]]
         raise InputError(
             f"{source}: {one} and {other} are the same time. Remove one, or say which: -time {one} or "
             f"-time {other}."
         )
-    return found[0]
+    return positions[0]
 
 
 def _is_same(a: float, b: float) -> bool:

@@ -104,9 +104,9 @@ def given_values(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
     for index, patch in enumerate(whole.patches):
         entry = field.of(patch)
         own = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
-        found = entry.fields.get("value") if entry else None
-        if found is not None and len(found) in (1, patch.faces) and np.isfinite(found).all():
-            boundary[own] = found
+        values = entry.fields.get("value") if entry else None
+        if values is not None and len(values) in (1, patch.faces) and np.isfinite(values).all():
+            boundary[own] = values
         elif entry and entry.type == "noSlip":
             boundary[own] = 0.0
     return cells, boundary

@@ -104,12 +104,12 @@ def _by_vtk(path: Path, function: Callable[..., Any], *arguments: Any) -> Any:
     """Call a function that reads a file by VTK; raise VTK's errors."""
     with vtk_messages() as messages:
         try:
-            found = function(*arguments)
+            result = function(*arguments)
         except Exception as error:
             raise InputError(f"{path}: VTK cannot read it: {error or type(error).__name__}") from None
     if messages.errors:
         raise InputError(f"{path}: VTK says: {messages.errors[0]}")
-    return found
+    return result
 
 
 def _read_by_vtk(path: Path, time: float | str) -> Any:
@@ -117,14 +117,14 @@ def _read_by_vtk(path: Path, time: float | str) -> Any:
         path = _of_series(path, time)
     names = times_of_file(path)
     step = pick_time(path, names, time) if names else None
-    found = _by_vtk(path, _read_vtk, path, step)
+    data = _by_vtk(path, _read_vtk, path, step)
     if path.suffix == ".vtk":
         _require_whole(path)
     if path.suffix in _PIECES:
         # Remove the ghost cells of the pieces.
-        ghosts = found.cell_data.get("vtkGhostType")
-        found = found if ghosts is None else found.extract_cells(np.flatnonzero(np.asarray(ghosts) == 0))
-    return found
+        ghosts = data.cell_data.get("vtkGhostType")
+        data = data if ghosts is None else data.extract_cells(np.flatnonzero(np.asarray(ghosts) == 0))
+    return data
 
 
 def _require_whole(path: Path) -> None:
@@ -162,10 +162,10 @@ def _require_whole(path: Path) -> None:
                 return
     except (ValueError, LookupError):
         return
-    found = sum(len(line.split()) for line in lines[heads[-1] + 1 :])
-    if found < expected:
+    count = sum(len(line.split()) for line in lines[heads[-1] + 1 :])
+    if count < expected:
         raise InputError(
-            f"{path}: {words[0]} has {found} values, not {expected}; the file is broken or cut short."
+            f"{path}: {words[0]} has {count} values, not {expected}; the file is broken or cut short."
         )
 
 
@@ -271,8 +271,8 @@ def require_joined(mesh: Mesh, path: Path) -> None:
     from scipy.spatial import KDTree
 
     size = np.linalg.norm(mesh.boundary_areas, axis=1)
-    found = KDTree(mesh.boundary_centres).query(mesh.boundary_centres, k=2)
-    distance, other = np.asarray(found[0]), np.asarray(found[1])
+    nearest = KDTree(mesh.boundary_centres).query(mesh.boundary_centres, k=2)
+    distance, other = np.asarray(nearest[0]), np.asarray(nearest[1])
     along = np.einsum("fi,fi->f", mesh.boundary_areas, mesh.boundary_areas[other[:, 1]])
     twice = np.flatnonzero(
         (distance[:, 1] < _NEAR * np.sqrt(size)) & (along < -0.9 * size * size[other[:, 1]])
