@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from foamprb.flow.mesh.fragment import Team
+from foamprb.distributed.fragment import Team
 
 
 class ThreadTeam(Team):

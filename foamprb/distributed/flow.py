@@ -11,20 +11,20 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from foamprb.distributed.parts import Summary
+from foamprb.distributed.fragment import IndivisibleMeshError, Labels
+from foamprb.distributed.node import Summary
+from foamprb.distributed.partcase import ends_of
+from foamprb.distributed.submesh import layers_over
 from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, FieldValues, by_name, width
-from foamprb.flow.mesh.fragment import IndivisibleMeshError, Labels
-from foamprb.flow.mesh.submesh import layers_over
 from foamprb.flow.meshflow import MeshFlow, MeshSizes
 from foamprb.flow.nodes import Ends, Function, NodeValues, joined, stride_over
 from foamprb.flow.read.case import is_only_decomposed, processor_folders
 from foamprb.flow.read.decomposed import DecomposedCase
-from foamprb.flow.read.parts import ends_of
+from foamprb.flow.read.flows import rotations_of
 from foamprb.flow.read.source import FlowSource
-from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.timeline import Timeline
 
@@ -86,6 +86,8 @@ def require_divisible(case: Path, source: FlowSource, nodes: int, followed: bool
     if not (source.decomposed or is_only_decomposed(case, source.region)):
         found = "the flow is read from the case itself; -decomposed reads its processor folders"
         raise IndivisibleMeshError(found if processor_folders(case) else "it is not decomposed")
+    if rotations_of(case, source):
+        raise IndivisibleMeshError("the case has rotating zones (MRFProperties)")
     opened = DecomposedCase(case, source.region)
     if opened.processors.n < nodes:
         raise IndivisibleMeshError(f"the case has {opened.processors.n} processor folders for {nodes} nodes")
@@ -219,6 +221,10 @@ class DistributedFlow:
                 array[rows] = part
         return whole
 
+    def _at_own(self, name: str, empty: Sequence[NDArray[Any]], *given: Any) -> list[NDArray[Any]]:
+        """Return the results of a method of the flow at hosts, each from the node that owns it."""
+        return self._ask_own("at_own", empty, name, *given)
+
     def locate(self, points: Floats) -> Labels:
         """Return the host of each point (n, 3), −1 outside."""
         points = np.ascontiguousarray(points, dtype=np.float64)
@@ -227,12 +233,12 @@ class DistributedFlow:
     def sample(self, points: Floats, hosts: NDArray[Any], t: float) -> tuple[Floats, Floats]:
         """Return velocities (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,)."""
         empty = np.full((len(points), 3), np.nan), np.full((len(points), 3, 3), np.nan)
-        u, l = self._ask_own("sample_own", empty, points, hosts, t)
+        u, l = self._at_own("sample", empty, hosts, points, t)
         return u, l
 
     def cell_size(self, hosts: NDArray[Any]) -> Floats:
         """Return the cube root of the volume of the hosts' cells, (n,), m."""
-        return self._ask_own("cell_sizes_of_own", [np.full(len(hosts), np.nan)], hosts)[0]
+        return self._at_own("cell_size", [np.full(len(hosts), np.nan)], hosts)[0]
 
     def mesh_sizes(self) -> MeshSizes:
         """Return the sizes of all cells and boundary faces; see :meth:`MeshFlow.mesh_sizes`."""
@@ -277,11 +283,11 @@ class DistributedFlow:
 
     def _vertices(self, hosts: Ints) -> Floats:
         """Return the vertices of tetrahedra, (n, 4, 3), m."""
-        return self._ask_own("vertices_of_own", [np.empty((len(hosts), 4, 3))], hosts)[0]
+        return self._at_own("_vertices", [np.empty((len(hosts), 4, 3))], hosts)[0]
 
     def viscosity(self, points: Floats, hosts: NDArray[Any], t: float) -> Floats:
         """Return the field of the viscosity at points (n, 3) in hosts (n,) at t, s, as it was read, (n,)."""
-        return self._ask_own("viscosities_of_own", [np.full(len(points), np.nan)], points, hosts, t)[0]
+        return self._at_own("viscosity", [np.full(len(points), np.nan)], hosts, points, t)[0]
 
     def fields(self, start: float, end: float) -> DistributedFields:
         """Return the fields that are sampled, from time ``start`` to ``end``, s."""
@@ -309,25 +315,13 @@ class DistributedFlow:
         return nearest
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Return those of the flow on one node, but for round-off."""
+        """Return the traits of the flow on one node, but for round-off."""
         first, *others = self._ask("traits")
-        fixed = ("times", "period", "omega", "origin")
+        fixed = ("times", "period")
         return {
             name: value if name in fixed else sum((own[name] for own in others), start=value)
             for name, value in first.items()
         }
-
-
-class DistributedRotating(DistributedFlow):
-    """Steady flow with rotating zones, see :class:`DistributedFlow`."""
-
-    kernels = RotatingFlow.kernels
-    nothing = staticmethod(RotatingFlow.nothing)
-
-    @property
-    def rotating(self) -> tuple[RotatingZone, ...]:
-        """Rotating zones, without their cells."""
-        return self.summaries[0].rotating
 
 
 class DistributedSeries(Timeline, DistributedFlow):
@@ -373,5 +367,5 @@ def distributed_flow(call: Callable[..., list[Any]], open_parts: OpenParts, step
     """Return the flow of which all nodes hold parts; see :class:`DistributedFlow`."""
     summaries = open_parts(LEAST_LAYERS, None)
     first = next(summary for summary in summaries if summary is not None)
-    kind = DistributedSeries if first.times else DistributedRotating if first.rotating else DistributedFlow
+    kind = DistributedSeries if first.times else DistributedFlow
     return kind(call, open_parts, step, summaries)

@@ -31,12 +31,12 @@ from foamprb.cloud.state import VARIABLES, Particles, Status, empty
 from foamprb.cloud.tracker import Outcome
 from foamprb.distributed.exchange import firsts_of, idle_share, plan_exchange
 from foamprb.distributed.flow import DistributedFlow, distributed_flow, require_divisible
+from foamprb.distributed.fragment import IndivisibleMeshError
 from foamprb.distributed.shared_memory import Publisher
 from foamprb.distributed.worker import Answer, ShareState, Worker, piece_file
 from foamprb.flow.base import Flow
 from foamprb.flow.fields import Fields
 from foamprb.flow.loaded import loaded_fields
-from foamprb.flow.mesh.fragment import IndivisibleMeshError
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.results.pvd import with_ending
 from foamprb.results.vtk import write_pieces
@@ -179,7 +179,7 @@ class Ranks(Communicator):
         """Return the flow with a part on each node; None if it cannot be divided."""
 
         def open_parts(depth: int, load: NDArray[np.int64] | None) -> list[Any]:
-            return self.call(Worker.open_part, case, source.region, times, source, depth, load, step)
+            return self.call(Worker.open_part, case, source.region, times, source, depth, load)
 
         started = clock.perf_counter()
         try:

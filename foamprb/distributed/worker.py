@@ -22,7 +22,7 @@ from foamprb.cloud.state import Status, empty
 from foamprb.cloud.surroundings.wall_lift import wall_distances
 from foamprb.cloud.tracker import Outcome
 from foamprb.distributed.exchange import pack, unpack, with_others
-from foamprb.distributed.parts import Part, Summary
+from foamprb.distributed.node import Part, Summary
 from foamprb.distributed.route import Route
 from foamprb.distributed.shared_memory import Windows, wait_for_all
 from foamprb.errors import InputError, RankError, RunStopped
@@ -236,12 +236,11 @@ class Worker(Rank):
         source: FlowSource,
         depth: int,
         load: NDArray[np.int64] | None,
-        step: float,
     ) -> Summary | None:
         """Read the flow on the cells of this node; return a summary on its first process."""
         self.close_part()
         self._part = Part(self._MPI, self.windows)
-        return self._part.open(root, region, times, source, depth, load, step)
+        return self._part.open(root, region, times, source, depth, load)
 
     def close_part(self) -> None:
         """Free the flow on the cells of this node."""

@@ -17,9 +17,9 @@ import numpy as np
 
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, threads
+from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator, single_node, total_of
+from foamprb.flow.mesh.lists import Index, Mask, starts, threads
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.submesh import Halo, Homes, alone, total_of
 
 _LEAST_ERROR = 0.04
 """Least square of the error of a flux that counts in its weight, over the mean square."""
@@ -74,18 +74,18 @@ class Balance:
         (3, n_faces) results of :func:`~foamprb.flow.fluxes.weigh_faces`; they are overwritten.
     free
         Boundary faces through which the flux may change.
-    halo
-        The nodes that hold a part of the mesh each, if this is a part.
+    comm
+        The nodes that hold the mesh.
     """
 
-    def __init__(self, mesh: Mesh, measures: Floats, free: Mask, halo: Halo | None = None) -> None:
+    def __init__(
+        self, mesh: Mesh, measures: Floats, free: Mask, comm: MeshCommunicator = SINGLE_NODE
+    ) -> None:
         weight, error, square = measures
-        self._mesh, self._weight, self._halo, n = mesh, weight, halo, mesh.n_internal
-        self._of_all = of_all = alone if halo is None else halo.of_all
+        self._mesh, self._weight, self._comm, n = mesh, weight, comm, mesh.n_internal
+        self._of_all = of_all = comm.of_all
         # Each face and each cell counts on one node.
-        everything: Any = slice(None)
-        self._faces = everything if halo is None else halo.own_faces
-        self._cells = everything if halo is None else np.flatnonzero(halo.part.own)
+        self._faces, self._cells = comm.own_faces, comm.own_cells
         self._n_faces = sum(of_all(len(weight[self._faces])))
         self._n_cells = sum(of_all(len(mesh.volumes[self._cells])))
         means = [total_of(a[self._faces], of_all) / max(self._n_faces, 1) for a in (error, square)]
@@ -102,15 +102,8 @@ class Balance:
         link(list_rows)(*faces_of, weight, *rows)
         blocks = _blocks(mesh.centres[self._cells], of_all)
         segments = _segments(self._n_cells)
-        if halo is None:
-            self._equations = _Equations(rows, *blocks, segments)
-            return
-        count, size, rank = len(segments) - 1, halo.team.size, halo.team.rank
-        parts = [count * k // size for k in range(size + 1)]
-        ends, own = segments[parts], halo.part.cells[self._cells]
-        self._own, self._held = (Homes(halo.team, ends, numbers) for numbers in (own, halo.part.cells))
-        here = segments[parts[rank] : parts[rank + 1] + 1] - ends[rank]
-        self._equations = _sent(halo, self._own, self._cells, ends, rows, blocks, here)
+        given, self._put, self._get = comm.distribute(rows, blocks, segments)
+        self._equations = Equations(*given)
 
     def __call__(self, fluxes: Floats, mass: Mass) -> Balanced:
         """Change fluxes (n_faces,) in place; what remains of a closed flow is shared by volume.
@@ -128,23 +121,20 @@ class Balance:
         stored = mesh.volumes * mass.growth
         rest = np.bincount(neighbour, fluxes[:n], cells) - np.bincount(owner, fluxes, cells) - stored
         volumes = mesh.volumes
-        if self._halo is not None:
-            rest, volumes = (self._own.put(a[self._cells]) for a in (rest, volumes))
+        rest, volumes = (self._put(a[self._cells]) for a in (rest, volumes))
         if self._closed:
             rest -= volumes * (self._equations.total(rest) / self._equations.total(volumes))
         squares = total_of(fluxes[self._faces] ** 2, self._of_all)
         gained = total_of(stored[self._cells] ** 2, self._of_all)
         size = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells + gained)
         y, left, iterations = self._equations.solve(rest, BALANCED * size)
-        if self._halo is not None:
-            y = self._held.get(y)
+        y = self._get(y)
         change = fluxes.copy()
         fluxes += weight * y[owner]
         fluxes[:n] -= weight[:n] * y[neighbour]
         change -= fluxes
         fluxes /= density
-        if self._halo is not None:
-            self._halo.fill("faces", fluxes)
+        self._comm.fill("faces", fluxes)
         squares = total_of(change[self._faces] ** 2, self._of_all)
         changed = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells)
         size = max(size, 1e-300)
@@ -157,7 +147,7 @@ def _segments(cells: int) -> Index:
     return np.linspace(0, cells, count + 1).astype(np.intp)
 
 
-class _Equations:
+class Equations:
     """Equations of the cells of some segments: A·y = b.
 
     Parameters
@@ -182,7 +172,7 @@ class _Equations:
         block: Ints,
         n_blocks: int,
         segments: Index,
-        of_all: Callable[[Any], list[Any]] = alone,
+        of_all: Callable[[Any], list[Any]] = single_node,
         others: Callable[[Floats], Floats] | None = None,
         before: int = 0,
     ) -> None:
@@ -291,33 +281,6 @@ def _in_turn(calls: Sequence[Callable[[], Any]]) -> list[Any]:
     return [call() for call in calls]
 
 
-def _sent(
-    halo: Halo,
-    own: Homes,
-    cells: Index,
-    ends: Index,
-    rows: tuple[Any, ...],
-    blocks: tuple[Ints, int],
-    segments: Index,
-) -> _Equations:
-    """Send the equations of own cells to the homes of these; return those of which this node is the home."""
-    start, columns, values, diagonal = rows
-    counts = np.diff(start.astype(np.intp))[cells]
-    entries = ragged(start[cells].astype(np.intp), counts)
-    begin, to, values = own.put_lists(starts(counts), halo.part.cells[columns[entries]], values[entries])
-    first, end = ends[halo.team.rank : halo.team.rank + 2]
-    inside = (to >= first) & (to < end)
-    beyond = np.unique(to[~inside])
-    others = Homes(halo.team, ends, beyond)
-    columns = np.where(inside, to - first, end - first + np.searchsorted(beyond, to)).astype(np.uint32)
-    block = own.put(blocks[0])
-    return _Equations(
-        (begin.astype(np.uint32), columns, values, own.put(diagonal[cells])),
-        np.concatenate([block, others.get(block)]), blocks[1], segments,
-        halo.of_all, others.get, int(np.searchsorted(beyond, first)),
-    )  # fmt: skip
-
-
 def _blocks(centres: Floats, of_all: Callable[[Any], list[Any]]) -> tuple[Ints, int]:
     """Return the block of each cell, a box of a regular grid over all centres, and the number of blocks.
 
@@ -395,7 +358,7 @@ def part_weights(
 ) -> int:
     """Add the weights of faces within a block to ``inside``; list those between two blocks.
 
-    Of the two equations with a face the one of the lower cell counts; see :class:`_Equations`.
+    Of the two equations with a face the one of the lower cell counts; see :class:`Equations`.
 
     Parameters
     ----------
@@ -404,7 +367,7 @@ def part_weights(
     start, columns, values, diagonal
         Results of :func:`list_rows`.
     block, before, pair
-        See :class:`_Equations`; ``pair`` is the index of each cell in ``inside``.
+        See :class:`Equations`; ``pair`` is the index of each cell in ``inside``.
     inside, blocks, weights
         Results; (2, n) the two blocks of a face, and (n,) its weight.
 

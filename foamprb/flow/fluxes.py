@@ -29,9 +29,9 @@ from foamprb.errors import InputError
 from foamprb.flow.balance import BALANCED, CONSTANT, Balance, Mass
 from foamprb.flow.base import WALLS, Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
+from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.lists import Mask, share
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.submesh import Halo
 
 _CLOSED = frozenset({"empty", "symmetry", "symmetryPlane"})
 """Types of patches, beside walls, through which nothing flows."""
@@ -117,12 +117,12 @@ class Conservation:
     valued
         (n_boundary,) mask of boundary faces whose velocity is given; by default all. The flux through a wall
         without a velocity may change, as that through an open face.
-    halo
-        The nodes that hold a part of the mesh each, if this is a part.
+    comm
+        The nodes that hold the mesh.
     """
 
-    def __init__(self, mesh: Mesh, valued: Mask | None = None, halo: Halo | None = None) -> None:
-        self._halo = halo
+    def __init__(self, mesh: Mesh, valued: Mask | None = None, comm: MeshCommunicator = SINGLE_NODE) -> None:
+        self._comm = comm
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
         self._closed = _types(mesh, _CLOSED)
         # The flux through an open face may change.
@@ -168,7 +168,7 @@ class Conservation:
             outer[coupling.faces] = 0.5 * (interpolated[coupling.faces] - interpolated[coupling.partners])
         if mass is not None:
             measures = _measured(mesh, at, sides, fluxes)
-            left, change, iterations = Balance(mesh, measures, self._open, self._halo)(fluxes, mass)
+            left, change, iterations = Balance(mesh, measures, self._open, self._comm)(fluxes, mass)
             if not (left <= 10.0 * BALANCED and change <= _LARGEST_CHANGE):
                 raise InputError(
                     f"{where}: no fluxes were found that conserve the fluid in each cell. After {iterations} "

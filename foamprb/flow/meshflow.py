@@ -15,12 +15,12 @@ from foamprb.flow.base import WALLS, Caveat, Floats, Ints, PatchFaces, Tetrahedr
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, no_mesh
+from foamprb.flow.mesh.communicator import single_node, total_of
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
 from foamprb.flow.mesh.lists import share
 from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.submesh import alone, total_of
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.nodes import Ends, Function, NodeValues, ends_over, stride_over
 from foamprb.flow.planes import planes_among, walls
@@ -69,7 +69,7 @@ def end_triangles(mesh: Mesh) -> NDArray[np.intp]:
     return np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
 
 
-def shortest_extent(corners: Floats, of_all: Callable[[Any], list[Any]] = alone) -> float:
+def shortest_extent(corners: Floats, of_all: Callable[[Any], list[Any]] = single_node) -> float:
     """Return the shortest extent of a flow along axes on which it ends, m.
 
     ``corners`` (n, 3, 3) are those of the triangles where it ends; ``of_all`` returns a value of each node.

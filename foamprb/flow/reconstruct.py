@@ -31,9 +31,9 @@ from foamprb.flow.gradient import (
     mean_series,
 )
 from foamprb.flow.images import Images, points_of_faces
+from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.submesh import Halo, total_of
 
 VALUELESS = frozenset(
     {
@@ -63,12 +63,12 @@ class Reconstruction:
         The mesh.
     valued
         (n_boundary,) mask of boundary faces with a value; by default all except :data:`VALUELESS` patches.
-    halo
-        The nodes that hold a part of the mesh each, if this is a part.
+    comm
+        The nodes that hold the mesh.
     """
 
-    def __init__(self, mesh: Mesh, valued: Mask | None = None, halo: Halo | None = None) -> None:
-        self._halo = halo
+    def __init__(self, mesh: Mesh, valued: Mask | None = None, comm: MeshCommunicator = SINGLE_NODE) -> None:
+        self.comm = comm
         patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
         if valued is None:
             valued = np.array([p.type not in VALUELESS for p in mesh.patches], dtype=bool)[patch_of_face]
@@ -96,7 +96,7 @@ class Reconstruction:
         # exceed those of the first estimate.
         self._settled = np.flatnonzero(regular)
         unsettled = len(self._settled) < n
-        self._passes = 1 + (_MOST_PASSES if (halo.any(unsettled) if halo else unsettled) else 0)
+        self._passes = 1 + (_MOST_PASSES if comm.any(unsettled) else 0)
         rows, columns = (part.astype(np.int32) for part in points_of_faces(mesh, faces))
         of_cells = np.repeat(np.arange(n, dtype=np.int32), np.diff(mesh.cell_point_start))
         self._around = grouped(
@@ -130,24 +130,13 @@ class Reconstruction:
         self._impose_walls(at_points[0], boundary, slopes, bends)
         for values in at_points:
             self._images.agree(values)
-            self._fill("points", values)
+            self.comm.fill("points", values)
         return u_nodes, l_nodes
-
-    def _fill(self, kind: str, values: Floats) -> None:
-        """Fill the rows of cells or points of other nodes."""
-        if self._halo is not None:
-            self._halo.fill(kind, values)
-
-    def ends(self, values: Floats) -> tuple[float, float]:
-        """Return the least and the largest of some values of all nodes of a run."""
-        own = float(values.min(initial=np.inf)), float(values.max(initial=-np.inf))
-        lows, highs = zip(*self._halo.of_all(own), strict=True) if self._halo else ((own[0],), (own[1],))
-        return min(lows), max(highs)
 
     def _norm(self, values: Floats) -> float:
         """Return the norm of values at the cells."""
         squares = np.einsum("ci,ci->c", values.reshape(len(values), -1), values.reshape(len(values), -1))
-        return math.sqrt(self._halo.total(squares) if self._halo else total_of(squares))
+        return math.sqrt(self.comm.total(squares))
 
     def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
         """Reconstruct three scalars within the range of the values around a node, so that they stay positive.
@@ -167,7 +156,7 @@ class Reconstruction:
         at_sites = np.concatenate([cells, boundary[self._valued], cells[images.cells]])
         slopes_of_cells = np.zeros((n, m, 3))
         self._gradient(at_sites, slopes_of_cells)
-        self._fill("cells", slopes_of_cells)
+        self.comm.fill("cells", slopes_of_cells)
         values = np.concatenate([self._means(at_sites), cells])
         if len(self._walls):
             rows, columns = points_of_faces(mesh, self._walls)
@@ -183,7 +172,7 @@ class Reconstruction:
             images.agree(slopes[: mesh.n_points, f])
             slopes[mesh.n_points :, f] = own
         for part in (values, slopes):
-            self._fill("points", part)
+            self.comm.fill("points", part)
         return values, slopes
 
     def scalar(self, cells: Floats, boundary: Floats) -> Floats:
@@ -217,7 +206,7 @@ class Reconstruction:
         flat = values.reshape(len(values), -1)
         found = np.zeros((self.mesh.n_cells, flat.shape[1], 3))
         self._gradient(flat, found)
-        self._fill("cells", found)
+        self.comm.fill("cells", found)
         slopes = found.reshape(*cells.shape, 3)
         return values, np.concatenate([slopes, slopes[owner], turned(slopes)])
 
@@ -229,7 +218,7 @@ class Reconstruction:
             three = np.minimum(np.arange(k, k + 3), flat.shape[1] - 1)
             own = None if slopes is None else np.take(slopes.reshape(*flat.shape, 3), three, 1)
             at_points[:, three] = self._means(np.take(flat, three, 1), own)
-        self._fill("points", at_points)
+        self.comm.fill("points", at_points)
         shape = values.shape[1:]
         return np.concatenate([at_points.reshape(-1, *shape), values[: self.mesh.n_cells]])
 
@@ -270,7 +259,7 @@ class Reconstruction:
         around, nothing = np.empty((n + n_points, 3, 3)), np.empty((n_points, 3))
         if given is None:
             self._gradient(u, slopes[:n])
-            self._fill("cells", slopes[:n])
+            self.comm.fill("cells", slopes[:n])
         else:
             slopes[:n] = given
         self._beyond(u, slopes, bends, own)
@@ -284,11 +273,11 @@ class Reconstruction:
                 self._inside.average(around.reshape(-1, 9))
                 self._inside.fit.bends(around, bends[:n])
                 bends[self._settled] = kept
-            self._fill("cells", bends[:n])
+            self.comm.fill("cells", bends[:n])
             before = slopes[:n].copy() if given is None and self._passes > 1 else slopes[:0]
             if given is None:
                 self._gradient(u, slopes[:n], bends=bends[:n])
-                self._fill("cells", slopes[:n])
+                self.comm.fill("cells", slopes[:n])
             self._beyond(u, slopes, bends, own)
             before -= slopes[: len(before)]
             if len(before) == 0 or self._norm(before) <= _CHANGE * self._norm(slopes[:n]):

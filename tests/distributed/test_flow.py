@@ -20,15 +20,15 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.measures import largest_slip
 from foamprb.cloud.state import empty
 from foamprb.distributed.flow import deepest, distributed_flow, require_divisible
-from foamprb.distributed.parts import summary_of
+from foamprb.distributed.fragment import IndivisibleMeshError
+from foamprb.distributed.node import summary_of
+from foamprb.distributed.partcase import PartCase, ends_of
 from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError
-from foamprb.flow.mesh.fragment import IndivisibleMeshError
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.fluid import _NU, ViscosityField
 from foamprb.flow.read.foamfile import FoamFile
 from foamprb.flow.read.openfoam import flow_of, steady_flow
-from foamprb.flow.read.parts import PartCase, ends_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
 
 
@@ -193,37 +193,15 @@ def put(case, name, unit, values, kind="volScalarField"):
         )
 
 
-def test_rotating_zones_are_those_of_the_whole(case, random, tmp_path):
-    """One zone has cells of both nodes; a wall turns with it."""
+def test_a_case_with_rotating_zones_is_read_as_a_whole(case, tmp_path):
     case = Path(shutil.copytree(case, tmp_path / "case"))
-    for folder in case.glob("processor*"):
-        n = len(FoamFile(folder / "constant/polyMesh/cellProcAddressing").labels())
-        cells = range(n // 2, n)
-        (folder / "constant/polyMesh/cellZones").write_text(
-            header("regIOobject", "cellZones") + "1\n(\nsome\n{\n type cellZone;\n cellLabels "
-            f"List<label> {len(cells)}({' '.join(map(str, cells))});\n}}\n)\n"
-        )
     (case / "constant/MRFProperties").write_text(
         header("dictionary", "MRFProperties")
         + "a { cellZone some; origin (0.1 0 0); axis (0 1 1); omega 30; }"
     )
-    source, times = FlowSource(relative=True), FlowTimes("1")
-    whole, flow = flow_of(DecomposedCase(case), times, source), distributed(case, times, source)
-    assert flow.notes == whole.notes
-    assert any(f"of {len(whole.rotating[0].cells)} cells rotates with 30 rad/s" in n for n in flow.notes)
-    assert flow.kernels == whole.kernels
-    assert [zone[2:] for zone in flow.rotating] == [zone[2:] for zone in whole.rotating]
-    x = random.uniform(0.0, 1.0, (100, 3))
-    hosts = flow.locate(x)
-    for found, expected in zip(flow.sample(x, hosts, 0.0), whole.sample(x, hosts, 0.0), strict=True):
-        np.testing.assert_array_equal(found, expected)
-    for found, expected in zip(flow.patch_faces("floor", 0.0), whole.patch_faces("floor", 0.0), strict=True):
-        np.testing.assert_array_equal(found, expected)
-    assert_alike(flow.traits(), whole.traits())
-    # Particles are fast relative to the rotor.
-    assert flow.rate > 2.0 * distributed(case, times).rate
-    with pytest.raises(InputError, match="seen from their rotors in steady flows only"):
-        distributed(case, FlowTimes(None, True), source)
+    require_divisible(case, FlowSource(decomposed=True), 2)
+    with pytest.raises(IndivisibleMeshError, match="the case has rotating zones"):
+        require_divisible(case, FlowSource(decomposed=True, relative=True), 2)
 
 
 GAS = "thermoType { equationOfState perfectGas; } mixture { specie { molWeight 28.9; } }"
@@ -280,30 +258,6 @@ def test_further_fields_are_those_of_the_whole(times, case, random):
     assert_alike(flow.traits(), whole.traits())
     # Eddies make bodies faster.
     assert flow.rate > distributed(case, times).rate
-
-
-def test_layers_are_as_deep_as_the_fluid_requires_at_once(flow, case):
-    step = 4.4 / flow.rate
-    found = [depth_of(case, FlowSource(relative=True), least, step) for least in (3, 9)]
-    assert found == [2 + 5, 9]
-    assert depth_of(case, FlowSource(turbulent=True), 3, step) > 2 + 5
-
-
-def depth_of(case, source, least, step):
-    for folder in case.glob("processor*/1"):
-        for name, unit in (("k", 2), ("epsilon", 3)):
-            (folder / name).write_text(
-                f"{header('volScalarField', name)} dimensions [0 2 -{unit} 0 0 0 0];\n"
-                'internalField uniform 1; boundaryField { ".*" { type zeroGradient; } }\n'
-            )
-
-    def read(team):
-        opened = PartCase(case, "", team, least, None, source, step)
-        return summary_of(flow_of(opened, FlowTimes("1"), source)).depth
-
-    own, other = together(2, read)
-    assert own == other
-    return own
 
 
 def test_an_error_on_one_node_is_raised_on_all():

@@ -15,11 +15,11 @@ from threads_team import together
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, read_case, read_mesh_file, spheres
 from foamprb.cli import main
+from foamprb.distributed.partcase import PartCase
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.openfoam import Case, steady_flow
-from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource
 
 pytestmark = pytest.mark.openfoam

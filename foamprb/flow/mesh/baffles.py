@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import mix
 from foamprb.flow.mesh.faces import Faces
-from foamprb.flow.mesh.fragment import Fragment, Team
 from foamprb.flow.mesh.lists import Index, Labels, int32, take_lists
 
 
@@ -28,7 +27,7 @@ def part_points(points: Floats, faces: Faces, start: Ints, cell_points: Ints) ->
         Points of each cell.
     """
     n, outer = len(points), np.arange(len(faces.neighbour), len(faces.owner))
-    codes = _codes(faces.start, faces.points, outer)
+    codes = codes_of(faces.start, faces.points, outer)
     if len(np.unique(codes)) == len(codes):
         return points, faces, cell_points
     neighbour = np.full(len(faces.owner), -1, dtype=np.int32)
@@ -47,24 +46,7 @@ def part_points(points: Floats, faces: Faces, start: Ints, cell_points: Ints) ->
     return np.concatenate([points, points[pairs[0, copy]]]), faces._replace(points=lists), moved
 
 
-def has_baffles(own: Fragment, team: Team, n_internal: int) -> bool:
-    """Return True if two boundary faces of the own cells of all nodes have the same points.
-
-    Parameters
-    ----------
-    own
-        The own cells of this node.
-    team
-        The nodes.
-    n_internal
-        Number of faces between cells in the whole mesh.
-    """
-    codes, size = _codes(own.start, own.lists, np.flatnonzero(own.faces >= n_internal)), team.size
-    found = np.concatenate(team.exchange([codes[codes % np.uint64(size) == k] for k in range(size)]))
-    return any(team.of_all(len(np.unique(found)) < len(found)))
-
-
-def _codes(start: Labels, lists: Labels, faces: Index) -> NDArray[np.uint64]:
+def codes_of(start: Labels, lists: Labels, faces: Index) -> NDArray[np.uint64]:
     """Return a hash of the points of each of some faces, the same in any order of the points."""
     outer, points = take_lists(start, lists, faces)
     return np.add.reduceat(mix(points), outer[:-1]) if len(faces) else np.empty(0, dtype=np.uint64)

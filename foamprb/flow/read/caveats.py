@@ -14,10 +14,10 @@ from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
-from foamprb.flow.mesh.submesh import CUT, Halo, alone
+from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
-from foamprb.flow.read.density import FLUX_FIELD, densities, extremes, varies
+from foamprb.flow.read.density import FLUX_FIELD, densities, varies
 from foamprb.flow.read.field import FoamField, Kind
 
 _STATIC = "staticFvMesh"
@@ -39,7 +39,7 @@ def caveats_of_case(
     moving: bool = True,
     turbulent: bool = False,
     relative: bool = False,
-    halo: Halo | None = None,
+    comm: MeshCommunicator = SINGLE_NODE,
 ) -> list[Caveat]:
     """Return warnings from the dictionaries of a case, and from the fields beside the velocity.
 
@@ -55,12 +55,12 @@ def caveats_of_case(
         True if a model of the eddies acts, so that they need no warning.
     relative
         True if rotating zones are described in the frames of their rotors, so that they need no warning.
-    halo
-        The nodes that hold a part of the mesh each, if this is a part.
+    comm
+        The nodes that hold the mesh.
     """
     caveats = [*_rotating(case, region, relative), *_porous(case, region)]
     caveats += () if turbulent else _turbulent(folder)
-    caveats += [*_compressible(read, halo), *_phases(folder)]
+    caveats += [*_compressible(read, comm), *_phases(folder)]
     return [*caveats, *([*_moving(case, region, folder), *_frozen(case, region)] if moving else ())]
 
 
@@ -98,7 +98,7 @@ def caveat_of_flux(
     boundary: Floats,
     read: Callable[[str, Kind], FoamField],
     velocity: str,
-    halo: Halo | None = None,
+    comm: MeshCommunicator = SINGLE_NODE,
 ) -> list[Caveat]:
     """Return a warning if inflow and outflow differ.
 
@@ -114,22 +114,19 @@ def caveat_of_flux(
         Reads a field at the time.
     velocity
         Name of the velocity; ``phi`` is the flux of ``U`` only.
-    halo
-        The nodes that hold a part of the mesh each, if this is a part.
+    comm
+        The nodes that hold the mesh.
     """
     mesh = whole.mesh
-    of_all = alone if halo is None else halo.of_all
+    of_all = comm.of_all
     phi = _flux(read, whole.patches, of_all) if velocity == "U" else None
-    if phi is None and varies(extremes(densities(read), halo)):
+    if phi is None and varies(comm.extremes(densities(read))):
         # Without phi the flux of mass is unknown.
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
     flux = phi[0] if phi else np.einsum("ni,ni->n", boundary, mesh.boundary_areas)
     areas, speeds = np.linalg.norm(mesh.boundary_areas, axis=1), np.linalg.norm(cells, axis=1)
-    if halo is not None:
-        own = halo.part.own[mesh.owner[mesh.n_internal :]]
-        own[mesh.patch_start[-2] :] = False
-        flux, areas = flux[own], areas[own]
+    flux, areas = flux[comm.own_boundary], areas[comm.own_boundary]
     outflow, inflow = sum(of_all(float(flux[flux > 0.0].sum()))), sum(of_all(float(-flux[flux < 0.0].sum())))
     round_off = ROUND_OFF * sum(of_all(float(areas.sum()))) * max(of_all(float(speeds.max(initial=0.0))))
     if abs(outflow - inflow) <= max(LEAST_LOSS * max(outflow, inflow), round_off):
@@ -196,8 +193,8 @@ def is_not_zero(path: Path) -> bool:
     return file is not None and not _ZERO.search(read_bytes(file, _HEAD))
 
 
-def _compressible(read: Callable[[str, Kind], FoamField], halo: Halo | None) -> Iterator[Caveat]:
-    low, high = extremes(densities(read), halo)
+def _compressible(read: Callable[[str, Kind], FoamField], comm: MeshCommunicator) -> Iterator[Caveat]:
+    low, high = comm.extremes(densities(read))
     if varies((low, high)):
         yield Caveat(
             f"the fluid's density is from {low:.4g} to {high:.4g} kg/m3 (there is rho), but "
@@ -259,7 +256,7 @@ def _flux(
         entry = phi.of(patch)
         values_there = entry.fields.get("value") if entry else None
         if values_there is None or len(values_there) not in (1, patch.faces):
-            missing |= patch.faces > 0 and patch.type != "empty" and patch.name != CUT.name
+            missing |= patch.faces > 0 and patch.type not in ("empty", "processor")
             values_there = np.zeros((1, 1))
         values.append(np.broadcast_to(values_there, (patch.faces, 1))[:, 0])
     if any(of_all(missing)):

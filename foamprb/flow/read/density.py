@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,7 @@ from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.balance import CONSTANT, Mass
 from foamprb.flow.base import Floats
-from foamprb.flow.mesh.submesh import Halo, alone
+from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.case import find_dictionary
 from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, FoamField, Kind
@@ -36,7 +35,7 @@ def mass_of(
     times: Sequence[str],
     reads: Sequence[Read],
     index: int,
-    halo: Halo | None = None,
+    comm: MeshCommunicator = SINGLE_NODE,
 ) -> Mass | None:
     """Return the density of a flow at one of its times; None if it varies, but is not known.
 
@@ -53,8 +52,8 @@ def mass_of(
         The times of the flow, and the functions that read a field there.
     index
         Which of them.
-    halo
-        The nodes that hold a part of the mesh each, if this is a part.
+    comm
+        The nodes that hold the mesh.
     """
     root, read = _mixture(case, region), reads[index]
     if root is None and not len(densities(read)):
@@ -63,12 +62,12 @@ def mass_of(
     if flux == VOLUME_FLUX:
         return CONSTANT
     near = sorted({max(index - 1, 0), index, min(index + 1, len(reads) - 1)})
-    pairs = {i: _values(reads[i], whole, root, halo) for i in near}
+    pairs = {i: _values(reads[i], whole, root, comm) for i in near}
     values = {i: pair for i, pair in pairs.items() if pair is not None}
     if len(values) < len(near):
         return None
     every = np.concatenate([array for pair in values.values() for array in pair])
-    if not varies(extremes(every, halo)):
+    if not varies(comm.extremes(every)):
         return CONSTANT
     if flux is None and root is None:
         return None
@@ -90,13 +89,6 @@ def densities(read: Read) -> Floats:
         return read("rho", DENSITY_FIELD).cells
     except InputError:
         return np.empty((0, 1))
-
-
-def extremes(values: Floats, halo: Halo | None = None) -> tuple[float, float]:
-    """Return the smallest and the largest of values, of all nodes; (∞, −∞) for none."""
-    ends = values.min(initial=np.inf), values.max(initial=-np.inf)
-    lows, highs = zip(*(alone if halo is None else halo.of_all)(ends), strict=True)
-    return float(min(lows)), float(max(highs))
 
 
 def varies(ends: tuple[float, float]) -> bool:
@@ -122,13 +114,13 @@ def _dimensions(read: Read) -> Any:
 
 
 def _values(
-    read: Read, whole: CaseMesh, root: Dictionary | None, halo: Halo | None
+    read: Read, whole: CaseMesh, root: Dictionary | None, comm: MeshCommunicator
 ) -> tuple[Floats, Floats] | None:
     """Return the density at cells (n_cells,) and boundary faces (n_boundary,); None if it is not known."""
 
     def of(name: str, kind: Kind) -> tuple[Floats, Floats]:
         # The error of one node is that of all.
-        with nullcontext() if halo is None else halo.team.united():
+        with comm.united():
             return values_of(read(name, kind), whole)
 
     try:
@@ -145,4 +137,4 @@ def _values(
             return None
         both = np.broadcast_to(of_state, len(p[0]) + len(p[1]))
         rho, outside = both[: len(p[0])], both[len(p[0]) :]
-    return (rho, outside) if extremes(np.concatenate([rho, outside]), halo)[0] > 0.0 else None
+    return (rho, outside) if comm.extremes(np.concatenate([rho, outside]))[0] > 0.0 else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -17,10 +17,9 @@ from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.fields import FieldColumns
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
+from foamprb.flow.mesh.communicator import SINGLE_NODE
 from foamprb.flow.mesh.mesh import Mesh, assemble
-from foamprb.flow.mesh.submesh import Halo
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.partflow import PartFlow, PartSeries, RotatingPart
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
 from foamprb.flow.read.boundary_values import boundary_values
 from foamprb.flow.read.case import (
@@ -76,8 +75,8 @@ class Case:
     """
 
     notes: tuple[str, ...] = ()
-    halo: Halo | None = None
-    """The nodes that hold a part of the mesh each, if this is a part."""
+    comm = SINGLE_NODE
+    """The nodes that hold the mesh."""
 
     def __init__(self, root: Path, region: str = "", reader: str = "") -> None:
         self.root, self.region, self.reader = root, region, reader
@@ -143,6 +142,10 @@ class Case:
     def mesh_folder(self, time: str) -> Path:
         """Return the folder of the mesh at a time."""
         return mesh_folder(self.root, time, self.region)
+
+    def make(self, kind: Callable[..., Any], *given: Any, **options: Any) -> Any:
+        """Return a flow of a kind, made of its arguments."""
+        return kind(*given, **options)
 
 
 def read_case(
@@ -224,20 +227,20 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     field = case.field(name, source.velocity, VELOCITY_FIELD)
     whole = case.mesh(name)
     cells, boundary = velocities(field, whole)
-    flux = caveat_of_flux(whole, cells, boundary, partial(case.field, name), source.velocity, case.halo)
+    flux = caveat_of_flux(whole, cells, boundary, partial(case.field, name), source.velocity, case.comm)
     rotating: list[RotatingZone] = []
     if rotations:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
     read, kinds = partial(case.field, name), kinds_of(source.sampled, case.fields, (name,))
-    reconstruct = Reconstruction(whole.mesh, halo=case.halo)
+    reconstruct = Reconstruction(whole.mesh, comm=case.comm)
     u, l, *more = _at_nodes(case, name, source, whole, reconstruct, cells, boundary)
     sampled = read_sampled(read, source.sampled, kinds, whole, reconstruct) if source.sampled else None
     # Its arrays take half as much memory as the flow.
     del reconstruct
     trim()
-    conserve = Conservation(whole.mesh, halo=case.halo)
-    mass = mass_of(case.root, case.region, whole, (name,), [read], 0, case.halo)
+    conserve = Conservation(whole.mesh, comm=case.comm)
+    mass = mass_of(case.root, case.region, whole, (name,), [read], 0, case.comm)
     correction = conserve(u, l, mass, case.folder(name) / source.velocity)
     notes = [*case.notes, *whole.notes]
     if float(name) == 0.0:
@@ -247,7 +250,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     del conserve
     trim()
     notes += [
-        f"The zone {zone.name} of {_count(zone, case.halo)} cells rotates with "
+        f"The zone {zone.name} of {len(zone.cells)} cells rotates with "
         f"{np.linalg.norm(zone.omega):g} rad/s: "
         "particles in it move relative to the rotor, with its walls at rest."
         for zone in rotating
@@ -255,20 +258,10 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
     viscosity = more[-1] if source.viscosity else None
     given = whole.mesh, u, l, notes, zones, name, turbulence, correction, viscosity
-    flow: MeshFlow
-    if rotating:
-        turning = rotating, *given
-        flow = RotatingFlow(*turning) if case.halo is None else RotatingPart(case.halo, *turning)
-    else:
-        flow = MeshFlow(*given) if case.halo is None else PartFlow(case.halo, *given)
+    flow = RotatingFlow(rotating, *given) if rotating else case.make(MeshFlow, *given)
     if sampled is not None:
         flow.field_table, flow.field_columns = sampled
     return flow
-
-
-def _count(zone: RotatingZone, halo: Halo | None) -> int:
-    """Return the number of cells of a zone."""
-    return len(zone.cells) if halo is None else sum(halo.of_all(int(halo.part.own[zone.cells].sum())))
 
 
 def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
@@ -287,9 +280,9 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     whole = case.mesh(names[0])
     first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
-    flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity, case.halo)
-    reconstruct = Reconstruction(whole.mesh, halo=case.halo)
-    conserve = Conservation(whole.mesh, halo=case.halo)
+    flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity, case.comm)
+    reconstruct = Reconstruction(whole.mesh, comm=case.comm)
+    conserve = Conservation(whole.mesh, comm=case.comm)
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, reconstruct)
@@ -300,7 +293,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         reads = [partial(case.field, name) for name in names]
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
-        mass = mass_of(case.root, case.region, whole, names, reads, names.index(name), case.halo)
+        mass = mass_of(case.root, case.region, whole, names, reads, names.index(name), case.comm)
         correction = conserve(u, l, mass, case.folder(name) / source.velocity)
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
 
@@ -311,7 +304,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     return series_of(
         case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
-        make=SeriesFlow if case.halo is None else partial(PartSeries, case.halo),
+        make=partial(case.make, SeriesFlow),
     )  # fmt: skip
 
 
@@ -338,7 +331,7 @@ def _at_nodes(
 
 def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:
     read = partial(case.field, time)
-    return caveats_of_case(case.root, case.region, case.folder(time), read, halo=case.halo, **options)
+    return caveats_of_case(case.root, case.region, case.folder(time), read, comm=case.comm, **options)
 
 
 def _refuse_moving(case: Case, time: str) -> None:

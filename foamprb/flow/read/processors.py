@@ -18,8 +18,7 @@ from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PolyMesh
-from foamprb.flow.mesh.fragment import Fragment
-from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts, take_lists
+from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
 from foamprb.flow.read.checks import require_numbers
@@ -375,24 +374,6 @@ def whole_patches(case: Path, parts: Sequence[Address]) -> tuple[list[PatchInfo]
         raise InputError(f"{case}: the processor folders do not name all patches of the mesh.")
     patches = [known[at]._replace(faces=counts[at]) for at in range(len(known))]
     return patches, starts(np.array([patch.faces for patch in patches], dtype=np.int64))
-
-
-def fragment_of(piece: Piece, part: Address) -> Fragment:
-    """Return the mesh of a processor in the numbers of the whole mesh."""
-    cells, points, faces = np.sort(part.cells), np.argsort(part.points), np.argsort(part.faces)
-    size, turned = np.diff(piece.start).astype(np.intp), part.turned
-    within = ragged(np.zeros(len(size), dtype=np.intp), size)
-    back = np.repeat(turned, size)
-    within[back] = (-within % np.repeat(size, size))[back]
-    lists = part.points[piece.lists[np.repeat(piece.start[:-1].astype(np.intp), size) + within]]
-    owner, neighbour = np.full((2, len(size)), -1, dtype=np.int64)
-    owner[~turned] = part.cells[piece.owner[~turned]]
-    neighbour[turned] = part.cells[piece.owner[turned]]
-    neighbour[: len(piece.neighbour)] = part.cells[piece.neighbour]
-    start, lists = take_lists(starts(size), lists, faces)
-    numbers = part.points[points].astype(np.int64), piece.points[points], part.faces[faces].astype(np.int64)
-    sides = owner[faces], neighbour[faces]
-    return Fragment(cells.astype(np.int64), *numbers, start, lists.astype(np.int64), *sides)
 
 
 def join_meshes(

@@ -10,19 +10,18 @@ from numpy.typing import NDArray
 
 from foamprb.body.turbulence import fluctuation_size
 from foamprb.compile.link import link
+from foamprb.distributed.fragment import Labels
+from foamprb.distributed.submesh import BEYOND, Halo, Ranges
 from foamprb.flow.base import Floats, Ints, PatchFaces
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.faces import Faces
-from foamprb.flow.mesh.fragment import Labels
 from foamprb.flow.mesh.geometry import inward_normals, largest_fluxes
 from foamprb.flow.mesh.lists import Index, ragged, starts
 from foamprb.flow.mesh.locator import cell_boxes, depth_of
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.submesh import BEYOND, Halo, Homes
 from foamprb.flow.mesh.tree import Tree, build_tree
 from foamprb.flow.meshflow import MeshFlow, Numbering, end_triangles, shortest_extent
 from foamprb.flow.nodes import NodeValues
-from foamprb.flow.rotating import RotatingArrays, RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walls import Walls, images_of_walls, walls_at
 
@@ -63,10 +62,10 @@ class PartFlow(MeshFlow):
         totals = halo.of_all((int(own.sum()), int(halo.part.points.max(initial=-1)) + 1))
         n_cells, n_points = sum(n for n, _ in totals), max(n for _, n in totals)
         ends = np.linspace(0, n_cells, halo.team.size + 1).astype(np.intp)
-        counts = Homes(halo.team, ends, halo.part.cells[own]).put(np.diff(mesh.cell_start)[own])
+        counts = Ranges(halo.team, ends, halo.part.cells[own]).put(np.diff(mesh.cell_start)[own])
         tets = halo.of_all(int(counts.sum()))
         first = starts(counts)[:-1].astype(np.int64) + sum(tets[: halo.team.rank])
-        self._first_tet = Homes(halo.team, ends, halo.part.cells).get(first)
+        self._first_tet = Ranges(halo.team, ends, halo.part.cells).get(first)
         """(n_cells,) first tetrahedron of each cell in the whole mesh."""
         self.counts = n_cells, n_points, sum(tets)
         """Cells, points and tetrahedra of the whole mesh."""
@@ -233,15 +232,11 @@ class PartFlow(MeshFlow):
         link(_depths)(self._arrays, points[rows], hosts[rows], depths)
         return rows, self.numbers_of(hosts[rows]), depths
 
-    def sample_own(self, points: Floats, numbers: Labels, t: float) -> tuple[Index, Floats, Floats]:
-        """Return which hosts, by their numbers, are own ones, and :meth:`sample` there."""
+    def at_own(self, name: str, numbers: Labels, points: Floats | None = None, *t: float) -> tuple[Any, ...]:
+        """Return which hosts, by their numbers, are own ones, and the results of a method there."""
         rows, hosts = self.own_hosts(numbers)
-        return rows, *self.sample(points[rows], hosts, t)
-
-    def viscosities_of_own(self, points: Floats, numbers: Labels, t: float) -> tuple[Index, Floats]:
-        """Return which hosts, by their numbers, are own ones, and :meth:`viscosity` there."""
-        rows, hosts = self.own_hosts(numbers)
-        return rows, self.viscosity(points[rows], hosts, t)
+        found = getattr(self, name)(*((hosts,) if points is None else (points[rows], hosts, *t)))
+        return rows, *(found if isinstance(found, tuple) else (found,))
 
     def fields_of_own(
         self, points: Floats, numbers: Labels, t: Floats, start: float, end: float
@@ -250,11 +245,6 @@ class PartFlow(MeshFlow):
         rows, hosts = self.own_hosts(numbers)
         found = self.fields(start, end).at(points[rows], hosts, t[rows])
         return rows, np.concatenate([field.values for field in found.values()], axis=1)
-
-    def cell_sizes_of_own(self, numbers: Labels) -> tuple[Index, Floats]:
-        """Return which hosts, by their numbers, are own ones, and :meth:`cell_size` there."""
-        rows, hosts = self.own_hosts(numbers)
-        return rows, self.cell_size(hosts)
 
     def own_cells(self, low: int, high: int) -> tuple[Labels, Floats]:
         """Return numbers of own cells from ``low`` to before ``high``, and their volumes, m³."""
@@ -276,11 +266,6 @@ class PartFlow(MeshFlow):
         zone = self.cell_zone(name)
         own = self.halo.part.own[self.cell_of(zone.hosts)]
         return zone.volumes[own], self.numbers_of(zone.hosts[own])
-
-    def vertices_of_own(self, numbers: Labels) -> tuple[Index, Floats]:
-        """Return which hosts, by their numbers, are own ones, and their vertices (n, 4, 3), m."""
-        rows, hosts = self.own_hosts(numbers)
-        return rows, self._vertices(hosts)
 
     def every_node(self, stride: int) -> tuple[Labels, NodeValues]:
         """Return nodes by their numbers in the whole mesh, multiples of ``stride``, and the values there."""
@@ -334,21 +319,6 @@ class PartFlow(MeshFlow):
         return self._faces_of(mesh, at[mine]), own._replace(hosts=numbers)
 
 
-class RotatingPart(PartFlow, RotatingFlow):
-    """Steady flow with rotating zones on a part of a mesh."""
-
-    def in_space(self, *walls: Any) -> RotatingArrays:
-        """See :meth:`PartFlow.in_space`."""
-        return RotatingFlow.arrays(self, *walls)
-
-    @property
-    def rate(self) -> float:
-        """See :class:`PartFlow`; relative to the frames of the cells."""
-        u, cells = self.at_nodes()[1].copy(), slice(self.mesh.n_points, None)
-        u[cells] -= np.cross(self._omega[self._zone], self.mesh.centres - self._origin[self._zone])
-        return self._rate_of(u, self.turbulence_at_nodes())
-
-
 class PartSeries(PartFlow, SeriesFlow):
     """Flow that changes in time on a part of a mesh; all nodes load times together.
 
@@ -393,7 +363,7 @@ class PartSeries(PartFlow, SeriesFlow):
         return self._read(index)
 
     def _prefetch(self, index: int) -> Any:
-        """No-op: an exchange of values beside others would mix them up."""
+        """No-op: collectives must not overlap."""
 
 
 def _depths(flow: MeshArrays, points: Floats, hosts: Ints, depths: Floats) -> None:

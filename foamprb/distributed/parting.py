@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from foamprb.flow.mesh.baffles import has_baffles
+import numpy as np
+
+from foamprb.distributed.fragment import Fragment, IndivisibleMeshError, Team, grow
+from foamprb.distributed.joints import couple_parts
+from foamprb.distributed.submesh import RINGS, SubMesh, assemble_part
+from foamprb.flow.mesh.baffles import codes_of
 from foamprb.flow.mesh.boundary import PatchSurface
-from foamprb.flow.mesh.fragment import Fragment, IndivisibleMeshError, Team, grow
-from foamprb.flow.mesh.joints import couple_parts
 from foamprb.flow.mesh.lists import Index
-from foamprb.flow.mesh.submesh import RINGS, SubMesh, assemble_part
 from foamprb.memory import trim
 
 
@@ -55,3 +57,13 @@ def hold_part(
         raise IndivisibleMeshError("the mesh has folded cells")
     trim()
     return part
+
+
+def has_baffles(own: Fragment, team: Team, n_internal: int) -> bool:
+    """Return True if two boundary faces of the own cells of all nodes have the same points.
+
+    ``n_internal`` is the number of faces between cells in the whole mesh.
+    """
+    codes, size = codes_of(own.start, own.lists, np.flatnonzero(own.faces >= n_internal)), team.size
+    found = np.concatenate(team.exchange([codes[codes % np.uint64(size) == k] for k in range(size)]))
+    return any(team.of_all(len(np.unique(found)) < len(found)))

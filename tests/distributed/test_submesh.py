@@ -15,16 +15,17 @@ from mesh_shapes import (
 from threads_team import together
 
 from foamprb.compile.link import link
+from foamprb.distributed.fragment import CellSearch, Fragment, IndivisibleMeshError
+from foamprb.distributed.partflow import PartFlow
+from foamprb.distributed.parting import hold_part
+from foamprb.distributed.submesh import RINGS, Halo
 from foamprb.flow import balance
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
-from foamprb.flow.mesh.fragment import CellSearch, Fragment, IndivisibleMeshError
+from foamprb.flow.mesh.communicator import total_of
 from foamprb.flow.mesh.geometry import faces_of
 from foamprb.flow.mesh.mesh import assemble, build_mesh
-from foamprb.flow.mesh.parting import hold_part
-from foamprb.flow.mesh.submesh import RINGS, Halo, total_of
 from foamprb.flow.meshflow import LONG, MeshFlow
-from foamprb.flow.partflow import PartFlow
 from foamprb.flow.planes import walls
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.walls import gap
@@ -135,11 +136,11 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         faces = sub.faces[sub.mesh.n_internal :][: sub.mesh.patch_start[-2]] - sub.n_internal
         on_faces = np.zeros((len(sub.mesh.boundary_centres), 3))
         on_faces[: len(faces)] = boundary[faces]
-        reconstruct = Reconstruction(sub.mesh, halo=halo)
+        reconstruct = Reconstruction(sub.mesh, comm=halo)
         u, l = reconstruct(own_cells, on_faces)
         at_points = reconstruct.scalars(np.exp(own_cells), np.exp(on_faces))[0]
         also = reconstruct.linear(np.exp(own_cells), np.exp(on_faces))
-        correction = Conservation(sub.mesh, halo=halo)(u, l, mass)
+        correction = Conservation(sub.mesh, comm=halo)(u, l, mass)
         part = PartFlow(halo, sub.mesh, u, l, correction=correction)
         assert part.width == flow.width
         # Walls within sight alone, without those beside them.

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -14,12 +15,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.distributed.fragment import Grown, Labels, Team, places_of
+from foamprb.distributed.joints import Joints
 from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.communicator import MeshCommunicator
 from foamprb.flow.mesh.coupling import Coupling
-from foamprb.flow.mesh.fragment import Grown, Labels, Team, places_of
 from foamprb.flow.mesh.geometry import faces_of
-from foamprb.flow.mesh.joints import Joints
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
 from foamprb.flow.mesh.mesh import Mesh, assemble
 
@@ -158,8 +160,8 @@ class Folders(NamedTuple):
     """(n_cells,) the folder of each own cell."""
 
 
-class Halo:
-    """Exchange of values between the nodes that hold a mesh.
+class Halo(MeshCommunicator):
+    """Exchange of values between the nodes that hold a mesh in parts.
 
     Parameters
     ----------
@@ -177,6 +179,10 @@ class Halo:
         mesh, cells = part.mesh, part.cells
         everyone = range(team.size)
         n_boundary = int(mesh.patch_start[-2])
+        counted = part.own[mesh.owner]
+        counted[mesh.n_internal + n_boundary :] = False
+        self.own_cells, self.own_faces = np.flatnonzero(part.own), np.flatnonzero(counted)
+        self.own_boundary = np.flatnonzero(counted[mesh.n_internal :])
         owner = mesh.owner[: mesh.n_internal + n_boundary]
         # Any node with a cell around a point that it owns can compute the values there.
         lowest = np.full(mesh.n_points, mesh.n_cells, dtype=np.int64)
@@ -198,34 +204,48 @@ class Halo:
             self._plans[name] = [int32(rows) for rows in given], [int32(rows) for rows in wanted]
 
     def fill(self, kind: str, values: NDArray[Any]) -> None:
-        """Fill the rows of ``cells``, ``points``, ``faces`` or ``boundary`` of other nodes, in place."""
+        """See :meth:`MeshCommunicator.fill`."""
         given, taken = self._plans[kind]
         for rows, found in zip(taken, self.team.exchange([values[rows] for rows in given]), strict=True):
             values[rows] = found
 
     def of_all(self, value: Any) -> list[Any]:
-        """Return the values of all nodes."""
+        """See :meth:`MeshCommunicator.of_all`."""
         return self.team.of_all(value)
 
-    def any(self, value: bool) -> bool:
-        """Return True if the value is true on any node."""
-        return any(self.of_all(bool(value)))
+    def united(self) -> AbstractContextManager[None]:
+        """See :meth:`MeshCommunicator.united`."""
+        return self.team.united()
 
-    def total(self, values: Floats) -> float:
-        """Return the sum of values of the own cells of all nodes; see :func:`total_of`."""
-        return total_of(values[self.part.own], self.of_all)
+    def distribute(
+        self, rows: tuple[Any, ...], blocks: tuple[Ints, int], segments: Index
+    ) -> tuple[tuple[Any, ...], Callable[[Floats], Floats], Callable[[Floats], Floats]]:
+        """See :meth:`MeshCommunicator.distribute`."""
+        team, numbers, cells = self.team, self.part.cells, self.own_cells
+        parts = [(len(segments) - 1) * k // team.size for k in range(team.size + 1)]
+        ends = segments[parts]
+        own, held = (Ranges(team, ends, some) for some in (numbers[cells], numbers))
+        start, columns, values, diagonal = rows
+        counts = np.diff(start.astype(np.intp))[cells]
+        entries = ragged(start[cells].astype(np.intp), counts)
+        begin, to, values = own.put_lists(starts(counts), numbers[columns[entries]], values[entries])
+        first, end = ends[team.rank : team.rank + 2]
+        inside = (to >= first) & (to < end)
+        beyond = np.unique(to[~inside])
+        others = Ranges(team, ends, beyond)
+        columns = np.where(inside, to - first, end - first + np.searchsorted(beyond, to)).astype(np.uint32)
+        block = own.put(blocks[0])
+        here = segments[parts[team.rank] : parts[team.rank + 1] + 1] - first
+        given = (
+            (begin.astype(np.uint32), columns, values, own.put(diagonal[cells])),
+            np.concatenate([block, others.get(block)]), blocks[1], here,
+            team.of_all, others.get, int(np.searchsorted(beyond, first)),
+        )  # fmt: skip
+        return given, own.put, held.get
 
-    @property
-    def own_faces(self) -> Index:
-        """Return the faces that this node counts; every face is counted by one node."""
-        mesh = self.part.mesh
-        counted = self.part.own[mesh.owner]
-        counted[mesh.n_internal + int(mesh.patch_start[-2]) :] = False
-        return np.flatnonzero(counted)
 
-
-class Homes:
-    """Nodes as the homes of consecutive cells of the whole mesh, whatever cells they own.
+class Ranges:
+    """Contiguous ranges of the cells of the whole mesh, one for each node, whatever cells it owns.
 
     Parameters
     ----------
@@ -244,11 +264,11 @@ class Homes:
         self._rows = [cells - ends[team.rank] for cells in asked]
 
     def put(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Return the values (n,) of the cells of which this node is the home; each has one giver."""
+        """Scatter values (n,) to the nodes of the cells' ranges; return those of this range."""
         return self._placed([values[part] for part in self._parts], self._rows, self._n)
 
     def put_lists(self, start: Index, *lists: NDArray[Any]) -> tuple[Any, ...]:
-        """Return starts and entries of the lists of these cells."""
+        """Scatter lists; return starts and entries of those of this range."""
         counts = self.put(np.diff(start))
         begin = starts(counts)
         places = [ragged(begin[rows], counts[rows]) for rows in self._rows]
@@ -264,25 +284,5 @@ class Homes:
         return whole
 
     def get(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Return the values (n,) of the cells from their homes, each of which has those of its own."""
+        """Gather values (n,) from the nodes of the cells' ranges, each of which has those of its own."""
         return np.concatenate(self._team.exchange([values[rows] for rows in self._rows]))
-
-
-def alone(value: Any) -> list[Any]:
-    """Return the values of all nodes, if there is one."""
-    return [value]
-
-
-def total_of(values: Floats, of_all: Callable[[Any], list[Any]] = alone) -> float:
-    """Return the sum of values that are not negative, the same in any order and any division among nodes.
-
-    The values are rounded to multiples of a power of two, which add without round-off; it is 2⁶⁰ times less
-    than the largest value times their number. ``of_all`` returns a value of each node.
-    """
-    ends = of_all((float(values.max(initial=0.0)), len(values)))
-    peak, n = max(peak for peak, _ in ends), sum(n for _, n in ends)
-    if not 0.0 < peak < np.inf:
-        return float(peak)
-    unit = int(np.frexp(peak)[1]) + max(n, 1).bit_length() - 61
-    own = int(np.rint(np.ldexp(values, -unit)).astype(np.int64).sum())
-    return float(np.ldexp(float(sum(of_all(own))), unit))

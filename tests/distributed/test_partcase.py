@@ -10,12 +10,12 @@ import pytest
 from foam_writer import decompose, header, write_case
 from threads_team import together
 
+from foamprb.distributed.fragment import IndivisibleMeshError
+from foamprb.distributed.partcase import PartCase
 from foamprb.errors import InputError
-from foamprb.flow.mesh.fragment import IndivisibleMeshError
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.openfoam import steady_flow
-from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource
 
 

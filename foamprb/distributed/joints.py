@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foamprb.distributed.fragment import Fragment, Pairs, Team
 from foamprb.flow.base import Floats, Patch
 from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.faces import Faces
-from foamprb.flow.mesh.fragment import Fragment, Pairs, Team
 from foamprb.flow.mesh.geometry import measured
 from foamprb.flow.mesh.lists import Index, int32, ragged, starts, take_lists
 

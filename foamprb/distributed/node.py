@@ -9,18 +9,17 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.distributed.fragment import Labels, Team
+from foamprb.distributed.partcase import PartCase
+from foamprb.distributed.partflow import PartFlow, PartSeries
 from foamprb.distributed.shared_memory import Publisher, Windows, wait_for_all
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields
 from foamprb.flow.mesh.arrays import MeshArrays
-from foamprb.flow.mesh.fragment import Labels, Team
 from foamprb.flow.mesh.lists import Index
-from foamprb.flow.partflow import PartFlow, PartSeries
 from foamprb.flow.read.openfoam import flow_of
-from foamprb.flow.read.parts import PartCase
 from foamprb.flow.read.source import FlowSource, FlowTimes
-from foamprb.flow.rotating import RotatingArrays, RotatingZone
 from foamprb.flow.series import SeriesArrays
 
 T = TypeVar("T")
@@ -68,7 +67,7 @@ class PlacesInWhole(NamedTuple):
 class Shared(NamedTuple):
     """Arrays that the processes of a node share."""
 
-    flow: MeshArrays | RotatingArrays
+    flow: MeshArrays
     places: PlacesInWhole
     sampled: Fields
 
@@ -108,8 +107,6 @@ class Summary(NamedTuple):
     times: tuple[float, ...]
     """Times of a flow that changes, s; none of a steady one."""
     period: float | None
-    rotating: tuple[RotatingZone, ...]
-    """Rotating zones, without their cells."""
 
 
 def summary_of(flow: PartFlow) -> Summary:
@@ -122,7 +119,6 @@ def summary_of(flow: PartFlow) -> Summary:
         int(own.sum()), halo.part.depth, len(own),
         max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)), flow.field_columns, time,
         *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
-        tuple(zone._replace(cells=zone.cells[:0]) for zone in getattr(flow, "rotating", ())),
     )  # fmt: skip
 
 
@@ -183,7 +179,7 @@ class Part:
     @property
     def mesh(self) -> MeshArrays:
         """Return the arrays of the mesh."""
-        found: MeshArrays = getattr(self._in_space, "mesh", self._in_space)
+        found: MeshArrays = self._in_space
         return found
 
     def open(
@@ -194,12 +190,11 @@ class Part:
         source: FlowSource,
         depth: int,
         load: Labels | None,
-        step: float,
     ) -> Summary | None:
         """Read the flow; return a summary on the first process of the node."""
 
         def read(team: MpiTeam) -> Summary:
-            flow = flow_of(PartCase(root, region, team, depth, load, source, step), times, source)
+            flow = flow_of(PartCase(root, region, team, depth, load), times, source)
             assert isinstance(flow, PartFlow)
             self.flow = flow
             flow.move(self._publisher.move)
