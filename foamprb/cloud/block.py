@@ -27,6 +27,7 @@ from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.state import Particles, Reason
 from foamprb.compile.link import traced
+from foamprb.compile.record import record
 
 (
     LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED, STEP_TOO_SMALL,
@@ -132,6 +133,7 @@ REBOUND_NUMBERS = 21
 """Numbers that are recorded of a rebound (:func:`foamprb.cloud.contact.note`)."""
 
 
+@record
 class Scratch(NamedTuple):
     """Working memory of a loop, so that the cloud's arrays are written only for finished particles.
 

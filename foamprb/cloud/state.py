@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.compressibility import lame_from_bulk_modulus
 from foamprb.body.material import lame_parameter
+from foamprb.compile.record import record
 
 Array: TypeAlias = NDArray[Any]
 
@@ -86,6 +87,7 @@ class Variable(NamedTuple):
     """Whether only some models set it: without them it takes no memory of the machine and is not copied."""
 
 
+@record
 class Particles(NamedTuple):
     """State of n particles; every array has n rows."""
 

@@ -8,7 +8,7 @@ for any stage of a name, with the key of this one in place of another. Stages th
 (:mod:`foamprb.compile.cache`).
 
 Nothing of this is documented by numba: :mod:`foamprb.compile.link` imports the module only for a tested
-version. Plain numba compiles more slowly, and its code is slower; results differ by round-off at most.
+version. Plain numba compiles more slowly and keeps no code; results differ by round-off at most.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from contextlib import contextmanager, suppress
 from typing import Any, Literal, TypeAlias
 
 from llvmlite import binding, ir  # type: ignore[import-untyped]
-from numba import _dynfunc, types
+from numba import _dynfunc, config, types
 from numba.core.bytecode import FunctionIdentity
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder, compile_result
@@ -33,6 +33,7 @@ from numba.core.funcdesc import PythonFunctionDescriptor
 from numba.core.lowering import Environment
 from numba.core.serialize import dumps
 from numba.core.typed_passes import NativeLowering
+from numba.core.types.functions import BaseFunction
 from numba.core.typing import signature
 
 from foamprb.compile.cache import Store
@@ -55,6 +56,16 @@ _ALIGNED = '"stackrealign"'
 
 class _Inlined(JITCodeLibrary):  # type: ignore[misc]
     """LLVM IR that is linked into its callers before these are optimised."""
+
+    def _optimize_functions(self, module: Any) -> None:
+        """Simplify functions as numba does, but unroll no loop around calls that are inlined later."""
+        module.data_layout = self._codegen._data_layout
+        tuning = binding.create_pipeline_tuning_options(speed_level=config.OPT)
+        tuning.loop_unrolling = False
+        builder = binding.create_pass_builder(self._codegen._tm, tuning)
+        passes = builder.getFunctionPassManager()
+        for function in module.functions:
+            passes.run(function, builder)
 
     def finalize(self) -> None:
         self._finish()
@@ -88,13 +99,6 @@ class _Entry(_Inlined):
         self._finish()
 
     def _finish(self) -> None:
-        # The arrays of a flow are some two hundred arguments, of which a function reads few.
-        for function in self.get_defined_functions():
-            if function.linkage == binding.Linkage.linkonce_odr:
-                function.linkage = "internal"
-        passes = binding.create_new_module_pass_manager()
-        passes.add_dead_arg_elimination_pass()
-        passes.run(self._final_module, self._codegen._pass_builder())
         self._finalize_final_module()
 
     def serialize_using_object_code(self) -> Any:
@@ -229,7 +233,7 @@ def _compiler(role: Role) -> type:
 
     class Compiler(CompilerBase):  # type: ignore[misc]
         def compile_extra(self, function: Any) -> Any:
-            with _rare_collection():
+            with _rare_collection(), _resolved_operators():
                 if role == "stage":
                     try:
                         return _traced(self.state, function)
@@ -262,6 +266,31 @@ def _rare_collection() -> Iterator[None]:
         yield
     finally:
         gc.set_threshold(*before)
+
+
+@contextmanager
+def _resolved_operators() -> Iterator[None]:
+    """Resolve an operator once for all functions, by the types of its operands.
+
+    For each ``+`` numba tries all of its implementations, those for strings and sets included.
+    """
+    functions: Any = BaseFunction
+    resolve = functions.get_call_type
+    operands = types.Number | types.Boolean | types.Array | types.BaseTuple
+
+    def resolve_once(function: Any, context: Any, args: tuple[Any, ...], kws: dict[str, Any]) -> Any:
+        if kws or not all(isinstance(arg, operands) for arg in args):
+            return resolve(function, context, args, kws)
+        resolved = vars(function).setdefault("_resolved", {})
+        if args not in resolved:
+            resolved[args] = resolve(function, context, args, kws)
+        return resolved[args]
+
+    functions.get_call_type = resolve_once
+    try:
+        yield
+    finally:
+        functions.get_call_type = resolve
 
 
 def _traced(state: Any, function: Callable[..., Any]) -> Any:

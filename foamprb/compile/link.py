@@ -30,6 +30,7 @@ import numpy as np
 from foamprb.body.tensor import select
 from foamprb.compile.cache import Store
 from foamprb.compile.part import Keys, Part
+from foamprb.compile.record_type import register_records
 from foamprb.compile.trace import TRACED, branch
 
 if TYPE_CHECKING:
@@ -94,6 +95,7 @@ def link(
     NameError
         If no linked function reads a name in ``bindings`` (:func:`read_by` selects from a larger set).
     """
+    register_records()
     bindings = dict(bindings or {})
     unread = bindings.keys() - read_by(entry, bindings).keys()
     if unread:

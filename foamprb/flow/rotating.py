@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector, dot_vector, minus, plus, vector_product
+from foamprb.compile.record import record
 from foamprb.flow.base import Floats, Ints, PatchFaces, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh, point
 from foamprb.flow.mesh.mesh import Mesh
@@ -40,6 +41,7 @@ class RotatingZone(NamedTuple):
     """A point of the axis, m."""
 
 
+@record
 class RotatingArrays(NamedTuple):
     """Arrays of the flow that the kernels read."""
 

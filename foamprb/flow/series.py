@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, minus, plus
+from foamprb.compile.record import record
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Turbulence
 from foamprb.flow.fields import FieldColumns, Fields, fields_on, width
@@ -49,6 +50,7 @@ _OF_VELOCITY, _OF_TURBULENCE, _OF_VISCOSITY = 12, 8, 4
 """Columns of u and ∇u, of the turbulence after them, and of the viscosity at the end."""
 
 
+@record
 class SeriesArrays(NamedTuple):
     """Arrays of a transient flow that the kernels read: the mesh, and the fields at the loaded times."""
 

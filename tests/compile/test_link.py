@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -73,26 +73,6 @@ def sum_of_all(values, rows):
     total = element(values, 0) + pair_sum(values, (rows[0], rows[1]))
     for i in range(len(rows)):
         total += element(values, i) + element(values, rows[i])
-    return total
-
-
-class Arrays(NamedTuple):
-    """As a flow's: most functions need few of them."""
-
-    first: Any
-    second: Any
-    third: Any
-    fourth: Any
-
-
-def last_of(arrays, i):
-    return arrays.third[i]
-
-
-def sum_of_third(arrays):
-    total = 0.0
-    for i in range(arrays.first.shape[0]):
-        total += last_of(arrays, i)
     return total
 
 
@@ -248,16 +228,6 @@ def test_separate_functions_stay_functions(cache):
     calls = [line for line in assembly.splitlines() if "call" in line and "doubled" in line]
     calls += [line for line in assembly.splitlines() if "movabs" in line and "doubled" in line]
     assert calls
-
-
-def test_calls_hand_over_no_more_than_is_used(cache):
-    """Four arrays are 28 words, and to push them onto the stack takes longer than many a function."""
-    f = link(sum_of_third, separate=(last_of,))
-    arrays = Arrays(*(np.arange(4.0) + 10.0 * k for k in range(4)))
-    assert f(arrays) == sum(range(20, 24))
-    (code,) = f.inspect_llvm().values()
-    (parameters,) = re.findall(r"define internal [^\n]*last_of[^(]*\(([^\n]*)\)", code)
-    assert 3 <= parameters.count("%") <= 8
 
 
 @pytest.mark.skipif(not has_registers_of_512_bits(), reason="the processor has no registers of 512 bits")

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector
+from foamprb.compile.record import record
 from foamprb.flow.base import Floats, Ints
 
 TOLERANCE = 1e-9
@@ -20,6 +21,7 @@ FREE = 15
 """Column of the nodes that is 0 for those on walls, else 1."""
 
 
+@record
 class MeshArrays(NamedTuple):
     """Arrays of a flow on a mesh that the kernels read; SI units, indices int32."""
 
