@@ -16,6 +16,12 @@ from foamprb.errors import InputError
 __all__ = ["existing", "opened", "read_bytes"]
 
 
+MOST_UNPACKED, MOST_RATIO = 256 << 20, 200
+"""Size up to which every compressed file is read, bytes, and the largest ratio of larger ones."""
+_PIECE = 1 << 20
+"""Bytes that are decompressed at a time."""
+
+
 def existing(path: Path) -> Path | None:
     """Return the file itself, else its compressed form ``.gz``, else None, in OpenFOAM's order.
 
@@ -36,14 +42,26 @@ def read_bytes(path: Path, limit: int = -1) -> bytes:
     Raises
     ------
     InputError
-        If it cannot be read.
+        If it cannot be read, or is suspiciously small for its contents.
     """
     try:
         if path.suffix != ".gz":
             with path.open("rb") as stream:
                 return stream.read(limit)
+        most = max(MOST_UNPACKED, MOST_RATIO * path.stat().st_size)
         with gzip.open(path) as stream:
-            return stream.read(limit)
+            if limit >= 0:
+                return stream.read(limit)
+            # In pieces, as a call takes memory for all bytes that it is asked for.
+            data = BytesIO()
+            while data.tell() <= most and (piece := stream.read(_PIECE)):
+                data.write(piece)
+        if data.tell() <= most:
+            return data.getvalue()
+        raise InputError(
+            f"{path}: holds more than {MOST_RATIO} times its size, {most >> 20} MiB; is it damaged? Allowed "
+            f"after gunzip {path.name}."
+        )
     except (OSError, EOFError, zlib.error) as error:
         raise InputError(f"{path}: cannot be read: {error}.") from None
 

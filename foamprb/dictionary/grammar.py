@@ -6,7 +6,8 @@ import gzip
 import os
 import re
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -43,10 +44,10 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     InputError
         If the file cannot be read or is not such a dictionary; with the line.
     """
-    source = CaseFile(path, case)
+    source, spent = CaseFile(path, case), _Spent()
     root = Dictionary("", None, source, 0)
-    text = _read_text(path, lambda why: InputError(f"{source}: {why} (case {case})."))
-    _Parser(source, text, ()).fill(root)
+    text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
+    _Parser(source, text, (), spent).fill(root)
     root.entries.pop(_HEADER, None)
     return root
 
@@ -54,7 +55,7 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
 def parse_dictionary(text: str, path: Path, case: Path) -> Dictionary:
     """Parse the text of a file; see :func:`read_dictionary`."""
     root = Dictionary("", None, CaseFile(path, case), 0)
-    _Parser(root.source, text, ()).fill(root)
+    _Parser(root.source, text, (), _Spent()).fill(root)
     root.entries.pop(_HEADER, None)
     return root
 
@@ -76,26 +77,50 @@ def read_dictionary_list(path: Path, case: Path, text: str | None = None) -> Dic
     InputError
         If the file cannot be read or is not such a list; with the line.
     """
-    source = CaseFile(path, case)
+    source, spent = CaseFile(path, case), _Spent()
     root = Dictionary("", None, source, 0)
     if text is None:
-        text = _read_text(path, lambda why: InputError(f"{source}: {why} (case {case})."))
-    return _Parser(source, text, ()).counted_list(root)
+        text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
+    return _Parser(source, text, (), spent).counted_list(root)
 
 
-def _read_text(path: Path, mistake: Callable[[str], InputError]) -> str:
+MOST_BYTES = 8 << 20
+"""Largest size of a dictionary with its included files, decompressed."""
+MOST_FILES = 1000
+"""Largest number of files that a dictionary includes, nested or not."""
+MOST_NESTED = 100
+"""Largest depth of nested dictionaries."""
+MOST_WORDS = 200_000
+"""Largest number of words to which the macros of a dictionary expand."""
+
+
+@dataclass
+class _Spent:
+    """Present use of these limits by a dictionary, with its included files."""
+
+    bytes: int = 0
+    files: int = 0
+    words: int = 0
+
+
+def _read_text(path: Path, spent: _Spent, mistake: Callable[[str], InputError]) -> str:
     file = existing(path) or path
     try:
         # Reading a pipe or a device may never end.
         if file.exists() and not file.is_file():
             raise mistake("is not a file")
         with gzip.open(file) if file.suffix == ".gz" else file.open("rb") as stream:
+            data = stream.read(MOST_BYTES - spent.bytes + 1)
+            spent.bytes += len(data)
             # Editors of Windows begin a text with a byte order mark.
-            return stream.read().decode("utf-8-sig")
+            text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise mistake("is not a text file") from error
     except (OSError, EOFError, ValueError, zlib.error) as error:
         raise mistake(getattr(error, "strerror", None) or str(error) or "cannot be read") from error
+    if spent.bytes > MOST_BYTES:
+        raise mistake(f"has more than {MOST_BYTES >> 20} MiB, too large for a dictionary")
+    return text
 
 
 class _Token(NamedTuple):
@@ -149,8 +174,9 @@ def _tokens(source: CaseFile, text: str) -> Iterator[_Token]:
 class _Parser:
     """Parser of one file; ``including`` are the files that include it."""
 
-    def __init__(self, source: CaseFile, text: str, including: tuple[Path, ...]) -> None:
+    def __init__(self, source: CaseFile, text: str, including: tuple[Path, ...], spent: _Spent) -> None:
         self.source = source
+        self.spent = spent
         self.tokens = list(_tokens(source, text))
         self.position = 0
         self.files = (*including, real(source.path))
@@ -185,7 +211,7 @@ class _Parser:
             return self.dictionaries(key, parent)
         tokens = self.stream(key)
         if start.startswith("$") and len(tokens) == 1:
-            twin = self.look_up(tokens[0], parent).copy(key.text, parent)
+            twin = self.copy(tokens[0], self.look_up(tokens[0], parent), key.text, parent)
             twin.used = False
             return twin
         # A computed value keeps its variables: reading it is an error.
@@ -199,6 +225,7 @@ class _Parser:
     def dictionary(self, key: _Token, parent: Entry) -> Dictionary:
         """Read ``{ … }``."""
         dictionary = Dictionary(key.text, parent, self.source, key.line)
+        self.require_depth(key, _depth(dictionary))
         self.fill(dictionary, opened=self.take())
         return dictionary
 
@@ -267,7 +294,28 @@ class _Parser:
         entry = self.look_up(token, scope)
         if not isinstance(entry, Stream):
             raise self.mistake(token, f"is {entry}, and cannot stand within a value.")
+        self.spend(token, len(entry.tokens))
         return entry.tokens
+
+    def copy(self, token: _Token, entry: Entry, key: str, parent: Entry) -> Entry:
+        """Copy the entry of a macro to another place."""
+        size, height = _extent(entry)
+        self.spend(token, size)
+        self.require_depth(token, _depth(parent) + height)
+        return entry.copy(key, parent)
+
+    def spend(self, token: _Token, words: int) -> None:
+        """Count the words to which a macro expands: without a limit, n lines could expand to 2ⁿ."""
+        self.spent.words += words
+        if self.spent.words > MOST_WORDS:
+            raise self.mistake(
+                token, f"expands too far: all macros together to more than {MOST_WORDS} words."
+            )
+
+    def require_depth(self, token: _Token, depth: int) -> None:
+        """Raise InputError if dictionaries are nested too deeply."""
+        if depth > MOST_NESTED:
+            raise self.mistake(token, f"is nested too deeply: more than {MOST_NESTED} dictionaries.")
 
     def look_up(self, token: _Token, scope: Dictionary) -> Entry:
         """Find the entry of a macro."""
@@ -297,7 +345,7 @@ class _Parser:
             raise self.mistake(token, f"stands where a key is expected, but is {template}, not a dictionary.")
         if self.take().text != ";":
             raise self.mistake(token, "has no closing ;.")
-        dictionary.merge(template.copy(template.key, dictionary))
+        dictionary.merge(self.copy(token, template, template.key, dictionary).dictionary())
 
     def function(self, directive: _Token, parent: Dictionary) -> Stream:
         """Read ``#includeFunc`` and the rest of its line, an entry that only OpenFOAM's solvers use."""
@@ -318,10 +366,15 @@ class _Parser:
             path = self.in_etc(name)
         if not (_INCLUDES[directive.text] or existing(path)):
             return
-        text = _read_text(path, lambda why: self.mistake(name, f"cannot be included: {why}."))
+        self.spent.files += 1
+        if self.spent.files > MOST_FILES:
+            raise self.mistake(name, f"exceeds the limit of {MOST_FILES} included files.")
+        text = _read_text(path, self.spent, lambda why: self.mistake(name, f"cannot be included: {why}."))
         if real(path) in self.files:
             raise self.mistake(name, "includes itself.")
-        _Parser(CaseFile(path, self.source.case), text, self.files).fill(dictionary)
+        if len(self.files) > MOST_NESTED:
+            raise self.mistake(name, f"is included too deeply: more than {MOST_NESTED} levels.")
+        _Parser(CaseFile(path, self.source.case), text, self.files, self.spent).fill(dictionary)
         dictionary.entries.pop(_HEADER, None)
 
     def in_case(self, name: str) -> str:
@@ -367,6 +420,24 @@ class _Parser:
         if len(self.files) > 1 and not self.files[-1].is_relative_to(real(self.source.case)):
             return self.source.mistake(token.line, "the included file is not a dictionary.")
         return self.source.mistake(token.line, f"'{token.text}' {what}")
+
+
+def _depth(entry: Entry) -> int:
+    """Return the depth of an entry."""
+    return sum(1 for _ in _upward(entry)) - 1
+
+
+def _extent(entry: Entry) -> tuple[int, int]:
+    """Return the number of words in an entry, and the depth of nested dictionaries in it."""
+    if isinstance(entry, Stream):
+        return 1 + len(entry.tokens), 0
+    inner: Collection[Entry] = ()
+    if isinstance(entry, Dictionary):
+        inner = entry.entries.values()
+    elif isinstance(entry, DictionaryList):
+        inner = entry.items
+    extents = [_extent(one) for one in inner]
+    return 1 + sum(size for size, _ in extents), 1 + max((height for _, height in extents), default=0)
 
 
 def _upward(entry: Entry) -> Iterator[Entry]:

@@ -14,6 +14,7 @@ from foamprb.body.imex import relaxation_time
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.dictionary.constraints import Vector3
+from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import WALLS, Patch
 from foamprb.flow.meshflow import MeshFlow
@@ -22,8 +23,15 @@ from foamprb.flow.read.caveats import is_steady, turbulence_fields
 from foamprb.flow.read.flows import check_region, read_flow
 from foamprb.flow.read.fluid import (
     CaseViscosity,
+    apparent_viscosity,
+    density_of_state,
     fluid_file,
+    is_gas,
     mean_density,
+    mean_pressure,
+    mean_temperature,
+    phase_values,
+    phases_of,
     read_density,
     read_viscosity,
 )
@@ -47,6 +55,8 @@ _CAPILLARY, _MOST_CAPILLARY = 0.1, 0.8
 
 Extension may tear softer bodies apart.
 """
+_TEMPERATURE, _PRESSURE = 300.0, 1e5
+"""Temperature of a fluid, K, and its pressure, Pa, if they matter and the case does not have them."""
 
 
 @dataclass(frozen=True)
@@ -277,6 +287,9 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
 
     ``rate`` is the shear rate, 1/s, at which a fluid that is not Newtonian is taken.
     """
+    phases = _phases(case, source, rate)
+    if phases:
+        return phases
     file = fluid_file(case, source.region)
     where = "" if file is None else f"constant/{file.relative_to(case / 'constant')}"
     nu: float | None = None
@@ -287,8 +300,19 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
             time = None if source.file else "latestTime"
             viscosity = read_viscosity(file, case, None, source.region, time)
             nu, mu, lines = _typical(viscosity, rate, where)
-    except InputError:
-        lines.append(f"// {where} has no viscosity that is read")
+    except InputError as error:
+        assert file is not None
+        try:
+            T, origin = _temperature(case, source.region)
+            nu, mu, temperature = read_viscosity(file, case, T)[:3]
+            if temperature is None:
+                raise error
+            lines.append(f"TInf {T:g}; // {_said('constantProperties', 'TInf')}{origin}")
+        except InputError:
+            nu, what = _viscosity_of_model(file, case, rate, _temperature(case, source.region)[0])
+            lines.append(
+                f"nu {nu:g}; // m2/s, kinematic viscosity; {what or f'{where} has no constant value'}"
+            )
     if nu is None and mu is None:
         nu = 1e-6
         lines.append("nu 1e-06; // m2/s, kinematic viscosity; not in the case: like water")
@@ -296,9 +320,13 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
     if rho is not None:
         lines.append(f"// {'rhoInf':12s}{rho:g}: from {origin}")
     else:
-        # Gases have about 1e-5 m²/s, or 1e-5 Pa s.
-        water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
-        rho, origin = (1000.0, "not in the case: like water") if water else (1.2, "not in the case: like air")
+        rho, origin = _density_of_state(case, file, source.region)
+        if rho is None:
+            # Gases have about 1e-5 m²/s, or 1e-5 Pa s.
+            water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
+            rho, origin = (
+                (1000.0, "not in the case: like water") if water else (1.2, "not in the case: like air")
+            )
         lines.append(f"rhoInf {rho:g}; // kg/m3, density of the fluid; {origin}")
     return rho, nu if nu is not None else float(mu or 0.0) / rho, lines
 
@@ -321,6 +349,68 @@ def _typical(
     return nu, mu, [name + comment]
 
 
+def _temperature(case: Path, region: str, *phases: str) -> tuple[float, str]:
+    """Return the mean temperature of a phase or of the fluid, K, and its source for a comment."""
+    for field in (*(f"T.{phase}" for phase in phases), "T"):
+        try:
+            found = mean_temperature(case, region, "latestTime", field)
+        except InputError:
+            found = None
+        if found is not None:
+            return float(f"{found[0]:.4g}"), f", mean of {field} at {found[1]}"
+    return _TEMPERATURE, ""
+
+
+def _pressure(case: Path, region: str) -> float:
+    """Return the mean pressure of the fluid, Pa."""
+    try:
+        found = mean_pressure(case, region, "latestTime")
+    except InputError:
+        found = None
+    return _PRESSURE if found is None else found[0]
+
+
+def _phases(case: Path, source: FlowSource, rate: float) -> tuple[float, float, list[str]] | None:
+    """Return the result of :func:`_fluid` for one of several phases; the others are in comments."""
+    known = _known_phases(case, source, rate)
+    if not known:
+        return None
+    lines = []
+    for index, (name, nu, rho) in enumerate(known):
+        start, why = ("// ", "") if index else ("", ", in which the particles move")
+        lines += [f"{start}nu {nu:g}; // m2/s, of {name}{why}", f"{start}rhoInf {rho:g}; // kg/m3, of {name}"]
+    return known[0][2], known[0][1], lines
+
+
+def _known_phases(case: Path, source: FlowSource, rate: float) -> list[tuple[str, float, float]]:
+    """Return name, viscosity, m²/s, and density, kg/m³, of each of several phases.
+
+    The phase of the velocity, such as ``U.air``, or else the first goes first.
+    """
+    known = []
+    try:
+        for name, phase in phases_of(case, source.region).items():
+            T, p = _temperature(case, source.region, name)[0], _pressure(case, source.region)
+            nu, rho = phase_values(phase, rate, p, T)
+            if nu is not None and rho is not None:
+                known.append((name, float(f"{nu:.4g}"), float(f"{rho:.4g}")))
+    except InputError:
+        return []
+    own = source.velocity.partition(".")[2]
+    return sorted(known, key=lambda phase: phase[0] != own)
+
+
+def _viscosity_of_model(file: Path, case: Path, rate: float, T: float) -> tuple[float, str]:
+    """Return the viscosity of the selected model, m²/s, at a rate (1/s) and a temperature, and its source."""
+    try:
+        root = read_dictionary(file, case)
+    except InputError:
+        return 1e-6, ""
+    if found := apparent_viscosity(root, rate, T):
+        return float(f"{found[1]:.4g}"), f"{found[0]} at {rate:.3g} 1/s"
+    return (1.5e-5, "not constant: like air") if is_gas(root) else (1e-6, "")
+
+
 def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[float | None, str]:
     try:
         if file is not None and (rho := read_density(file, case)) is not None:
@@ -329,6 +419,16 @@ def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[fl
     except InputError:
         return None, ""
     return (field[0], f"the field rho at time {field[1]}") if field else (None, "")
+
+
+def _density_of_state(case: Path, file: Path | None, region: str) -> tuple[float | None, str]:
+    """Return the density by the equation of state of the fluid, kg/m³, and its source for a comment."""
+    T, p = _temperature(case, region)[0], _pressure(case, region)
+    try:
+        rho = None if file is None else density_of_state(read_dictionary(file, case), p, T)
+    except InputError:
+        rho = None
+    return (None, "") if rho is None else (float(f"{rho:.4g}"), f"equationOfState at {p:.4g} Pa, {T:.4g} K")
 
 
 def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:

@@ -8,6 +8,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
+from foamprb.dictionary import files
 from foamprb.dictionary.dimensions import described, read_dimensions
 from foamprb.dictionary.files import existing, read_bytes
 from foamprb.dictionary.grammar import read_dictionary
@@ -55,6 +56,15 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path):
     with pytest.raises(InputError, match=r"broken\.gz: cannot be read"):
         read_bytes(tmp_path / "broken.gz")
     assert existing(tmp_path / "none") is None
+
+
+def test_a_file_that_unpacks_to_many_times_its_size_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "MOST_UNPACKED", 1000)
+    path = tmp_path / "U.gz"
+    path.write_bytes(gzip.compress(b" " * 100_000))
+    with pytest.raises(InputError, match=r"U.gz: holds more than 200 times its size, .* after gunzip U.gz"):
+        read_bytes(path)
+    assert len(read_bytes(path, 500)) == 500
 
 
 def test_a_compressed_file_takes_memory_for_what_it_holds(tmp_path):

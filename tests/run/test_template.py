@@ -13,9 +13,11 @@ from foam_writer import header, put_scalar, put_zones, write_case
 from paths import PIPE
 
 from foamprb.cli import main
+from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.fluid import apparent_viscosity
 from foamprb.flow.read.source import Division, FlowSource
 from foamprb.run.job import prepare
 from foamprb.run.template import FlowScales, _nice, diameter, scales_of, times, write_template
@@ -141,14 +143,116 @@ def test_the_viscosity_of_another_model_is_local(case):
     assert fluid.mu.at_rate(rate) == pytest.approx(fluid.rho * nu)
 
 
-def test_a_viscosity_that_is_not_read_is_like_that_of_water(case):
+@pytest.mark.parametrize(
+    ("model", "expected"),
+    [
+        ("BirdCarreau; nu0 1.6e-5; nuInf 1e-6; k 1; n 0", 1e-6 + 1.5e-5 / np.sqrt(17.0)),
+        ("powerLaw; k 1e-5; n 0.5; nuMin 1e-6; nuMax 1e-3", 5e-6),
+        ("HerschelBulkley; nu0 1; tau0 1e-5; k 1e-5; n 1", 1.25e-5),
+        ("Casson; m 1e-6; tau0 4e-6; nuMin 1e-7; nuMax 1", 4e-6),
+        ("Newtonian; nu 2e-6", 2e-6),
+        ("ArrheniusCasson; m 1e-6; tau0 4e-6; nuMin 0; nuMax 1; alpha 0.1; Talpha 300", 4e-6 / np.e),
+    ],
+)
+def test_viscosities_at_four_per_second(tmp_path, model, expected):
+    file = tmp_path / "transportProperties"
+    file.write_text(f"transportModel {model};")
+    name, nu = apparent_viscosity(read_dictionary(file, tmp_path), 4.0, 310.0)
+    assert model.startswith(name)
+    assert nu == pytest.approx(expected)
+
+
+def test_both_phases_of_a_case_are_written(case):
+    (case / "constant/transportProperties").write_text(
+        "phases (water air); water { transportModel Newtonian; nu 1e-06; rho 1000; } "
+        "air { transportModel Newtonian; nu 1.48e-05; rho 1; } sigma 0.07;"
+    )
+    text = write_template(case).read_text()
+    assert re.search(r"// nu 1.48e-05; +// m2/s, of air", text)
+    fluid = read_settings(case).fluid
+    assert (fluid.nu, fluid.rho) == (1e-6, 1000.0)
+
+
+def test_the_phases_of_a_list_are_written(case):
+    (case / "constant/transportProperties").write_text(
+        "phases ( oil { transportModel Newtonian; nu 2e-06; rho 900; } mercury { nu 1.1e-07; rho 13529; } );"
+    )
+    text = write_template(case).read_text()
+    assert "// nu 1.1e-07; // m2/s, of mercury" in text
+    fluid = read_settings(case).fluid
+    assert (fluid.nu, fluid.rho) == (2e-6, 900.0)
+
+
+MIXTURE = (
+    "thermoType {{ mixture pureMixture; transport const; equationOfState {kind}; }} "
+    "mixture {{ specie {{ molWeight 28.96; }} equationOfState {{ R 3000; rho0 1027; pRef 2e5; rho 870; }} "
+    "transport {{ mu 1e-3; }} }}"
+)
+
+
+def test_the_phase_of_the_velocity_goes_first(case):
+    """Each phase has its own file, density by its equation of state, and temperature."""
+    (case / "constant/transportProperties").unlink()
+    for name, kind in (("air", "perfectGas"), ("water", "perfectFluid")):
+        (case / f"constant/thermophysicalProperties.{name}").write_text(MIXTURE.format(kind=kind))
+    time = max((each for each in case.iterdir() if each.name.isdigit()), key=lambda each: float(each.name))
+    shutil.copy(time / "U.gz", time / "U.water.gz")
+    rest = 'boundaryField { ".*" { type zeroGradient; } }'
+    for name, dimensions, value in (("T.air", "0 0 0 1 0 0 0", 600), ("p", "1 -1 -2 0 0 0 0", 3e5)):
+        field = f"dimensions [{dimensions}]; internalField uniform {value}; {rest}"
+        (time / name).write_text(header("volScalarField", name) + field)
+    text = write_template(case, FlowSource(velocity="U.water")).read_text()
+    rho = 1027.0 + 3e5 / (3000.0 * 300.0)
+    assert re.search(r"rhoInf +1027; +// kg/m3, of water", text)
+    assert f"// rhoInf {3e5 * 28.96 / (8314.46 * 600.0):.4g}; // kg/m3, of air" in text
+    assert read_settings(case).fluid.nu == pytest.approx(1e-3 / rho, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("kind", "rho"), [("perfectGas", 1.161), ("incompressiblePerfectGas", 2.322), ("Boussinesq", 1027.0)]
+)
+def test_the_density_is_that_of_the_equation_of_state(case, kind, rho):
+    (case / "constant/transportProperties").unlink()
+    state = MIXTURE.format(kind=kind).replace("rho 870;", "")
+    (case / "constant/thermophysicalProperties").write_text(state)
+    assert "equationOfState at 1e+05 Pa, 300 K" in write_template(case).read_text()
+    assert read_settings(case).fluid.rho == pytest.approx(rho, rel=1e-3)
+
+
+def test_a_fluid_that_depends_on_temperature_gets_one(case):
+    (case / "constant/transportProperties").unlink()
+    (case / "constant/thermophysicalProperties").write_text(
+        "thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
+    )
+    assert re.search(r"TInf +300; +// K, temperature of the fluid", write_template(case).read_text())
+    assert read_settings(case).fluid.mu == pytest.approx(1.846e-5, rel=1e-3)
+
+
+def test_the_viscosity_is_that_of_the_local_temperature(case):
+    (case / "constant/transportProperties").unlink()
+    (case / "constant/thermophysicalProperties").write_text(
+        "thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
+    )
+    time = max((each for each in case.iterdir() if each.name.isdigit()), key=lambda each: float(each.name))
+    (time / "T").write_text(
+        header("volScalarField", "T") + "dimensions [0 0 0 1 0 0 0]; internalField uniform 977; "
+        'boundaryField { ".*" { type zeroGradient; } }'
+    )
+    mu = 1.458e-6 * np.sqrt(977.0) / (1.0 + 110.4 / 977.0)
+    comment = f"// mu          local, by sutherland at the local T; {mu:.4g} on average"
+    assert comment in write_template(case).read_text()
+    fluid = read_settings(case).fluid
+    assert (fluid.field.name, fluid.mu.mean) == ("T", pytest.approx(mu))
+
+
+def test_a_mixture_of_gases_is_like_air(case):
     (case / "constant/transportProperties").unlink()
     (case / "constant/thermophysicalProperties").write_text(
         "thermoType { mixture reactingMixture; transport sutherland; equationOfState perfectGas; }"
     )
     text = write_template(case).read_text()
-    assert "// constant/thermophysicalProperties has no viscosity that is read" in text
-    assert re.search(r"nu +1e-06; +// m2/s, kinematic viscosity; not in the case: like water", text)
+    assert re.search(r"nu +1.5e-05; +// m2/s, kinematic viscosity; not constant: like air", text)
+    assert re.search("rhoInf +1.2; .*like air", text)
 
 
 @pytest.mark.parametrize(("mu", "kind"), [("1.8e-05", "1.2; .*like air"), ("0.001", "1000; .*like water")])

@@ -19,12 +19,12 @@ from foamprb.dictionary.dimensions import DYNAMIC_VISCOSITY, KINEMATIC_VISCOSITY
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.schema import read_entry
-from foamprb.dictionary.tree import Dictionary, Stream
+from foamprb.dictionary.tree import Dictionary, DictionaryList, Stream
 from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
 from foamprb.flow.read.case import find_dictionary, find_file, word_of
 from foamprb.flow.read.cell_values import cell_values, has_field, solution_times
-from foamprb.flow.read.field import DENSITY_FIELD, TEMPERATURE_FIELD, Kind
+from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, Kind
 from foamprb.flow.read.times import pick_time
 
 _NU = Kind("volScalarField", "scalar", (KINEMATIC_VISCOSITY,), "a kinematic viscosity")
@@ -155,6 +155,8 @@ def describe_viscosity(case: Path, region: str, fields: Collection[str]) -> list
     if file is None:
         return []
     try:
+        if phases := phases_of(case, region):
+            return [f"phases {', '.join(phases)}: see {file.name}"]
         viscosity = read_viscosity(file, case, None, region)
     except InputError:
         with suppress(InputError):
@@ -354,6 +356,26 @@ def mean_density(case: Path, region: str, time: float | str) -> tuple[float, str
     return _mean(case, region, time, "rho", DENSITY_FIELD)
 
 
+def mean_temperature(
+    case: Path, region: str, time: float | str, field: str = "T"
+) -> tuple[float, str] | None:
+    """Return the mean of ``T`` over the cells, K, and the time's name; see :func:`mean_density`."""
+    return _mean(case, region, time, field, TEMPERATURE_FIELD)
+
+
+def mean_pressure(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
+    """Return the mean of ``p`` over the cells, Pa, and the time's name; see :func:`mean_density`."""
+    return _mean(case, region, time, "p", PRESSURE_FIELD)
+
+
+def is_gas(root: Dictionary) -> bool:
+    """Return whether ``thermoType`` is that of a gas."""
+    kind = root.entries.get("thermoType")
+    if not isinstance(kind, Dictionary):
+        return False
+    return word_of(kind, "equationOfState").endswith("Gas") or word_of(kind, "transport") == "sutherland"
+
+
 def density_of_state(root: Dictionary, p: Values, T: Values) -> Values | float | None:
     """Return the density by the ``equationOfState`` of a ``pureMixture``, kg/m³; None if it is not known.
 
@@ -393,6 +415,85 @@ def _mean(case: Path, region: str, time: float | str, field: str, kind: Kind) ->
         return None
     mean = float(cell_values(case, region, name, field, kind).mean())
     return (mean, name) if 0.0 < mean < math.inf else None
+
+
+def apparent_viscosity(fluid: Dictionary, rate: float, T: float) -> tuple[str, float] | None:
+    """Return the selected model of a fluid and its viscosity, m²/s; None if unknown.
+
+    Parameters
+    ----------
+    fluid
+        The dictionary of the fluid.
+    rate, T
+        Shear rate, 1/s, and temperature, K.
+    """
+    model = word_of(fluid, "transportModel") or word_of(fluid, "viscosityModel")
+    name = model.removeprefix("Arrhenius")
+    own = fluid.entries.get(f"{model}Coeffs", fluid)
+    if not isinstance(own, Dictionary):
+        return None
+    try:
+        nu = _number(own, "nu") if name in _CONSTANT else _law_of(own, name, {})(rate)
+    except (InputError, KeyError):
+        return None
+    if name != model:
+        alpha, reference = (_number(own, key) for key in ("alpha", "Talpha"))
+        nu = (
+            None
+            if nu is None or alpha is None or reference is None
+            else nu * math.exp(-alpha * (T - reference))
+        )
+    return (model, float(nu)) if nu is not None and 0.0 < nu < math.inf else None
+
+
+def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
+    """Return the dictionaries of the phases of a case with several, by name.
+
+    They are in the order of the case, or, of a solver with ``phaseProperties``, in that of the alphabet.
+
+    Raises
+    ------
+    InputError
+        If a dictionary cannot be read.
+    """
+    file = fluid_file(case, region)
+    entries = {} if file is None else read_dictionary(file, case).entries
+    listed = entries.get("phases")
+    if isinstance(listed, DictionaryList):
+        return {phase.key: phase for phase in listed.items}
+    files = (case / "constant" / region).glob(f"{_MIXTURE_FILE}.*")
+    names = sorted(file.name.removeprefix(f"{_MIXTURE_FILE}.").removesuffix(".gz") for file in files)
+    if isinstance(listed, Stream):
+        names = re.findall(r"[\w.]+", listed.text)
+    own = {key: find_dictionary(case, region, f"{_MIXTURE_FILE}.{key}") for key in names}
+    phases = {key: own[key] or entries.get(key) for key in names}
+    return {key: phase for key, phase in phases.items() if isinstance(phase, Dictionary)}
+
+
+def surface_tension(case: Path, region: str) -> float | None:
+    """Return ``sigma`` of two phases, N/m; None if the case has none."""
+    for file in (fluid_file(case, region), find_file(case, region, "phaseProperties")):
+        if file is not None and (sigma := _number(read_dictionary(file, case), "sigma")):
+            return sigma
+    return None
+
+
+def phase_values(phase: Dictionary, rate: float, p: float, T: float) -> tuple[float | None, float | None]:
+    """Return the viscosity of a phase, m²/s, and its density, kg/m³, if it has them.
+
+    Parameters
+    ----------
+    phase
+        Its dictionary.
+    rate, p, T
+        Shear rate, 1/s, pressure, Pa, and temperature, K.
+    """
+    if "mixture" in phase.entries:
+        rho = density_of_state(phase, p, T)
+        mu = _of_mixture(phase, T).mu
+        return (mu / rho if mu and rho else None), rho
+    found = apparent_viscosity(phase, rate, T)
+    return (found[1] if found else _number(phase, "nu")), _number(phase, "rho")
 
 
 def _number(dictionary: Dictionary, key: str) -> float | None:

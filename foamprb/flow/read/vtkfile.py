@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh.boundary import mix
@@ -34,6 +36,8 @@ VTK_SUFFIXES = _PIECES | {
     ".case",
     ".series",
 }
+_SIZES = {1: 1, 3: 2, 5: 3, 8: 4, 9: 4, 10: 4, 11: 8, 12: 8, 13: 6, 14: 5}
+"""Number of points of the kinds of cells with a fixed number."""
 _HEAD = re.compile(r"(?!nan|inf)[A-Za-z_]", re.IGNORECASE)
 _DATA = ("CELL_DATA", "POINT_DATA")
 _NEAR = 1e-3
@@ -244,6 +248,7 @@ def _leaves(name: str, block: Any) -> list[tuple[str, Any]]:
 def solid_cells(grid: Any, path: Path) -> tuple[Any, list[str]]:
     """Return the grid without its points, lines and surfaces, coinciding points merged; and notes."""
     kinds = np.unique(grid.celltypes).tolist()
+    _require_lists(grid, path)
     if not set(kinds) & {*CELL_KINDS, *CURVED}:
         raise InputError(f"{path}: no cells of the allowed kinds {', '.join(CELL_KINDS.values())}.")
     notes = []
@@ -283,3 +288,26 @@ def require_joined(mesh: Mesh, path: Path) -> None:
             f"{path}: {len(twice)} boundary faces lie on each other, the first at {x}: cells there share no "
             "points, and particles could not pass. Merge the points, such as by ParaView's Clean to Grid."
         )
+
+
+def _require_lists(grid: Any, path: Path) -> None:
+    """Raise InputError for cells whose lists of points or faces are out of range or of a wrong length."""
+    cells = _lists(grid.GetCells(), path, grid.n_points)
+    for kind, size in _SIZES.items():
+        if np.any(cells[np.asarray(grid.celltypes) == kind] != size):
+            name = CELL_KINDS.get(kind, f"cell of VTK type {kind}")
+            raise InputError(f"{path}: a {name} does not have {size} points; the file is broken.")
+    faces, of_cells = grid.GetPolyhedronFaces(), grid.GetPolyhedronFaceLocations()
+    if faces is not None and of_cells is not None:
+        _lists(of_cells, path, len(_lists(faces, path, grid.n_points)))
+
+
+def _lists(cells: Any, path: Path, limit: int) -> NDArray[Any]:
+    """Return the lengths of VTK's lists of numbers, which must be below a limit."""
+    start = vtk_to_numpy(cells.GetOffsetsArray()).astype(np.int64)
+    numbers = vtk_to_numpy(cells.GetConnectivityArray())
+    lengths: NDArray[Any] = np.diff(start)
+    sound = not len(start) or (start[0] == 0 and start[-1] == len(numbers) and np.all(lengths >= 0))
+    if not sound or (len(numbers) and not 0 <= numbers.min() <= numbers.max() < limit):
+        raise InputError(f"{path}: the lists of the cells' points or faces are broken.")
+    return lengths

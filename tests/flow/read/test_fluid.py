@@ -239,7 +239,7 @@ BLOOD = "transportModel BirdCarreau; BirdCarreauCoeffs { nu0 5.28e-5; nuInf 3.25
         (
             "phases (water air); water { nu 1; } air { nu 1; }",
             (),
-            ["transportProperties has none that is read"],
+            ["phases water, air: see transportProperties"],
         ),
         (
             "thermoType { transport sutherland; } mixture { }",

@@ -407,6 +407,35 @@ def test_a_legacy_file_cut_short_is_refused(share, binary, tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.parametrize(("kind", "name"), [(9, "cell of VTK type 9"), (10, "tetrahedron")])
+def test_a_cell_of_another_type_than_its_points_is_refused(kind, name, tmp_path):
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtk"
+    shape.save(path, binary=False)
+    text = path.read_text()
+    path.write_text(text.replace("CELL_TYPES 8\n12", f"CELL_TYPES 8\n{kind}"))
+    with pytest.raises(InputError, match=f"a {name} does not have 4 points"):
+        read_mesh_file(path)
+
+
+@pytest.mark.parametrize("start", [1 << 40, 14336, 5])
+def test_starts_of_cells_that_do_not_fit_are_refused(start, tmp_path):
+    """The second offset in a legacy file, of 64 bits."""
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtk"
+    shape.save(path, binary=True)
+    data = path.read_bytes()
+    at = data.index(b"\n", data.index(b"OFFSETS")) + 1 + 8
+    assert int.from_bytes(data[at : at + 8], "big") == 8
+    path.write_bytes(data[:at] + start.to_bytes(8, "big") + data[at + 8 :])
+    with pytest.raises(InputError, match=r"flow\.vtk"):
+        read_mesh_file(path)
+
+
 def test_inside_out_cells_are_refused(tmp_path):
     points, hexes = corners(1, 0.0)
     points[:, 2] *= -0.0

@@ -155,3 +155,17 @@ def test_points_lines_and_surfaces_of_a_grid_are_left_out(tmp_path):
         InputError, match="no cells of the allowed kinds tetrahedron, voxel, hexahedron, prism"
     ):
         solid_cells(flat, path)
+
+
+@pytest.mark.parametrize(
+    ("kind", "size"), [(10, 4), (12, 8), (13, 6), (14, 5), (9, 4), (5, 3), (3, 2), (8, 4)]
+)
+def test_each_kind_of_cell_has_its_number_of_points(kind, size, tmp_path):
+    points = np.random.default_rng(0).random((9, 3))
+    for n, sound in ((size, True), (size - 1, False), (size + 1, False)):
+        grid = pyvista.UnstructuredGrid([n, *range(n)], [kind], points)
+        if sound:
+            vtkfile._require_lists(grid, tmp_path)
+        else:
+            with pytest.raises(InputError, match=f"does not have {size} points; the file is broken"):
+                vtkfile._require_lists(grid, tmp_path)
