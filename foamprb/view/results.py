@@ -10,6 +10,7 @@ from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,11 +19,13 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.vtk_guard import require_survival
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.folder import FATES, HOW, ResultsFolder
-from foamprb.results.pvd import SnapshotFile, read_pvd
+from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
+from foamprb.results.vtk_check import is_compressed, require_sizes
 from foamprb.view.dataset import dataset_of
 from foamprb.view.libraries import load
 
@@ -338,6 +341,7 @@ def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
     """Read a VTK file of points or lines, with all its point arrays or some of them."""
     if not path.exists():
         raise InputError(f"{path}: missing, though the list of files names it. {_AGAIN}")
+    _require_sound(path)
     reader = vtkXMLPPolyDataReader() if path.suffix == ".pvtp" else vtkXMLPolyDataReader()
     reader.SetFileName(str(path))
     with vtk_messages() as said:
@@ -351,6 +355,19 @@ def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
     if said.errors:
         raise InputError(f"{path}: damaged ({said.errors[0].rstrip('.')}). {_AGAIN}")
     return reader.GetOutput()
+
+
+def _require_sound(path: Path) -> None:
+    """Refuse a file on which VTK could crash."""
+    try:
+        for file in files_of(path):
+            if file.suffix == ".vtp" and is_compressed(file):
+                require_sizes(file)
+            else:
+                # Of a cloud in pieces, or written by another program.
+                require_survival(file)
+    except (OSError, ValueError, KeyError, ElementTree.ParseError) as error:
+        raise InputError(f"{path}: damaged ({error}). {_AGAIN}") from error
 
 
 def _points(data: Any) -> NDArray[np.float64]:

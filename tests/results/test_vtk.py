@@ -16,6 +16,7 @@ from foamprb.results.folder import ResultsFolder
 from foamprb.results.pieces import XMLPPolyDataReader
 from foamprb.results.pvd import Series, SnapshotFile, files_of, read_pvd
 from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot, write_vtkhdf
+from foamprb.results.vtk_check import require_sizes
 
 
 def assert_equal(read: Any, written: PointCloud) -> None:
@@ -257,3 +258,15 @@ def test_failed_vtkhdf_file_keeps_the_old_file(tmp_path: Path) -> None:
     with pytest.raises(OSError, match=r"a\.vtkhdf"):
         write_vtkhdf(tmp_path / "a.vtkhdf/no/b.vtkhdf", [0.0], broken)
     assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
+
+
+def test_sizes_of_a_file_of_several_pieces_are_checked(tmp_path: Path) -> None:
+    path = tmp_path / "cloud.vtp"
+    write_snapshot(path, in_parts(cloud(0.1, 7), (3, 4)))
+    require_sizes(path)
+    text = path.read_bytes()
+    assert text.count(b"<Piece") > 1
+    last = text.rindex(b'NumberOfPoints="')
+    path.write_bytes(text[:last] + b'NumberOfPoints="9' + text[last + 17 :])
+    with pytest.raises(ValueError, match="bytes of data, not"):
+        require_sizes(path)

@@ -137,3 +137,24 @@ def test_missing_and_damaged_files_are_reported(case):
         _ = foamprb.open_run(case).record
     (run.folder / "run.json").write_text(json.dumps({"warnings": []}))
     assert foamprb.open_run(case).record == {"warnings": []}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (b'NumberOfPoints="6"', b'NumberOfPoints="900000000000"'),
+        (b'NumberOfPoints="6"', b'NumberOfPoints="-5"'),
+        (b'type="Float64"', b'type="Float32"'),
+        (b'offset="25"', b'offset="29"'),
+        (b'NumberOfComponents="9"', b'NumberOfComponents="8"'),
+    ],
+)
+def test_a_damaged_header_is_one_message(case, old, new):
+    """VTK would crash on it, hang, or read other numbers."""
+    file = case / "postProcessing/softCloud/softCloud_000000.vtp"
+    run, whole = foamprb.open_run(case), file.read_bytes()
+    assert len(run.cloud(0).points) == 6
+    assert old in whole
+    file.write_bytes(whole.replace(old, new))
+    with pytest.raises(InputError, match=r"softCloud_000000\.vtp: damaged"):
+        run.cloud(0)

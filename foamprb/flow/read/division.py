@@ -15,7 +15,7 @@ from foamprb.flow.mesh.lists import starts
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import listed
-from foamprb.flow.read.vtkfile import load_pyvista
+from foamprb.flow.read.vtk_guard import load_pyvista
 
 BOUNDARY = "boundary"
 _MOST_PATCHES = 1000

@@ -6,8 +6,10 @@ import contextlib
 import io
 import json
 import math
+import os
 import re
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,7 @@ from foamprb.flow.mesh.boundary import mix
 from foamprb.flow.mesh.cells import CELL_KINDS, CURVED
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.times import listed, pick_time
+from foamprb.flow.read.vtk_guard import load_pyvista, read_vtk, require_survival, times_of
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.optional import load
 
@@ -44,44 +47,6 @@ _NEAR = 1e-3
 """Distance of faces that lie on each other, as a fraction of their size."""
 
 
-def load_pyvista() -> Any:
-    """Import pyvista, by which mesh files are read.
-
-    Raises
-    ------
-    InputError
-        It is not installed.
-    """
-    return load("pyvista", "meshes", "mesh files need")
-
-
-def _times_of(path: Path) -> list[float]:
-    """Return the times of a VTK file, rising; empty if it has no times."""
-    return _times(load_pyvista().get_reader(path))
-
-
-def _read_vtk(path: Path, step: int | None = None) -> Any:
-    """Read a VTK file, at the ``step``-th of its times if it has any."""
-    pyvista = load_pyvista()
-    reader = pyvista.get_reader(path)
-    if step is not None and isinstance(reader, pyvista.HDFReader):
-        reader.reader.SetStep(step)
-    elif step is not None:
-        reader.set_active_time_value(_times(reader)[step])
-    return reader.read()
-
-
-def _times(reader: Any) -> list[float]:
-    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-
-    if not isinstance(reader, load_pyvista().HDFReader):
-        return list(getattr(reader, "time_values", None) or [])
-    # Pyvista ignores the times of these files.
-    reader.reader.UpdateInformation()
-    about, key = reader.reader.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
-    return list(about.Get(key)) if about.Has(key) else []
-
-
 def read_file(path: Path, time: float | str) -> Any:
     """Read the contents of a file at a time."""
     if not path.is_file():
@@ -97,7 +62,8 @@ def times_of_file(path: Path) -> list[str]:
         return list(_series(path))
     if path.suffix not in VTK_SUFFIXES:
         return []
-    times = _by_vtk(path, _times_of, path)
+    require_survival(path)
+    times = _by_vtk(path, times_of, path)
     for time in times:
         if not math.isfinite(time):
             raise InputError(f"{path}: the time {time:g} is not finite; the file is damaged.")
@@ -106,7 +72,7 @@ def times_of_file(path: Path) -> list[str]:
 
 def _by_vtk(path: Path, function: Callable[..., Any], *arguments: Any) -> Any:
     """Call a function that reads a file by VTK; raise VTK's errors."""
-    with vtk_messages() as messages:
+    with vtk_messages() as messages, _quiet(path):
         try:
             result = function(*arguments)
         except Exception as error:
@@ -121,7 +87,9 @@ def _read_by_vtk(path: Path, time: float | str) -> Any:
         path = _of_series(path, time)
     names = times_of_file(path)
     step = pick_time(path, names, time) if names else None
-    data = _by_vtk(path, _read_vtk, path, step)
+    if step is not None:
+        require_survival(path, step)
+    data = _by_vtk(path, read_vtk, path, step)
     if path.suffix == ".vtk":
         _require_whole(path)
     if path.suffix in _PIECES:
@@ -171,6 +139,23 @@ def _require_whole(path: Path) -> None:
         raise InputError(
             f"{path}: {words[0]} has {count} values, not {expected}; the file is broken or cut short."
         )
+
+
+@contextlib.contextmanager
+def _quiet(path: Path) -> Iterator[None]:
+    """Suppress messages that the HDF5 library prints beneath Python."""
+    if path.suffix != ".vtkhdf":
+        yield
+        return
+    sys.stderr.flush()
+    original = os.dup(2)
+    with open(os.devnull, "wb") as nothing:  # noqa: PTH123
+        os.dup2(nothing.fileno(), 2)
+    try:
+        yield
+    finally:
+        os.dup2(original, 2)
+        os.close(original)
 
 
 def _series(path: Path) -> dict[str, str]:

@@ -18,6 +18,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read import vtk_guard
 from foamprb.flow.read.describe import describe_file
 from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
 from foamprb.flow.read.source import Division
@@ -433,6 +434,34 @@ def test_starts_of_cells_that_do_not_fit_are_refused(start, tmp_path):
     assert int.from_bytes(data[at : at + 8], "big") == 8
     path.write_bytes(data[:at] + start.to_bytes(8, "big") + data[at + 8 :])
     with pytest.raises(InputError, match=r"flow\.vtk"):
+        read_mesh_file(path)
+
+
+def test_a_file_that_vtk_does_not_survive_is_refused(tmp_path):
+    """The points are said to lie in no compressed block instead of one."""
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtu"
+    shape.save(path)
+    text = path.read_text()
+    assert "AQAAAACAAACIAgAA" in text
+    path.write_text(text.replace("AQAAAACAAACIAgAA", "AAAAAACAAACIAgAA"))
+    with pytest.raises(InputError, match=r"flow\.vtu: VTK"):
+        read_mesh_file(path)
+
+
+def test_a_file_that_vtk_never_ends_with_is_refused(tmp_path, monkeypatch):
+    """It counts up to a number of components that is none."""
+    monkeypatch.setattr(vtk_guard, "_LEAST_TIME", 1)
+    path = tmp_path / "flow.vtu"
+    flowing().save(path)
+    text = path.read_text()
+    assert 'Name="U" NumberOfComponents="3"' in text
+    path.write_text(
+        text.replace('Name="U" NumberOfComponents="3"', f'Name="U" NumberOfComponents="{20 * "9"}"')
+    )
+    with pytest.raises(InputError, match="VTK has not finished within 1 s of processor time"):
         read_mesh_file(path)
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -169,3 +171,19 @@ def test_each_kind_of_cell_has_its_number_of_points(kind, size, tmp_path):
         else:
             with pytest.raises(InputError, match=f"does not have {size} points; the file is broken"):
                 vtkfile._require_lists(grid, tmp_path)
+
+
+@pytest.mark.parametrize("fails", [False, True])
+@pytest.mark.parametrize(("name", "silent"), [("flow.vtkhdf", True), ("flow.vtu", False)])
+def test_only_while_an_hdf5_file_is_read_the_standard_error_is_silent(name, silent, fails, capfd):
+    """Beneath Python, where the library writes."""
+    os.write(2, b"before ")
+    try:
+        with vtkfile._quiet(Path(name)):
+            os.write(2, b"within ")
+            if fails:
+                raise InputError("broken")
+    except InputError:
+        assert fails
+    os.write(2, b"after")
+    assert capfd.readouterr().err == ("before after" if silent else "before within after")
