@@ -9,8 +9,10 @@ import os
 import re
 import signal
 import sys
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from types import FrameType
 from typing import TYPE_CHECKING, NoReturn, Protocol, TextIO
 
 import foamprb
@@ -22,6 +24,9 @@ from foamprb.memory import OutOfMemory, ran_out
 
 if TYPE_CHECKING:
     from foamprb.cloud.communicator import Communicator
+
+_DEFERRED = 0.02
+"""Time between two attempts to interrupt, s."""
 
 
 class Command(Protocol):
@@ -145,11 +150,38 @@ def main(arguments: Sequence[str] | None = None) -> int:
     def answer(comm: Communicator | None = None) -> int:
         return _exit_status(words, lambda: _do(words, comm))
 
-    if "--parallel" not in words:
-        return answer()
-    from foamprb.distributed.launch import run_together
+    with _interrupted_between_imports():
+        if "--parallel" not in words:
+            return answer()
+        from foamprb.distributed.launch import run_together
 
-    return _exit_status(words, lambda: run_together(answer))
+        return _exit_status(words, lambda: run_together(answer))
+
+
+@contextmanager
+def _interrupted_between_imports() -> Iterator[None]:
+    """Defer Ctrl-C to the end of an import: VTK crashes if the loading of its modules is interrupted."""
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        place = frame
+        while place is not None and place.f_code is not main.__code__:
+            if place.f_code.co_filename == "<frozen importlib._bootstrap>":
+                again = threading.Timer(_DEFERRED, os.kill, (os.getpid(), number))
+                again.daemon = True
+                again.start()
+                return
+            place = place.f_back
+        signal.default_int_handler(number, frame)
+
+    alone = threading.current_thread() is threading.main_thread()
+    if not alone or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield
+        return
+    signal.signal(signal.SIGINT, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _do(words: Sequence[str], comm: Communicator | None) -> int:

@@ -25,6 +25,7 @@ _AT_ONCE = 1 << 14
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 _QUOTE = '"'
 _SPECIAL = re.compile(r'[,"\r\n]')
+_FORMULA, _QUOTED = re.compile(r"'*[=+\-@\t]"), re.compile(r"''*[=+\-@\t]")
 
 
 class Rows(NamedTuple):
@@ -163,7 +164,7 @@ def _typed(words: Sequence[str], stay: bool) -> NDArray[Any]:
             return np.array(words, dtype=str).astype(kind)
         except ValueError:
             continue
-    return np.array(words, dtype=str)
+    return np.array([word[1:] if _QUOTED.match(word) else word for word in words], dtype=str)
 
 
 def as_column(name: str, column: Column) -> NDArray[Any]:
@@ -190,4 +191,7 @@ def _texts(column: NDArray[Any]) -> list[str]:
 
 def _cell(value: object) -> str:
     text = str(value)
+    # Spreadsheets take such words for formulas; read_table removes the apostrophe.
+    if isinstance(value, str) and _FORMULA.match(text):
+        text = f"'{text}"
     return f'"{text.replace(_QUOTE, 2 * _QUOTE)}"' if _SPECIAL.search(text) else text

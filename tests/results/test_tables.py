@@ -36,6 +36,16 @@ def test_text_round_trips(tmp_path_factory: pytest.TempPathFactory, texts: list[
     assert found.tolist() == np.array(texts).tolist()
 
 
+@pytest.mark.parametrize("word", ["=1+1", "+x", "-patch", "@SUM(A1)", "'=x", "'plain", "a=b"])
+def test_no_word_is_a_formula(tmp_path: Path, word: str) -> None:
+    """Spreadsheets would compute it."""
+    path = tmp_path / "t.csv"
+    write_table(path, {"patch": [word], "x": [-1.0]})
+    assert read(path)[1][0][0] not in "=+-@"
+    assert read_table(path, ["patch"])["patch"].tolist() == [word]
+    assert read(path)[1][1] == "-1.0"
+
+
 def test_shortest_digits(tmp_path: Path) -> None:
     path = tmp_path / "t.csv"
     write_table(

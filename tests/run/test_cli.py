@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import signal
 import subprocess
 import sys
+import time
 from itertools import product
 
 import pytest
@@ -84,6 +86,23 @@ def test_a_closed_or_full_output_is_no_traceback(shell, status):
     assert done.returncode == status
     assert done.stderr.count("\n") == status
     assert ("No space left" in done.stderr) == bool(status)
+
+
+def test_an_import_is_finished_before_an_interruption(tmp_path, monkeypatch, capsys):
+    """VTK crashes if the loading of its modules is interrupted."""
+    text = "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(0.05)\n"
+    (tmp_path / "slow_module.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def execute(_arguments):
+        importlib.import_module("slow_module")
+        time.sleep(1.0)
+
+    monkeypatch.setattr("foamprb.cli.help.execute", execute)
+    assert main(["help"]) == 130
+    assert "stopped by the user" in capsys.readouterr().err
+    assert "slow_module" in sys.modules
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_names_that_are_no_text_are_one_message(capsys):
