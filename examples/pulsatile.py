@@ -10,13 +10,9 @@ from matplotlib import pyplot as plt
 import foamprb
 
 RADIUS, NU, PERIOD, RHO = 1e-3, 1e-6, 1.0, 1000.0  # pipe, m; water, m²/s; period, s; density, kg/m³
-MU = NU * RHO
-
 AMPLITUDE, OMEGA = 0.05, 2.0 * np.pi / PERIOD  # of the pressure gradient over the density, m/s²; 1/s
-
 # Womersley's profile 1 - J0(k r/a)/J0(k) by the series of the Bessel function in (r/a)², its end first.
-terms = 0.25j * RADIUS**2 * OMEGA / NU / np.arange(1, 40) ** 2
-terms = np.cumprod(np.append(1.0, terms))
+terms = np.cumprod(np.append(1.0, 0.25j * RADIUS**2 * OMEGA / NU / np.arange(1, 40) ** 2))
 profile = -terms / terms.sum()
 profile[0] += 1.0
 REAL, IMAGINARY = (tuple(part[::-1].tolist()) for part in (profile.real, profile.imag))
@@ -28,15 +24,14 @@ def velocity(x, y, z, t):
     real = imaginary = 0.0 * s
     for k in range(40):
         real, imaginary = real * s + REAL[k], imaginary * s + IMAGINARY[k]
-    swing = AMPLITUDE / OMEGA * (real * np.sin(OMEGA * t) + imaginary * np.cos(OMEGA * t))
-    return swing, 0.0 * x, 0.0 * x
+    return AMPLITUDE / OMEGA * (real * np.sin(OMEGA * t) + imaginary * np.cos(OMEGA * t)), 0.0 * x, 0.0 * x
 
 
 flow = foamprb.analytic.function(velocity, length=RADIUS, time=PERIOD)
 stiffness = np.array([10.0, 0.01])  # shear moduli, Pa
 start = np.tile([10.0, 0.7 * RADIUS, 0.0], (2, 1))
 bodies = foamprb.spheres(start, d=1e-5, rho=RHO, mu=stiffness)
-water = foamprb.Medium(mu=MU, rho=RHO, gravity=(0.0, 0.0, 0.0))
+water = foamprb.Medium(mu=NU * RHO, rho=RHO, gravity=(0.0, 0.0, 0.0))
 cloud = foamprb.Cloud(bodies, flow, water, [], 2e-3, foamprb.Models(integrator="stokes"))
 
 times, D, rate = [], [], []
@@ -47,7 +42,7 @@ for _ in range(200):
     D.append((stretch[:, 0] - stretch[:, 2]) / (stretch[:, 0] + stretch[:, 2]))
     rate.append(flow.sample(bodies.x, bodies.host, cloud.time)[1][0, 0, 1])
 times, D, rate = np.array(times), np.array(D), np.abs(rate)
-follows = 1.25 * MU * rate / stiffness[0]  # for small deformations in steady shear
+follows = 1.25 * NU * RHO * rate / stiffness[0]  # for small deformations in steady shear
 second = times > PERIOD
 error = np.abs(D[:, 0] - follows)[second].max() / follows.max()
 print(f"stiff body: D is 5/4 of the capillary number to {100 * error:.2f} %")

@@ -99,6 +99,10 @@ class _Entry(_Inlined):
         self._finish()
 
     def _finish(self) -> None:
+        # Another loop may hold a function of the same name that calls other stages.
+        for function in self.get_defined_functions():
+            if function.linkage == binding.Linkage.linkonce_odr:
+                function.linkage = "internal"
         self._finalize_final_module()
 
     def serialize_using_object_code(self) -> Any:

@@ -30,7 +30,6 @@ import numpy as np
 from foamprb.body.tensor import select
 from foamprb.compile.cache import Store
 from foamprb.compile.part import Keys, Part
-from foamprb.compile.record_type import register_records
 from foamprb.compile.trace import TRACED, branch
 
 if TYPE_CHECKING:
@@ -95,6 +94,8 @@ def link(
     NameError
         If no linked function reads a name in ``bindings`` (:func:`read_by` selects from a larger set).
     """
+    from foamprb.compile.record_type import register_records
+
     register_records()
     bindings = dict(bindings or {})
     unread = bindings.keys() - read_by(entry, bindings).keys()

@@ -48,7 +48,11 @@ CONSTANT = Mass(np.ones(1), np.ones(1), np.zeros(1))
 
 
 class Balanced(NamedTuple):
-    """Outcome of :class:`Balance`: ratios of root mean squares to those of the flow, and a count."""
+    """Outcome of :class:`Balance`: ratios of root mean squares to those of the flow, and a count.
+
+    A flow that starts from rest has fluxes at its openings only: the change is compared with the largest flux
+    through the boundary if that is larger.
+    """
 
     left: float
     """Mass that cells still make or lose."""
@@ -129,16 +133,16 @@ class Balance:
         size = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells + gained)
         y, left, iterations = self._equations.solve(rest, BALANCED * size)
         y = self._get(y)
-        change = fluxes.copy()
+        given = fluxes.copy()
         fluxes += weight * y[owner]
         fluxes[:n] -= weight[:n] * y[neighbour]
-        change -= fluxes
+        change = given - fluxes
         fluxes /= density
         self._comm.fill("faces", fluxes)
         squares = total_of(change[self._faces] ** 2, self._of_all)
         changed = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells)
-        size = max(size, 1e-300)
-        return Balanced(left / size, changed / size, iterations)
+        strongest = max(self._of_all(float(np.abs(given[n:]).max(initial=0.0)))) * math.sqrt(self._n_cells)
+        return Balanced(left / max(size, 1e-300), changed / max(size, strongest, 1e-300), iterations)
 
 
 def _segments(cells: int) -> Index:

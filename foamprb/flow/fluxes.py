@@ -38,7 +38,7 @@ _CLOSED = frozenset({"empty", "symmetry", "symmetryPlane"})
 _LEAST_ALONG = 0.02
 """Least cosine between a face's normal and the line of the cell centres that counts in its weight."""
 _LARGEST_CHANGE = 2.0
-"""Largest change of the fluxes over the flow (rms); a flow that starts from rest at an inlet changes by 1."""
+"""Largest change of the fluxes (rms) over the flow, or over its largest flux through the boundary."""
 # Sum of squares of what the tetrahedra of a cell may still lack, over that of their fluxes.
 _EXACT = 1e-14
 _ROWS = 7

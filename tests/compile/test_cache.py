@@ -384,6 +384,19 @@ class TestStages:
             forget()
         assert hits == [0, 0, 1, 1]
 
+    @pytest.mark.usefixtures("folder")
+    def test_loops_of_one_process_keep_their_stages(self, forget):
+        """The code of both is that of the first, with a function of its own that calls a stage."""
+        stages = [traced(bound(small_program.formed, formula=f)) for f in (doubled, tripled)]
+        for _ in range(2):
+            results = []
+            for stage in stages:
+                values = np.ones(small_program.LANES)
+                link(small_program.calls_once, {"formed": stage}, (small_program.calling, stage))(values)
+                results.append(values[0])
+            assert results == [3.0, 4.0]
+            forget()
+
     def test_what_is_kept_of_an_entry_names_no_stage(self, folder):
         self.found(small_program.stage)
         stage, entry = (p.keys for p in linking._parts.values() if p.keys.own != p.keys.outside)
@@ -396,7 +409,7 @@ class TestProcessors:
     def test_code_of_another_processor_is_not_used(self, folder, monkeypatch, forget):
         """A home may be shared by many machines."""
         assert compiled() == 0
-        monkeypatch.setattr(linking, "_processor", lambda: "another with other features")
+        monkeypatch.setattr(linking, "_compiler", lambda **_: "another processor")
         forget()
         assert not is_compiled(link(small_program.outer, separate=(small_program.middle,)))
         assert compiled() == 0
