@@ -147,13 +147,9 @@ def test_parts_of_a_case_with_coupled_patches_are_the_whole(name, tool, cases, t
         assert_same(read_case(case, gradient=gradient), parts)
 
 
-@pytest.mark.parametrize("addressed", [True, False])
-def test_nodes_read_a_case_with_cut_cyclic_patches(addressed, tool, cases, tmp_path, random):
-    """With addressing files, or joined over processor patches."""
+def test_nodes_read_a_case_with_cut_cyclic_patches(tool, cases, tmp_path, random):
     case = shutil.copytree(cases("cyclic"), tmp_path / "case")
     tool.decomposed(case)
-    for path in case.glob("processor*/constant/polyMesh/*Addressing") if not addressed else ():
-        path.unlink()
     whole = steady_flow(DecomposedCase(case), "latestTime", FlowSource())
     x = random.uniform(*whole.bounds, (300, 3))
     hosts = whole.locate(x)

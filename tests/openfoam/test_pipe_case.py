@@ -15,6 +15,8 @@ from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
+CASE = PIPE
+
 
 def test_committed_flow_is_what_a_live_run_gives(live):
     committed, fresh = read_case(PIPE), read_case(live)

@@ -20,7 +20,7 @@ from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.fluid import apparent_viscosity
 from foamprb.flow.read.source import Division, FlowSource
 from foamprb.run.job import prepare
-from foamprb.run.template import FlowScales, _nice, diameter, scales_of, times, write_template
+from foamprb.run.template import FlowScales, _nice, diameter, rates_on_paths, scales_of, times, write_template
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import read_settings
 
@@ -268,6 +268,15 @@ def scales(**changed):
     values = {"speed": 1.0, "step": 1e-3, "duration": 2.0, "shear": 10.0, "most_shear": 100.0, "cell": 1e-3,
               "volume": 1e-3, "inlet": ""}  # fmt: skip
     return FlowScales(**(values | changed))
+
+
+def test_stiffness_is_that_for_the_rates_where_the_fluid_goes(case):
+    """In a pipe of wall rate γ̇_w half of the fluid passes where the rate is below γ̇_w √(1 − 1/√2)."""
+    flow = read_flow(case)
+    found = rates_on_paths(flow, scales_of(flow))
+    wall = scales_of(flow).most_shear
+    assert np.median(found) == pytest.approx(wall * np.sqrt(1.0 - np.sqrt(0.5)), rel=0.25)
+    assert found.max() < 1.1 * wall
 
 
 def test_times_are_multiples_of_each_other():
