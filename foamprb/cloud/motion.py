@@ -45,6 +45,7 @@ from foamprb.cloud.contact import first_contact, note, on_cubic, slope_on_cubic
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Reason, Status
+from foamprb.compile.record import record
 from foamprb.flow.analytic import cell_volume_free as cell_volume
 from foamprb.flow.analytic import cross_free as cross
 from foamprb.flow.analytic import gap_free as gap
@@ -85,6 +86,7 @@ BOND_FORMS, BOND_LOOSENS, BOND_FORCE, BOND_LIMIT, BOND_SEED = range(5)
 """Columns of :attr:`PatchTable.bonds`."""
 
 
+@record
 class PatchTable(NamedTuple):
     """Interaction of each patch: its code, and the entries of ``rebound`` and ``adhere``."""
 
