@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
+from contextlib import nullcontext
 
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.state import Status
 from foamprb.distributed.launch import caught_signals
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.results.folder import FAILURES
-from foamprb.run.compilation import compile_run
+from foamprb.run.compilation import Compilation, compile_run
 from foamprb.run.job import Job
 from foamprb.run.log import RunLog, progress_bar
 from foamprb.run.results import HOW_TO_GO_ON, Results, open_results
@@ -64,7 +65,7 @@ def execute(
             raise RunStopped(f"stopped before the first step{following.reason}.")
         results.write_start()
         stepper = Stepper(cloud)
-        schedule = _Schedule(stepper)
+        schedule = _Schedule(stepper, job.compilation)
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
             while cloud.step < job.steps and (cloud.step == 0 or _moving(cloud)) and not _failing(job):
@@ -177,8 +178,8 @@ _SLOWER, _FASTER = 0.1, 4.0
 class _Schedule:
     """Number of steps per call of the stepper, large enough that loading and storing particles is cheap."""
 
-    def __init__(self, stepper: Stepper) -> None:
-        self.stepper = stepper
+    def __init__(self, stepper: Stepper, compilation: Compilation) -> None:
+        self.stepper, self.compilation = stepper, compilation
         self._steps: float = 0.0
 
     def advance(self, target: int, stop: Callable[[], bool]) -> None:
@@ -186,7 +187,10 @@ class _Schedule:
         steps = self._next_steps(target)
         # A call that includes compilation is no measure of the next.
         compiled, started = self.stepper.cloud.tracker.compiled, clock.perf_counter()
-        self.stepper.advance(steps, stop)
+        # Of several ranks, each compiles the loop with its first steps.
+        with nullcontext() if compiled else self.compilation.shown():
+            self.stepper.advance(steps, stop)
+        self.compilation.log_end()
         if compiled:
             seconds = clock.perf_counter() - started
             wanted = max(_CALL, min(_LONG, _FEW * seconds / steps))

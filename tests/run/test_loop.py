@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import logging
+import time
 from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
+from numba.core import event
 
 from foamprb.cloud.state import Status
 from foamprb.run import loop
+from foamprb.run.compilation import Compilation
 from foamprb.run.loop import _Schedule
 
 
@@ -17,7 +21,7 @@ def calls(wanted: float, target: int, most: float = 1e9, whole: int = 1, step: i
     tracker = SimpleNamespace(whole=whole, movable=(Status.PENDING, Status.ACTIVE))
     cloud = SimpleNamespace(step=step, tracker=tracker, counts=lambda: {Status.PENDING: 1, Status.ACTIVE: 3})
     stepper = SimpleNamespace(cloud=cloud)
-    schedule, found = _Schedule(cast("Any", stepper)), []
+    schedule, found = _Schedule(cast("Any", stepper), Compilation()), []
     schedule._steps = wanted
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(loop, "MOST_STEPS", 4 * most)
@@ -43,3 +47,20 @@ def test_calls_end_where_steps_through_several_do() -> None:
     assert calls(30.0, 100, whole=4) == [36, 32, 32]
     assert calls(0.2, 11, whole=4) == [4, 4, 3]
     assert calls(5.0, 22, whole=8, step=3) == [5, 8, 6]
+
+
+def test_compilation_with_the_first_steps_is_logged(monkeypatch, caplog) -> None:
+    def advance(*_: Any) -> None:
+        end = time.monotonic() + 5.0
+        with event.trigger_event("numba:compile"):
+            while not caplog.messages and time.monotonic() < end:
+                time.sleep(1e-3)
+
+    monkeypatch.setattr("foamprb.run.compilation._TICK", 1e-3)
+    tracker = SimpleNamespace(compiled=False, whole=1, movable=(Status.ACTIVE,))
+    cloud = SimpleNamespace(step=0, tracker=tracker, counts=lambda: {Status.ACTIVE: 1})
+    stepper = SimpleNamespace(cloud=cloud, advance=advance)
+    with caplog.at_level(logging.INFO, "foamprb"):
+        _Schedule(cast("Any", stepper), Compilation()).advance(1, lambda: False)
+    assert caplog.messages[0].startswith("Compiling the formulas, once")
+    assert caplog.messages[-1] == "Compiled in 0 s"
