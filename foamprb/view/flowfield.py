@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -149,20 +148,19 @@ def sample_grid(flow: MeshFlow) -> Grid:
     shape = points.shape[:3]
     points = points.reshape(-1, 3)
     hosts = flow.locate(points)
-    inside = np.flatnonzero(hosts >= 0)
+    inside, outside = np.flatnonzero(hosts >= 0), np.flatnonzero(hosts < 0)
+    nearest = np.arange(len(points))
     u, l = np.zeros((len(points), 3)), np.zeros((len(points), 9))
     if len(inside):
         u[inside], own = flow.sample(points[inside], hosts[inside], 0.0)
         l[inside] = own.reshape(-1, 9)
-    spacing = np.maximum((high - low) / np.maximum(number - 1, 1), 1e-300)[::-1]
-    outside = (hosts < 0).reshape(shape)
-    nearest = distance_transform_edt(outside, spacing, return_distances=False, return_indices=True)
+        nearest[outside] = inside[cKDTree(points[inside]).query(points[outside])[1]]
     values = {"speed": np.linalg.norm(u, axis=1), "shearRate": _rate(l)}
     return Grid(
         low,
         high,
         u.reshape(*shape, 3),
-        {name: own.reshape(shape)[tuple(nearest)] for name, own in values.items()},
+        {name: own[nearest].reshape(shape) for name, own in values.items()},
     )
 
 

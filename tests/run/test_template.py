@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import shutil
+import subprocess
+import sys
 from itertools import product
 from pathlib import Path
 
@@ -38,6 +40,13 @@ def test_template_is_accepted_without_warnings(case, capsys):
     said = capsys.readouterr().out
     assert "Warning" not in said
     assert "particles                1000" in said
+
+
+def test_a_case_is_read_without_vtk(case):
+    command = f"main(['init', '-case', {str(case)!r}])"
+    code = f"import sys; from foamprb.cli import main; {command}; print('vtkmodules' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "False"
 
 
 def test_settings_of_a_case_that_cannot_be_written(case, tmp_path, capsys, monkeypatch):

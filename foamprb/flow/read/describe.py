@@ -11,11 +11,9 @@ import numpy as np
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.fluid import describe_viscosity
-from foamprb.flow.read.meshfile import open_file
 from foamprb.flow.read.openfoam import Case
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import listed
-from foamprb.flow.read.vtkfile import times_of_file
 
 
 class TimeInfo(NamedTuple):
@@ -93,6 +91,10 @@ def describe_file(path: Path, velocity: str = "U", division: Division | None = N
     InputError
         See :func:`foamprb.flow.read.meshfile.read_mesh_file`.
     """
+    # Only mesh files need VTK.
+    from foamprb.flow.read.meshfile import open_file
+    from foamprb.flow.read.vtkfile import times_of_file
+
     grid, mesh, _, note = open_file(path, velocity, "latestTime", division)
     bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
     kinds = _kinds(mesh.face_start, mesh.owner, mesh.neighbour, mesh.n_cells)

@@ -11,7 +11,6 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import is_only_decomposed, later_times, processor_folders, regions, require_region
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.describe import describe, describe_file
-from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
 from foamprb.flow.read.mrf import Rotation, read_rotations
 from foamprb.flow.read.openfoam import Case, steady_flow, transient_flow
 from foamprb.flow.read.source import FlowSource
@@ -74,6 +73,9 @@ def read_flow(case: Path, time: float | str = "latestTime", source: FlowSource |
     source = source or FlowSource()
     if source.file is None:
         return steady_flow(open_case(case, source), time, source)
+    # Only mesh files need VTK.
+    from foamprb.flow.read.meshfile import read_mesh_file
+
     _refuse_of_case(source)
     return read_mesh_file(
         source.file, source.velocity, time=time, gradient=source.gradient, division=source.division
@@ -105,6 +107,8 @@ def read_transient_flow(case: Path, times: str | None, period: float | None, sou
         have.
     """
     if source.file is not None:
+        from foamprb.flow.read.meshfile import read_mesh_series
+
         _refuse_of_case(source)
         return read_mesh_series(
             source.file, times, period, source.velocity, gradient=source.gradient, division=source.division
