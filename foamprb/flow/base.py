@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, NamedTuple, Protocol, TypeAlias
+from typing import Any, NamedTuple, Protocol, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -67,10 +67,22 @@ NO_PLANES = Planes(math.inf, (0.0, 0.0, 0.0), math.inf, (0.0, 0.0, 0.0), math.in
 """Value where no wall is near."""
 
 
+FAULTS = ("movingMesh",)
+"""Faults of a flow by which fates are worthless: errors, unless ``solution/accept`` names them."""
+
+
 class Caveat(str):
     """Warning about a property of a flow that particles will not feel."""
 
-    __slots__ = ()
+    __slots__ = ("fault",)
+    fault: str
+    """One of :data:`FAULTS`; empty for a warning that ends no run."""
+
+    def __new__(cls, text: str, fault: str = "") -> Self:
+        """Return a warning with its fault."""
+        caveat = super().__new__(cls, text)
+        caveat.fault = fault
+        return caveat
 
 
 class PatchFaces(NamedTuple):

@@ -199,10 +199,12 @@ def prepare(
         if flows is not None and not settings.solution.transient:
             flows[source] = flow
         for note in flow.notes:
-            if isinstance(note, Caveat):
-                log.warning("%s", note)
-            else:
+            if not isinstance(note, Caveat):
                 log.info("    %s", note)
+            elif note.fault and note.fault not in settings.solution.accept:
+                raise InputError(f"{case}: {note} Allowed: to go on, solution/accept ( {note.fault} ).")
+            else:
+                log.warning("%s", note)
         if following is not None:
             _wait_for_injections(settings, following)
         job = assemble(settings, flow, threads, following is not None, comm)

@@ -17,7 +17,7 @@ from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.dictionary.constraints import Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
-from foamprb.flow.base import WALLS, Patch
+from foamprb.flow.base import WALLS, Caveat, Patch
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import available_times, is_only_decomposed
 from foamprb.flow.read.caveats import is_steady, turbulence_fields
@@ -151,7 +151,7 @@ solution
     deltaT {step:g}; // {_said("solution", "deltaT", "a fifth of a cell in the flow")}
     endTime {end:g}; // {_said("solution", "endTime")}
     writeInterval {interval:g}; // {_said("solution", "writeInterval")}
-{_lines(rotating or _transient(case, source))}}}
+{_lines([*_faults(flow), *(rotating or _transient(case, source))])}}}
 
 constantProperties
 {{
@@ -499,6 +499,12 @@ def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     if not fields:
         return []
     return [f"dispersionModel none; // or stochasticDispersionRAS: {' and '.join(fields)} are available", ""]
+
+
+def _faults(flow: MeshFlow) -> list[str]:
+    """Return a hint for each fault of a flow with which a run ends."""
+    faults = [note for note in flow.notes if isinstance(note, Caveat) and note.fault]
+    return [f"// accept ( {note.fault} ); // to go on, although {note.split(':')[0]}" for note in faults]
 
 
 def _transient(case: Path, source: FlowSource) -> list[str]:

@@ -17,6 +17,7 @@ from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.schema import Instead, read_entries, read_entry
 from foamprb.dictionary.tree import Dictionary, Entry
 from foamprb.errors import InputError
+from foamprb.flow.base import FAULTS
 
 __all__ = ["STRIDE", "Solution", "StartFrom", "read_solution"]
 
@@ -149,6 +150,15 @@ class Solution:
             "none",
         ),
     ] = Limits.maxCells
+    accept: Annotated[
+        Words,
+        Choice(FAULTS),
+        Meaning(
+            "`( name … )`, faults of the flow with which the run goes on, where it would end with an error: "
+            "`movingMesh`, a mesh that moves is read at one time",
+            default="none",
+        ),
+    ] = ()
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, _NOT_COUPLED] = False
     transient: Annotated[

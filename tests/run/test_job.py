@@ -16,8 +16,10 @@ from foamprb.cli import main
 from foamprb.cloud.measures import MEASURES, OPTIONAL
 from foamprb.cloud.tracker import Tracker
 from foamprb.cloudfunctions.base import STATUS_NAMES
+from foamprb.errors import InputError
 from foamprb.results.pvd import read_pvd
 from foamprb.run.job import likely_integrator, prepare
+from foamprb.run.template import write_template
 from foamprb.settings.settings import read_settings
 
 HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,a,b,c,D"
@@ -179,6 +181,17 @@ def test_overrides_take_the_place_of_entries(case):
     assert job.description["settings"]["overrides"] == {
         name: f"{value:g};" for name, value in changes.items()
     }
+
+
+def test_a_mesh_that_moves_is_an_error_unless_accepted(case):
+    (case / "constant/dynamicMeshDict").write_text("dynamicFvMesh dynamicMotionSolverFvMesh;")
+    with pytest.raises(InputError, match=r"moves \(dynamicMotionSolverFvMesh\).*accept \( movingMesh \)"):
+        prepare(case)
+    assert prepare(case, overrides={"solution/accept": ["movingMesh"]}).cloud.size
+    (case / "constant/softCloudProperties").unlink()
+    assert (
+        "// accept ( movingMesh ); // to go on, although the mesh moves" in write_template(case).read_text()
+    )
 
 
 def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):

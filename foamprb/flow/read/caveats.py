@@ -20,7 +20,8 @@ from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
 from foamprb.flow.read.field import FoamField, Kind
 
-_STATIC = "staticFvMesh"
+_AT_REST = frozenset({"staticFvMesh", "dynamicRefineFvMesh"})
+"""Types of meshes whose points keep their places."""
 _ZERO = re.compile(rb"internalField\s+uniform\s+0(?:\.0*)?\s*;")
 _VARIES = re.compile(rb"internalField\s+nonuniform")
 _HEAD = 1 << 16
@@ -216,14 +217,19 @@ def _moving(case: Path, region: str, folder: Path) -> Iterator[Caveat]:
     try:
         root = find_dictionary(case, region, "dynamicMeshDict")
         kind = "" if root is None else word_of(root, "dynamicFvMesh") or "dynamicMeshDict"
+        # OpenFOAM.org has an entry for each way in which a mesh changes.
+        if root is not None and "mover" not in root.entries and "topoChanger" in root.entries:
+            kind = ""
     except InputError:
         kind = "dynamicMeshDict"
-    if kind in ("", _STATIC):
-        kind = "points at this time" if existing(folder / "polyMesh/points") is not None else ""
+    moved, remade = (existing(folder / "polyMesh" / part) is not None for part in ("points", "faces"))
+    if kind in ("", *_AT_REST):
+        kind = "points at this time" if moved and not remade else ""
     if kind:
         yield Caveat(
             f"the mesh moves ({kind}), but is read at one time: it stands still, and particles meet its "
-            "walls where they are at this time."
+            "walls where they are at this time.",
+            "movingMesh",
         )
 
 

@@ -120,6 +120,15 @@ def test_points_of_a_time_are_a_mesh_that_moves(case):
     shutil.copy(case / "constant/polyMesh/points", case / "1e1/polyMesh/points")
     (found,) = caveats(case)
     assert "the mesh moves (points at this time)" in found
+    # The mesh of a generator that writes a time has faces there, too.
+    shutil.copytree(case / "constant/polyMesh", case / "1e1/polyMesh", dirs_exist_ok=True)
+    assert caveats(case) == []
+
+
+@pytest.mark.parametrize("kind", ["dynamicFvMesh dynamicRefineFvMesh;", "topoChanger { type refiner; }"])
+def test_a_mesh_that_is_refined_does_not_move(case, kind):
+    put(case / "constant/dynamicMeshDict", kind)
+    assert caveats(case) == []
 
 
 def test_a_series_warns_once_and_of_its_own_times(case):
