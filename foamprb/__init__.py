@@ -43,22 +43,22 @@ Particles in a flow:
     FailedParticlesWarning  particles of a cloud failed: how many, and why
     ValidityWarning     steps are too long for a model
     Gravity             a force: weight less buoyancy
-    PressureGradient    a force: that of the undisturbed flow's pressure gradient
-    VirtualMass         a force: that of the fluid that an accelerating particle accelerates
+    PressureGradient    a force: pressure gradient of the undisturbed flow
+    VirtualMass         a force: inertia of the fluid that a particle accelerates
     DuctLift            a force: lift by inertia of the fluid on neutral particles in a duct
     FaxenCorrection     the mean over the body of a flow that is curved
     SaffmanMeiLift      lift by inertia of the fluid on a sphere that slips in shear
-    WallLift            what walls send back of a soft particle near them
+    WallLift            drift of a soft particle away from walls
     BrownianMotion      push by the fluid's molecules
-    Swimming            swimming of bodies in a direction of their own
+    Swimming            self-propelled bodies
     Fates               limits at which bodies rupture or release their contents
     FateLimits          such limits: of a stretch, a stress or a dose
     StochasticDispersion  eddies of a turbulent flow, of random velocity
-    GradientDispersion  eddies that go from where they are strong to where they are weak
+    GradientDispersion  eddy velocities down the gradient of k
     Stick               a patch that holds the particles that touch it
-    Rebound             one from which they bounce off
-    Adhere              one to which they stick by bonds that form and break
-    Escape              one through which they leave
+    Rebound             a patch from which particles bounce off
+    Adhere              a patch to which particles stick by bonds that form and break
+    Escape              a patch through which particles leave
     patch_interactions  the interaction of each patch of a flow
     context             prepare particles for measuring
     measure             shape, orientation, rotation and load of particles

@@ -65,28 +65,28 @@ def lines(arguments: argparse.Namespace) -> list[str]:
     from foamprb.body.bonds import force_on_held_sphere
     from foamprb.body.estimate import SoftSphere, Surroundings, across_forces, estimate, shear_modulus
 
-    given = vars(arguments)
+    entries = vars(arguments)
     names = (*(name for _, name, *_ in _NUMBERS), *(name for _, name, *_ in _STIFFNESS))
     for name in names:
-        value = given[name]
+        value = entries[name]
         if value is not None and not (value > 0.0 or (value == 0.0 and name in _MAY_VANISH)):
             raise InputError(f"{name} is {value:g}. Allowed: a number > 0.")
-    d, h, width = given["diameter"], given["wallDistance"], given["channelWidth"]
+    d, h, width = entries["diameter"], entries["wallDistance"], entries["channelWidth"]
     if h < 0.5 * d:
         raise InputError(f"wallDistance is {h:g}. Allowed: at least half the diameter, {0.5 * d:g}.")
     if width < math.inf and not h < 0.5 * width:
         raise InputError(f"wallDistance is {h:g}. Allowed: less than half of channelWidth, {0.5 * width:g}.")
     around = Surroundings(
-        given["mu"], given["rhoInf"], given["shearRate"], h, given["temperature"], given["gravity"]
+        entries["mu"], entries["rhoInf"], entries["shearRate"], h, entries["temperature"], entries["gravity"]
     )
-    modulus = given["shearModulus"] or shear_modulus(given["Ca"], given["mu"], given["shearRate"])
-    sphere = SoftSphere(d, given["rho0"], modulus)
-    e = estimate(sphere, around, given["residenceTime"])
+    modulus = entries["shearModulus"] or shear_modulus(entries["Ca"], entries["mu"], entries["shearRate"])
+    sphere = SoftSphere(d, entries["rho0"], modulus)
+    e = estimate(sphere, around, entries["residenceTime"])
     lift_off = "within the particle: it does not lift off"
     facts = [
         ("shear modulus [Pa]", modulus, ""),
         ("capillary number", e.capillary_number, "below 1e-3 a rigid sphere suffices"),
-        ("shear stress [Pa]", given["mu"] * given["shearRate"], "of the fluid"),
+        ("shear stress [Pa]", entries["mu"] * entries["shearRate"], "of the fluid"),
         ("Reynolds number", e.reynolds_number, "above 0.01 to 0.1 fluid inertia lifts: see -channelWidth"),
         ("Stokes number", e.stokes_number, "below 0.01 the particle follows the flow"),
         ("Peclet number", e.peclet_number, "below 10 BrownianMotion turns and moves it"),
@@ -103,7 +103,7 @@ def lines(arguments: argparse.Namespace) -> list[str]:
         ),
         (
             "force if stuck [N]",
-            force_on_held_sphere(0.5 * d, given["shearRate"], given["mu"]),
+            force_on_held_sphere(0.5 * d, entries["shearRate"], entries["mu"]),
             "of this shear on a sphere at a wall, and on its bonds: adhere",
         ),
         ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),

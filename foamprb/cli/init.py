@@ -27,7 +27,7 @@ def execute(arguments: argparse.Namespace) -> int:
     file = write_template(arguments.case, source, arguments.output)
     case = "" if arguments.case == Path() else f" -case {shlex.quote(str(arguments.case))}"
     region = f" -region {source.region}" if source.region else ""
-    chosen = f" -dict {shlex.quote(str(file.resolve()))}" if arguments.output else ""
-    run = f"foamprb run{case}{source.options}{chosen}"
+    option = f" -dict {shlex.quote(str(file.resolve()))}" if arguments.output else ""
+    run = f"foamprb run{case}{source.options}{option}"
     print(f"{file} is written. Look through it, then: {run} -dry-run, {run}, foamprb view{case}{region}.")
     return 0

@@ -143,8 +143,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     if "_ARGCOMPLETE" in os.environ:
         _complete()
-    given = sys.argv[1:] if arguments is None else arguments
-    words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
+    words_given = sys.argv[1:] if arguments is None else arguments
+    words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in words_given]
     _log_to_stdout()
 
     def answer(comm: Communicator | None = None) -> int:
@@ -215,8 +215,8 @@ def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
         return 128 + signal.SIGPIPE
     except Exception as error:
         reason = ran_out(error) or error
-        known = isinstance(reason, InputError | RunStopped | RankError | OSError | OutOfMemory)
-        if not known or "--debug" in words:
+        expected = isinstance(reason, InputError | RunStopped | RankError | OSError | OutOfMemory)
+        if not expected or "--debug" in words:
             raise
         print(f"--> foamprb Error : {reason}", file=sys.stderr)
         try:

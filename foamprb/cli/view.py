@@ -76,7 +76,7 @@ def read_size(text: str) -> tuple[int, int]:
     InputError
         If the text has another form.
     """
-    found = re.fullmatch(r"([1-9]\d{1,4})x([1-9]\d{1,4})", text)
-    if not found:
+    match = re.fullmatch(r"([1-9]\d{1,4})x([1-9]\d{1,4})", text)
+    if not match:
         raise InputError(f"-size {text}: not a width and a height like 1600x900.")
-    return int(found[1]), int(found[2])
+    return int(match[1]), int(match[2])

@@ -388,7 +388,7 @@ class _Parser:
         return name
 
     def in_etc(self, name: _Token) -> Path:
-        """Find a file in OpenFOAM's folders ``etc``: the user's, the site's, and that of the installation."""
+        """Find a file in OpenFOAM's folders ``etc``: the user's, the site's, and the installation's."""
         etc = [Path.home() / ".OpenFOAM"]
         etc += [
             Path(os.environ[key], "etc")
@@ -452,6 +452,6 @@ def _descend(dictionary: Dictionary, name: str) -> Entry | None:
     """Find ``a.b`` or, in a nested dictionary ``a``, ``b``."""
     if name in dictionary.entries:
         return dictionary.entries[name]
-    first, _, rest = name.partition(".")
+    first, _, inner_name = name.partition(".")
     inner = dictionary.entries.get(first)
-    return _descend(inner, rest) if isinstance(inner, Dictionary) and rest else None
+    return _descend(inner, inner_name) if isinstance(inner, Dictionary) and inner_name else None

@@ -117,23 +117,23 @@ def _table(path: Path, data: bytes, columns: Mapping[str, Bounds]) -> Positions:
     rows = [k for k, line in enumerate(lines) if line]
     head = lines[rows[0]] if rows else ""
     names: Sequence[str] = _COORDINATES
-    known = (*_COORDINATES, *columns)
+    recognised = (*_COORDINATES, *columns)
     if not head or re.search(r"[a-df-zA-DF-Z]", head):
         names = _words(head)
         row = rows.pop(0) if rows else len(lines) - 1
         expected = "Expected: a list ( (x y z) (x y z) … ), or lines x y z"
         if not head:
             raise _unexpected(path, row + 1, head, expected)
-        if not set(names) & set(known):
+        if not set(names) & set(recognised):
             # The text is not quoted: a foreign case may name any file.
             raise Mistake(str(path), row + 1, f"no positions. {expected}.")
-        for name in known:
+        for name in recognised:
             if names.count(name) != 1 and name in (*_COORDINATES, *names):
                 hint = suggestion(name, names)[:-1]
                 raise _unexpected(path, row + 1, head, f"Expected: one column {name}. {hint}")
-    if ignored := [name for name in names if name not in known]:
+    if ignored := [name for name in names if name not in recognised]:
         log.info("%s: ignored columns: %s.", path, ", ".join(ignored))
-    used = [k for k, name in enumerate(names) if name in known]
+    used = [k for k, name in enumerate(names) if name in recognised]
     row = 0
 
     def each() -> Iterator[str]:

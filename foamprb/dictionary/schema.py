@@ -95,12 +95,12 @@ def read_entries(schema: type[S], dictionary: Dictionary, also: Iterable[str] = 
         entries contradict each other.
     """
     hints = hints_of(schema)
-    known = {*names_of(schema), *also}
+    names = {*names_of(schema), *also}
     # Entries without effect are read, but never suggested.
     idle = {name for name, hint in hints.items() if isinstance(_kind(hint)[1], NoEffect)}
     mistakes = Mistakes()
     with mistakes:
-        _refuse_unknown(dictionary, known, idle, getattr(schema, "instead", None))
+        _refuse_unknown(dictionary, names, idle, getattr(schema, "instead", None))
     values = {}
     lines = {key: entry.line for key, entry in dictionary.entries.items()}
     for entry in sorted(fields(schema), key=lambda field: lines.get(field.name, 0)):
@@ -132,23 +132,23 @@ def names_of(schema: type[Schema]) -> tuple[str, ...]:
     return tuple(entry.name for entry in fields(schema))
 
 
-def refuse_unknown(dictionary: Dictionary, known: Collection[str]) -> None:
+def refuse_unknown(dictionary: Dictionary, names: Collection[str]) -> None:
     """Raise InputError, with suggestions, for entries whose names are not known."""
-    _refuse_unknown(dictionary, known, (), None)
+    _refuse_unknown(dictionary, names, (), None)
 
 
 def _refuse_unknown(
     dictionary: Dictionary,
-    known: Collection[str],
+    names: Collection[str],
     idle: Collection[str],
     instead: Callable[[str], Instead | None] | None,
 ) -> None:
     """See :func:`refuse_unknown`; ``idle`` names are known but never suggested, ``instead`` goes first."""
     mistakes = Mistakes()
-    names = set(known).difference(idle)
+    active = set(names).difference(idle)
     for key, entry in dictionary.entries.items():
         # A macro's variable may have any name.
-        if key in known or entry.used:
+        if key in names or entry.used:
             continue
         other = instead(key) if instead else None
         if other and other.entry in idle:
@@ -156,8 +156,8 @@ def _refuse_unknown(
         elif other:
             mistakes.add(entry.mistake(f"is not known: use {other.entry}, {other.why}.", (other.entry,)))
         else:
-            meant = closest(key, names)
-            text = f"is not known. {suggestion(key, names)}"
+            meant = closest(key, active)
+            text = f"is not known. {suggestion(key, active)}"
             mistakes.add(entry.mistake(text, (meant,) if meant else ()))
     mistakes.raise_any()
 
@@ -172,12 +172,12 @@ def read_model(registry: Mapping[str, type[S]], dictionary: Dictionary, also: It
     return read_entries(selected(registry, dictionary), dictionary, also=("type", *also))
 
 
-def allowed(hint: Any, found: str = "") -> str:
+def allowed(hint: Any, text: str = "") -> str:
     """Return the part of a message that lists the allowed values of an entry, given the value found."""
     kind, rule = _kind(hint)
     match rule:
         case Choice(names):
-            return suggestion(unquoted(found), names)
+            return suggestion(unquoted(text), names)
         case Only(value, why):
             return f"Allowed: {str(value).lower() if isinstance(value, bool) else value} ({why})."
         case Bounds() | Each():
@@ -241,7 +241,7 @@ def _convert(entry: Entry, hint: Any) -> Any:
     if value is None or not (rule is None or rule.admits(value)):
         # An entry without its semicolon includes the entries after it.
         text, tokens = (entry.text, entry.tokens) if isinstance(entry, Stream) else ("", ())
-        raise entry.mistake(f"is {entry}. {allowed(hint, found=text)}", tokens)
+        raise entry.mistake(f"is {entry}. {allowed(hint, text)}", tokens)
     return value
 
 

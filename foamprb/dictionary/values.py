@@ -122,8 +122,8 @@ def unit_of(tokens: Sequence[str]) -> tuple[str, Sequence[str]]:
     """Return a unit in brackets that stands before or behind a value, or nothing, and the other tokens."""
     if "[" not in tokens or "]" not in tokens:
         return "", tokens
-    begin, end = tokens.index("["), tokens.index("]") + 1
-    return " ".join(tokens[begin:end]), (*tokens[:begin], *tokens[end:])
+    start, end = tokens.index("["), tokens.index("]") + 1
+    return " ".join(tokens[start:end]), (*tokens[:start], *tokens[end:])
 
 
 def _acceleration(entry: Stream) -> Any:

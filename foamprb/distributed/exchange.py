@@ -24,8 +24,8 @@ def with_others(share: Share, rows: Rows, others: Share) -> Share:
     They are in the same memory as far as it suffices.
     """
     n = len(share.particles.number) - len(rows) + len(others.particles.number)
-    found, new = share.arrays(), others.arrays()
-    return Share.of({name: _replaced(array, rows, new[name], n) for name, array in found.items()})
+    before, new = share.arrays(), others.arrays()
+    return Share.of({name: _replaced(array, rows, new[name], n) for name, array in before.items()})
 
 
 def _replaced(array: NDArray[Any], rows: Rows, others: NDArray[Any], n: int) -> NDArray[Any]:
@@ -37,9 +37,9 @@ def _replaced(array: NDArray[Any], rows: Rows, others: NDArray[Any], n: int) -> 
     if n < len(array):
         free = rows[both:]
         last = np.setdiff1d(np.arange(n, len(array)), free, assume_unique=True)
-        kept = array[last]
-        if has_bits(kept) or has_bits(array[free]):
-            array[free[: len(last)]] = kept
+        moved = array[last]
+        if has_bits(moved) or has_bits(array[free]):
+            array[free[: len(last)]] = moved
         return array[:n]
     if n > len(array):
         before, array = len(array), _with_room(array, n)
@@ -49,15 +49,15 @@ def _replaced(array: NDArray[Any], rows: Rows, others: NDArray[Any], n: int) -> 
 
 
 def _with_room(array: NDArray[Any], n: int) -> NDArray[Any]:
-    """Return n rows that begin with those of an array, in its memory if that suffices."""
-    whole = array if array.base is None else array.base
+    """Extend an array to n rows, in its memory if that suffices."""
+    memory = array if array.base is None else array.base
     if (
-        isinstance(whole, np.ndarray)
-        and (whole.dtype, whole.shape[1:]) == (array.dtype, array.shape[1:])
-        and whole.ctypes.data == array.ctypes.data
-        and len(whole) >= n
+        isinstance(memory, np.ndarray)
+        and (memory.dtype, memory.shape[1:]) == (array.dtype, array.shape[1:])
+        and memory.ctypes.data == array.ctypes.data
+        and len(memory) >= n
     ):
-        return whole[:n]
+        return memory[:n]
     larger = np.zeros((n + n // _ROOM, *array.shape[1:]), array.dtype)
     if has_bits(array):
         larger[: len(array)] = array
@@ -98,7 +98,7 @@ def firsts_of(n: int, size: int) -> NDArray[np.int64]:
 
 
 def idle_share(before: int, after: int) -> float:
-    """Return the share of a step that is saved if the largest of all loads changes; 0 if it grows."""
+    """Return the share of a step that a smaller largest load saves; 0 if the load grows."""
     return max(0, before - after) / max(before, 1)
 
 
@@ -124,7 +124,7 @@ def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:
     surplus = np.asarray(active) - even
     givers, takers = np.flatnonzero(surplus > 0), np.flatnonzero(surplus < 0)
     # Surplus and deficit as rows of particles: each surplus particle goes to the deficit at the same index.
-    given = np.repeat(givers, surplus[givers])
-    taken = np.repeat(takers, -surplus[takers])
-    np.add.at(plan, (given, taken), 1)
+    giver = np.repeat(givers, surplus[givers])
+    taker = np.repeat(takers, -surplus[takers])
+    np.add.at(plan, (giver, taker), 1)
     return plan

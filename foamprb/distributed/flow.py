@@ -59,10 +59,10 @@ def deepest(n: int, answers: Iterable[tuple[NDArray[np.intp], Labels, Floats]]) 
     Of several the one with the largest depth counts, then the first.
     """
     hosts, depths = np.full(n, -1, dtype=np.int64), np.full(n, -np.inf)
-    for rows, numbers, found in answers:
-        first = (found == depths[rows]) & (numbers < hosts[rows])
-        better = (found > depths[rows]) | first
-        hosts[rows[better]], depths[rows[better]] = numbers[better], found[better]
+    for rows, numbers, depths_there in answers:
+        first = (depths_there == depths[rows]) & (numbers < hosts[rows])
+        better = (depths_there > depths[rows]) | first
+        hosts[rows[better]], depths[rows[better]] = numbers[better], depths_there[better]
     return hosts
 
 
@@ -84,8 +84,8 @@ def require_divisible(case: Path, source: FlowSource, nodes: int, followed: bool
     if source.file is not None:
         raise IndivisibleMeshError("a mesh file is read")
     if not (source.decomposed or is_only_decomposed(case, source.region)):
-        found = "the flow is read from the case itself; -decomposed reads its processor folders"
-        raise IndivisibleMeshError(found if processor_folders(case) else "it is not decomposed")
+        reason = "the flow is read from the case itself; -decomposed reads its processor folders"
+        raise IndivisibleMeshError(reason if processor_folders(case) else "it is not decomposed")
     if rotations_of(case, source):
         raise IndivisibleMeshError("the case has rotating zones (MRFProperties)")
     opened = DecomposedCase(case, source.region)
@@ -105,11 +105,11 @@ class DistributedFlow:
     open_parts
         Lets all nodes read their parts with at least a number of layers around their cells in which bodies
         may move, and a load of the processor folders.
-        Returns the summaries of all processes; None for those that are not the first of a node.
+        Returns the summaries of all processes; None unless a process is the first of its node.
     step
         Time between two points where particles can change nodes, s.
     summaries
-        Those of ``open_parts`` with :data:`LEAST_LAYERS`.
+        Result of ``open_parts`` with :data:`LEAST_LAYERS`.
     """
 
     kernels = MeshFlow.kernels
@@ -180,7 +180,7 @@ class DistributedFlow:
         return np.concatenate([summary.folders for summary in self.summaries])
 
     def loads(self, load: NDArray[np.int64], again: bool) -> NDArray[np.int64]:
-        """Return the sum of a load of folders on each node, with its folders or with those taken again."""
+        """Return the load of each node, with its present folders, or with folders assigned ``again``."""
         counts = [0, *(len(summary.folders) for summary in self.summaries)]
         ends = ends_of(self.folders, load, len(self.summaries)) if again else np.cumsum(counts)
         return np.diff(np.concatenate([[0], np.cumsum(load)])[ends])
@@ -211,19 +211,19 @@ class DistributedFlow:
 
     def _ask(self, name: str, *arguments: Any) -> list[Any]:
         """Return the results of a method of the flows of all nodes."""
-        return [found for found in self._call(Worker.call_flow, name, *arguments) if found is not None]
+        return [answer for answer in self._call(Worker.call_flow, name, *arguments) if answer is not None]
 
     def _ask_own(self, name: str, empty: Sequence[NDArray[Any]], *arguments: Any) -> list[NDArray[Any]]:
         """Return results, whose rows the nodes have, as arrays of all rows."""
-        whole = list(empty)
+        arrays = list(empty)
         for rows, *parts in self._ask(name, *arguments):
-            for array, part in zip(whole, parts, strict=True):
+            for array, part in zip(arrays, parts, strict=True):
                 array[rows] = part
-        return whole
+        return arrays
 
-    def _at_own(self, name: str, empty: Sequence[NDArray[Any]], *given: Any) -> list[NDArray[Any]]:
+    def _at_own(self, name: str, empty: Sequence[NDArray[Any]], *arguments: Any) -> list[NDArray[Any]]:
         """Return the results of a method of the flow at hosts, each from the node that owns it."""
-        return self._ask_own("at_own", empty, name, *given)
+        return self._ask_own("at_own", empty, name, *arguments)
 
     def locate(self, points: Floats) -> Labels:
         """Return the host of each point (n, 3), −1 outside."""
@@ -250,12 +250,12 @@ class DistributedFlow:
 
     def _volumes(self) -> Floats:
         """Return the volumes of all cells, (n_cells,), m³."""
-        whole = []
+        volumes = []
         for low in range(0, self.mesh.n_cells, _CELLS_AT_ONCE):
-            found = self._ask("own_cells", low, low + _CELLS_AT_ONCE)
-            order = np.argsort(np.concatenate([own[0] for own in found]))
-            whole.append(np.concatenate([own[1] for own in found])[order])
-        return np.concatenate(whole)
+            answers = self._ask("own_cells", low, low + _CELLS_AT_ONCE)
+            order = np.argsort(np.concatenate([answer[0] for answer in answers]))
+            volumes.append(np.concatenate([answer[1] for answer in answers])[order])
+        return np.concatenate(volumes)
 
     def times_within(self, start: float, end: float) -> Sequence[float]:  # noqa: ARG002
         """Return no times: the flow is steady."""
@@ -277,7 +277,7 @@ class DistributedFlow:
         parts = self._ask("own_zone", name)
         hosts = np.concatenate([numbers for _, numbers in parts])
         order = np.argsort(hosts)
-        volumes: Floats = np.concatenate([own for own, _ in parts])[order]
+        volumes: Floats = np.concatenate([part for part, _ in parts])[order]
         sorted_hosts: Any = hosts[order]
         return Tetrahedra(volumes, sorted_hosts, self._vertices)
 
@@ -309,9 +309,9 @@ class DistributedFlow:
     def wall_distances(self, x: Floats, hosts: NDArray[Any], *others: Any) -> Floats:
         """See :func:`foamprb.cloud.surroundings.wall_lift.wall_distances`; by the walls listed last."""
         nearest = np.full(len(x), np.inf)
-        for found in self._call(Worker.wall_distances, x, hosts, *others):
-            if found is not None:
-                nearest[found[0]] = found[1]
+        for answer in self._call(Worker.wall_distances, x, hosts, *others):
+            if answer is not None:
+                nearest[answer[0]] = answer[1]
         return nearest
 
     def traits(self) -> Mapping[str, ArrayLike]:
@@ -319,7 +319,7 @@ class DistributedFlow:
         first, *others = self._ask("traits")
         fixed = ("times", "period")
         return {
-            name: value if name in fixed else sum((own[name] for own in others), start=value)
+            name: value if name in fixed else sum((traits[name] for traits in others), start=value)
             for name, value in first.items()
         }
 
@@ -333,8 +333,8 @@ class DistributedSeries(Timeline, DistributedFlow):
     kernels = SeriesFlow.kernels
     nothing = staticmethod(SeriesFlow.nothing)
 
-    def __init__(self, *given: Any) -> None:
-        super().__init__(*given)
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
         first = self.summaries[0]
         self._set_times(first.times, first.period)
 
@@ -358,9 +358,9 @@ class DistributedSeries(Timeline, DistributedFlow):
         return total
 
     def _load_all(self, start: float, end: float) -> float:
-        found = [own for own in self._call(Worker.load_part, start, end) if own is not None]
-        self._fluid = max(rate for _, rate in found)
-        return float(found[0][0])
+        answers = [answer for answer in self._call(Worker.load_part, start, end) if answer is not None]
+        self._fluid = max(rate for _, rate in answers)
+        return float(answers[0][0])
 
 
 def distributed_flow(call: Callable[..., list[Any]], open_parts: OpenParts, step: float) -> DistributedFlow:

@@ -1,6 +1,6 @@
 """Fragments of a mesh, numbered as in the whole, and their growth by layers of cells of other nodes.
 
-A node of a parallel run holds its own cells and some layers of cells around them, which it obtains from the
+A node of a parallel run holds its owned cells and some layers of cells around them, which it obtains from the
 nodes that own these. No node holds the whole mesh.
 """
 
@@ -44,16 +44,16 @@ class Team:
         InputError, RunStopped, OSError, RankError
             A node has failed amid :meth:`united`.
         """
-        found = self.swap(parcels)
-        for parcel in found:
+        received = self.swap(parcels)
+        for parcel in received:
             if isinstance(parcel, _Failure):
                 parcel.error.__dict__[_OF_ALL] = True
                 try:
                     raise parcel.error
                 finally:
-                    # The error refers to this frame, and by it to those of all callers with their arrays.
-                    del found, parcel, parcels
-        return found
+                    # The error refers to this frame, and so to the arrays of all callers.
+                    del received, parcel, parcels
+        return received
 
     def spread(self, value: Any) -> Any:
         """Return the value of node 0."""
@@ -67,7 +67,7 @@ class Team:
     def united(self) -> Iterator[None]:
         """Raise an error of one node on all of them.
 
-        The node that fails sends the error instead of the next parcels, so that all agree on what comes next.
+        The node that fails sends the error instead of the next parcels, so that all agree on the next call.
         An error that is caught amid the context must be raised by a context within.
         """
         try:
@@ -75,9 +75,9 @@ class Team:
         except Exception as error:
             if _OF_ALL in error.__dict__:
                 raise
-            known = isinstance(error, InputError | RunStopped | OSError | RankError)
+            expected = isinstance(error, InputError | RunStopped | OSError | RankError)
             text = f"node {self.rank}: {type(error).__name__}: {error}"
-            self.exchange(self.size * [_Failure(error if known else RankError(text, format_exc()))])
+            self.exchange(self.size * [_Failure(error if expected else RankError(text, format_exc()))])
         self.exchange(self.size * [None])
 
 
@@ -127,29 +127,29 @@ def merged(parts: Sequence[Fragment]) -> Fragment:
         np.maximum.reduceat(np.concatenate(sides)[order], begins) if len(begins) else np.empty(0, np.int64)
         for sides in ([part.owner for part in parts], [part.neighbour for part in parts])
     )
-    chosen = order[begins]
+    rows = order[begins]
     sizes = np.concatenate([np.diff(part.start) for part in parts])
     ends = starts(np.array([len(part.lists) for part in parts]))
-    begin = np.concatenate([part.start[:-1] + end for part, end in zip(parts, ends, strict=False)])
-    lists = np.concatenate([part.lists for part in parts])[ragged(begin[chosen], sizes[chosen])]
+    first = np.concatenate([part.start[:-1] + end for part, end in zip(parts, ends, strict=False)])
+    lists = np.concatenate([part.lists for part in parts])[ragged(first[rows], sizes[rows])]
     cells = np.sort(np.concatenate([part.cells for part in parts]))
-    return Fragment(cells, points, places, faces[chosen], starts(sizes[chosen]), lists, owner, neighbour)
+    return Fragment(cells, points, places, faces[rows], starts(sizes[rows]), lists, owner, neighbour)
 
 
 class CellSearch:
     """Search for cells of a fragment by their points and faces."""
 
-    def __init__(self, own: Fragment) -> None:
-        self.own = own
-        self._lists = np.searchsorted(own.points, own.lists)
-        self._sides = [places_of(own.cells, side) for side in (own.owner, own.neighbour)]
+    def __init__(self, fragment: Fragment) -> None:
+        self.fragment = fragment
+        self._lists = np.searchsorted(fragment.points, fragment.lists)
+        self._sides = [places_of(fragment.cells, side) for side in (fragment.owner, fragment.neighbour)]
 
     def touching(self, points: Labels) -> Mask:
         """Return True for cells with any of some points, (n_cells,)."""
-        cells = np.zeros(len(self.own.cells) + 1, dtype=bool)
-        held = np.isin(self.own.points, points)
+        cells = np.zeros(len(self.fragment.cells) + 1, dtype=bool)
+        held = np.isin(self.fragment.points, points)
         if held.any():
-            faces = np.logical_or.reduceat(held[self._lists], self.own.start[:-1])
+            faces = np.logical_or.reduceat(held[self._lists], self.fragment.start[:-1])
             for side in self._sides:
                 cells[side[faces]] = True
         # The last stands for no cell.
@@ -157,34 +157,32 @@ class CellSearch:
 
     def take(self, cells: Mask) -> Fragment:
         """Return some of the cells, by a mask, with their faces and points."""
-        own, kept = self.own, np.append(cells, False)
-        here = [kept[side] for side in self._sides]
-        chosen = np.flatnonzero(here[0] | here[1])
-        start, lists = take_lists(own.start, self._lists, chosen)
-        held = np.zeros(len(own.points), dtype=bool)
+        f, selected = self.fragment, np.append(cells, False)
+        here = [selected[side] for side in self._sides]
+        rows = np.flatnonzero(here[0] | here[1])
+        start, lists = take_lists(f.start, self._lists, rows)
+        held = np.zeros(len(f.points), dtype=bool)
         held[lists] = True
         owner, neighbour = (
-            np.where(inside[chosen], side[chosen], -1)
-            for inside, side in zip(here, (own.owner, own.neighbour), strict=True)
+            np.where(inside[rows], side[rows], -1)
+            for inside, side in zip(here, (f.owner, f.neighbour), strict=True)
         )
-        points = own.points[held], own.places[held]
-        return Fragment(
-            own.cells[cells], *points, own.faces[chosen], start, own.points[lists], owner, neighbour
-        )
+        points = f.points[held], f.places[held]
+        return Fragment(f.cells[cells], *points, f.faces[rows], start, f.points[lists], owner, neighbour)
 
     def rim(self) -> Labels:
         """Return the points of the faces with a cell on one side only."""
-        open_ = np.flatnonzero((self.own.owner < 0) | (self.own.neighbour < 0))
-        return np.unique(take_lists(self.own.start, self.own.lists, open_)[1]).astype(np.int64)
+        open_ = np.flatnonzero((self.fragment.owner < 0) | (self.fragment.neighbour < 0))
+        return np.unique(take_lists(self.fragment.start, self.fragment.lists, open_)[1]).astype(np.int64)
 
     def points_of(self, faces: Labels) -> Labels:
         """Return the points of the locally present faces."""
-        here = np.flatnonzero(np.isin(self.own.faces, faces))
-        return np.unique(take_lists(self.own.start, self.own.lists, here)[1]).astype(np.int64)
+        here = np.flatnonzero(np.isin(self.fragment.faces, faces))
+        return np.unique(take_lists(self.fragment.start, self.fragment.lists, here)[1]).astype(np.int64)
 
 
 def places_of(numbers: Labels, wanted: Labels) -> Index:
-    """Return the index of each wanted number in rising ones, −1 for those that are missing."""
+    """Return the index of each wanted number in rising numbers, −1 if it is missing."""
     if len(numbers) == 0:
         return np.full(len(wanted), -1, dtype=np.intp)
     at = np.minimum(np.searchsorted(numbers, wanted), len(numbers) - 1)
@@ -196,7 +194,7 @@ class Grown(NamedTuple):
 
     fragment: Fragment
     layer: NDArray[np.uint8]
-    """(n_cells,) 0 for own cells, 1 for those that touch these, and so on."""
+    """(n_cells,) 0 for owned cells, 1 for cells that touch them, and so on."""
     node: NDArray[np.int32]
     """(n_cells,) the node that owns the cell."""
     layers: int
@@ -204,12 +202,12 @@ class Grown(NamedTuple):
 
 
 def grow(pieces: list[Fragment], team: Team, layers: int, links: Pairs) -> Grown:
-    """Add layers of cells around the own cells, which share a point, also across coupled faces.
+    """Add layers of cells around the owned cells, which share a point, also across coupled faces.
 
     Parameters
     ----------
     pieces
-        The own cells; the list is emptied, to free them early.
+        The owned cells; the list is emptied, to free them early.
     team
         The nodes.
     layers
@@ -217,44 +215,44 @@ def grow(pieces: list[Fragment], team: Team, layers: int, links: Pairs) -> Grown
     links
         Boundary faces, rising, and the faces that continue them.
     """
-    own = merged(pieces)
+    owned = merged(pieces)
     pieces.clear()
-    search = CellSearch(own)
-    sent = np.zeros((team.size, len(own.cells)), dtype=bool)
+    search = CellSearch(owned)
+    sent = np.zeros((team.size, len(owned.cells)), dtype=bool)
     sent[team.rank] = True
-    found = [(own, team.rank, 0)]
+    held = [(owned, team.rank, 0)]
 
     def fetch(points: Labels, number: int) -> None:
-        """Find the cells of each node that touch some points, without those that it has sent before."""
+        """Fetch the cells of each node that touch some points and were not sent before."""
         parcels = []
         for k, wanted in enumerate(team.of_all(points)):
             touched = search.touching(wanted) & ~sent[k]
             sent[k] |= touched
             parcels.append(search.take(touched))
         pieces = enumerate(team.exchange(parcels))
-        found.extend((piece, k, number) for k, piece in pieces if len(piece.cells))
+        held.extend((piece, k, number) for k, piece in pieces if len(piece.cells))
 
-    # All cells around the other points are own ones.
-    points, asked, crossed = search.rim(), own.points, np.empty(0, dtype=np.int64)
+    # All cells around the other points are owned.
+    points, asked, crossed = search.rim(), owned.points, np.empty(0, dtype=np.int64)
     latest = 0
     for number in range(1, layers + 1):
-        before, latest = latest, len(found)
+        before, latest = latest, len(held)
         fetch(points, number)
         if links.size:
-            faces = [_linked_faces(piece, links, asked) for piece, _, _ in found[before:]]
+            faces = [_linked_faces(piece, links, asked) for piece, _, _ in held[before:]]
             across = np.setdiff1d(np.concatenate([asked[:0], *faces]), crossed)
             crossed = np.union1d(crossed, across)
             answers = team.exchange([search.points_of(wanted) for wanted in team.of_all(across)])
             fetch(np.unique(np.concatenate(answers)), number)
-        new = [piece.points for piece, _, _ in found[latest:]]
+        new = [piece.points for piece, _, _ in held[latest:]]
         points = np.setdiff1d(np.concatenate([asked[:0], *new]), asked)
         asked = np.union1d(asked, points)
-    found.sort(key=lambda part: part[1])
-    order = np.argsort(np.concatenate([piece.cells for piece, _, _ in found]))
-    counts = [len(piece.cells) for piece, _, _ in found]
-    node, layer = (np.repeat(np.array([row[k] for row in found]), counts)[order] for k in (1, 2))
-    parts = [piece for piece, _, _ in found]
-    found.clear()
+    held.sort(key=lambda part: part[1])
+    order = np.argsort(np.concatenate([piece.cells for piece, _, _ in held]))
+    counts = [len(piece.cells) for piece, _, _ in held]
+    node, layer = (np.repeat(np.array([row[k] for row in held]), counts)[order] for k in (1, 2))
+    parts = [piece for piece, _, _ in held]
+    held.clear()
     fragment = merged(parts)
     return Grown(fragment, layer.astype(np.uint8), node.astype(np.int32), layers)
 

@@ -27,7 +27,7 @@ class Joints(NamedTuple):
 
 
 def couple_parts(
-    own: Fragment,
+    owned: Fragment,
     patches: Sequence[PatchSurface],
     patch_start: Index,
     n_internal: int,
@@ -38,8 +38,8 @@ def couple_parts(
 
     Parameters
     ----------
-    own
-        The own cells of a node.
+    owned
+        The owned cells of a node.
     patches, patch_start
         Patches of the whole mesh, and the first boundary face of each.
     n_internal
@@ -52,24 +52,24 @@ def couple_parts(
     if not counts.any():
         return Joints(tuple(named), (), np.empty((2, 0), dtype=np.int64))
     numbers = n_internal + ragged(patch_start[:-1], counts)
-    faces, points = _gathered(own, numbers, team)
-    joined, found = couple(named, starts(counts), *measured(points, faces), patches, source)
-    couplings = tuple(c._replace(faces=numbers[c.faces], partners=numbers[c.partners]) for c in found)
+    faces, points = _gathered(owned, numbers, team)
+    joined, coupled = couple(named, starts(counts), *measured(points, faces), patches, source)
+    couplings = tuple(c._replace(faces=numbers[c.faces], partners=numbers[c.partners]) for c in coupled)
     links = np.concatenate([[c.faces, c.partners] for c in couplings], axis=1)
     return Joints(joined, couplings, links[:, np.argsort(links[0])])
 
 
-def _gathered(own: Fragment, numbers: Index, team: Team) -> tuple[Faces, Floats]:
+def _gathered(owned: Fragment, numbers: Index, team: Team) -> tuple[Faces, Floats]:
     """Return some boundary faces of the whole mesh, and their points in the order of these numbers."""
-    here = np.flatnonzero(np.isin(own.faces, numbers))
-    start, lists = take_lists(own.start, own.lists, here)
-    places = own.places[np.searchsorted(own.points, lists)]
-    found = team.of_all((own.faces[here], np.diff(start), lists, places))
-    faces, sizes, lists, places = (np.concatenate(column) for column in zip(*found, strict=True))
+    here = np.flatnonzero(np.isin(owned.faces, numbers))
+    start, lists = take_lists(owned.start, owned.lists, here)
+    places = owned.places[np.searchsorted(owned.points, lists)]
+    gathered = team.of_all((owned.faces[here], np.diff(start), lists, places))
+    faces, sizes, lists, places = (np.concatenate(column) for column in zip(*gathered, strict=True))
     order = np.argsort(faces)
     start, rows = take_lists(starts(sizes), np.arange(len(lists)), order)
     _, first, place = np.unique(lists[rows], return_index=True, return_inverse=True)
     nothing = np.empty(0, dtype=np.int32)
     owner = np.zeros(len(faces), dtype=np.int32)
-    given = int32(start), int32(place.reshape(-1)), owner, nothing, nothing, nothing
-    return Faces(*given), places[rows[first]]
+    lists_of_faces = int32(start), int32(place.reshape(-1)), owner, nothing, nothing, nothing
+    return Faces(*lists_of_faces), places[rows[first]]

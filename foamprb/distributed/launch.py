@@ -38,23 +38,23 @@ def run_together(lead: Callable[[Ranks | None], int]) -> int:
         On the first process only, if mpi4py or MPI is missing.
     """
     try:
-        found = connect()
+        role = connect()
     except InputError:
         if _is_first():
             raise
         return 1
-    if found is None:
+    if role is None:
         return lead(None)
-    if isinstance(found, Worker):
+    if isinstance(role, Worker):
         # Only the first process logs.
         logging.getLogger("foamprb").handlers[:] = [logging.NullHandler()]
         with caught_signals() as signals:
-            return found.serve(signals)
+            return role.serve(signals)
     status = 1
     try:
-        status = lead(found)
+        status = lead(role)
     finally:
-        found.dismiss(status)
+        role.dismiss(status)
     return status
 
 
@@ -82,9 +82,9 @@ def connect() -> Ranks | Worker | None:
     if MPI.COMM_WORLD.size == 1:
         return None
     worker = Worker(MPI)
-    own = os.sched_getaffinity(0)
-    shared = set().union(*worker.windows.node.allgather(own))
-    threads = min(len(own), max(1, len(shared) // worker.windows.node.size))
+    processors = os.sched_getaffinity(0)
+    shared = set().union(*worker.windows.node.allgather(processors))
+    threads = min(len(processors), max(1, len(shared) // worker.windows.node.size))
     threads = worker.comm.allreduce(threads, MPI.MIN)
     spread_over(worker.windows.nodes)
     return Ranks(worker, threads) if worker.number == 0 else worker

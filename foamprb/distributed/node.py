@@ -41,12 +41,12 @@ class MpiTeam(Team):
 
     def swap(self, parcels: Sequence[Any]) -> list[Any]:
         """See :meth:`Team.swap`."""
-        found = list(parcels)
+        received = list(parcels)
         # Pair by pair, as the lengths of one collective message are 32-bit integers.
         for k in range(1, self.size):
             to, source = (self.rank + k) % self.size, (self.rank - k) % self.size
-            found[source] = self._comm.sendrecv(parcels[to], to, source=source)
-        return found
+            received[source] = self._comm.sendrecv(parcels[to], to, source=source)
+        return received
 
 
 class PlacesInWhole(NamedTuple):
@@ -61,7 +61,7 @@ class PlacesInWhole(NamedTuple):
     start: Ints
     """(n_cells + 1,) and here."""
     folder: Ints
-    """(n_cells,) the processor folder of each own cell."""
+    """(n_cells,) the processor folder of each owned cell."""
 
 
 class Shared(NamedTuple):
@@ -80,7 +80,7 @@ class SharedAtTimes(NamedTuple):
 
 
 class Summary(NamedTuple):
-    """Properties of the flow that all nodes hold together, and of the part of one."""
+    """Properties of the distributed flow, and of the part of one node."""
 
     patches: tuple[Any, ...]
     bounds: tuple[Floats, Floats]
@@ -89,13 +89,13 @@ class Summary(NamedTuple):
     counts: tuple[int, int, int]
     """Cells, points and tetrahedra of the whole mesh."""
     folders: tuple[int, ...]
-    """Number of own cells in each processor folder of the node."""
-    own: int
-    """Number of own cells."""
+    """Number of owned cells in each processor folder of the node."""
+    owned: int
+    """Number of owned cells."""
     depth: int
     """Number of layers around these in which bodies may move."""
     held: int
-    """Number of cells, with those of other nodes."""
+    """Number of cells in memory, with the layers of other nodes' cells."""
     rate: float
     """Largest velocity of the fluid over the width of a cell, 1/s."""
     steepness: float
@@ -112,11 +112,11 @@ class Summary(NamedTuple):
 def summary_of(flow: PartFlow) -> Summary:
     """Return the summary of a part; all nodes call it together."""
     halo, time = flow.halo, flow.at_nodes()[0]
-    own, chosen = halo.part.own, halo.folders.chosen
-    folders = np.bincount(halo.folders.of_cells[own] - chosen.start, minlength=len(chosen))
+    owned, numbers = halo.part.owned, halo.folders.numbers
+    folders = np.bincount(halo.folders.of_cells[owned] - numbers.start, minlength=len(numbers))
     return Summary(
         flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts, tuple(folders.tolist()),
-        int(own.sum()), halo.part.depth, len(own),
+        int(owned.sum()), halo.part.depth, len(owned),
         max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)), flow.field_columns, time,
         *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
     )  # fmt: skip
@@ -147,7 +147,7 @@ class Part:
         """Fields that are sampled."""
         self._loaded: SeriesArrays | None = None
         self.in_collective = False
-        """True while the processes of the node might not agree on what comes next."""
+        """True while the processes of the node might not agree on the next call."""
 
     def close(self) -> None:
         """Free the shared memory."""
@@ -179,8 +179,8 @@ class Part:
     @property
     def mesh(self) -> MeshArrays:
         """Return the arrays of the mesh."""
-        found: MeshArrays = self._in_space
-        return found
+        arrays: MeshArrays = self._in_space
+        return arrays
 
     def open(
         self,
@@ -236,9 +236,9 @@ class Part:
             now = SharedAtTimes(self.flow.loaded(), self.flow.loaded_fields())
             return (until, self.flow.rate), self._publisher.renew(now)
 
-        found, placed = self._tell(self._lead(load))
+        loaded, placed = self._tell(self._lead(load))
         self._loaded, self.sampled = self.shared.find(placed)
-        return found if self._leads else None
+        return loaded if self._leads else None
 
     def call(self, name: str, *arguments: Any) -> Any:
         """Return the result of a method of the flow on the first process of the node, else None."""
@@ -254,13 +254,13 @@ class Part:
             return None
         try:
             with self._team.united():
-                found = work(self._team)
+                result = work(self._team)
         except Exception as error:
             if not self.in_collective:
                 self._tell((None, (error,)))
             raise
         self._tell((None, (None,)))
-        return found
+        return result
 
     def _order(self, name: str, *arguments: Any) -> None:
         """Let all processes of the node call a method of their windows."""

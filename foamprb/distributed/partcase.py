@@ -77,7 +77,7 @@ class PartCase(DecomposedCase):
         cells = team.spread(self.processors.cells(folder) if team.rank == 0 else None)
         if cells is None:
             raise IndivisibleMeshError(_NO_ADDRESSES)
-        self.processors.chosen = range(*ends_of(cells, load, team.size)[team.rank :][:2])
+        self.processors.selected = range(*ends_of(cells, load, team.size)[team.rank :][:2])
 
     def mesh(self, time: str) -> CaseMesh:
         """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`.
@@ -131,9 +131,9 @@ class PartCase(DecomposedCase):
         ]
         part = hold_part(own_cells, surfaces, ranges, n_internal, self._depth, team, str(folder))
         of_cells = np.zeros(len(part.cells), dtype=np.int32)
-        for number, address in zip(self.processors.chosen, addresses, strict=True):
+        for number, address in zip(self.processors.selected, addresses, strict=True):
             of_cells[np.searchsorted(part.cells, address.cells)] = number
-        self._halo, mesh = Halo(part, team, Folders(self.processors.chosen, of_cells)), part.mesh
+        self._halo, mesh = Halo(part, team, Folders(self.processors.selected, of_cells)), part.mesh
         self.comm = self._halo
         counts, first = np.diff(mesh.patch_start).tolist(), (mesh.n_internal + mesh.patch_start).tolist()
         infos = [*self._patches, PatchInfo(CUT.name, CUT.type, 0, 0, "", Transform(), {})]
@@ -182,11 +182,11 @@ class PartCase(DecomposedCase):
                 entry = field.of(patch)
                 if entry is not None:
                     pieces.append((part.faces[patch.start : patch.start + patch.faces], entry))
-        own = [
+        summaries = [
             (len(faces) > 0, entry._replace(fields={key: v[:0] for key, v in entry.fields.items()}))
             for faces, entry in pieces
         ]
-        everywhere = [piece for listed in team.of_all(own) for piece in listed]
+        everywhere = [piece for listed in team.of_all(summaries) for piece in listed]
         filled = [entry for some, entry in everywhere if some] or [entry for _, entry in everywhere]
         if not filled:
             return None
@@ -194,12 +194,12 @@ class PartCase(DecomposedCase):
         mesh, values = halo.part.mesh, {}
         numbers = halo.part.faces[mesh.n_internal :][: mesh.patch_start[-2]]
         for key in keys:
-            whole: Floats = np.zeros((len(numbers), filled[0].fields[key].shape[1]))
+            values_here: Floats = np.zeros((len(numbers), filled[0].fields[key].shape[1]))
             for faces, entry in pieces:
                 if len(faces):
-                    whole[np.searchsorted(numbers, faces)] = entry.fields[key]
-            halo.fill("boundary", whole)
-            values[key] = whole[mesh.patch_start[index] : mesh.patch_start[index + 1]]
+                    values_here[np.searchsorted(numbers, faces)] = entry.fields[key]
+            halo.fill("boundary", values_here)
+            values[key] = values_here[mesh.patch_start[index] : mesh.patch_start[index + 1]]
         if filled[0].type == FLOW_RATE and "value" not in keys:
             values[AREA] = np.array([[self._area(index)]])
         joined: PatchField = filled[0]._replace(pattern=False, fields=values)
@@ -209,26 +209,26 @@ class PartCase(DecomposedCase):
         """Return the area of a patch of the whole mesh, m², summed in its order."""
         part, mesh = self._halo.part, self._halo.part.mesh
         rows = np.arange(*mesh.patch_start[index : index + 2])
-        rows = rows[part.own[mesh.owner[mesh.n_internal + rows]]]
-        own = part.faces[mesh.n_internal + rows], np.linalg.norm(mesh.boundary_areas[rows], axis=1)
-        numbers, areas = (np.concatenate(column) for column in zip(*self._halo.of_all(own), strict=True))
+        rows = rows[part.owned[mesh.owner[mesh.n_internal + rows]]]
+        of_faces = part.faces[mesh.n_internal + rows], np.linalg.norm(mesh.boundary_areas[rows], axis=1)
+        numbers, areas = (np.concatenate(column) for column in zip(*self._halo.of_all(of_faces), strict=True))
         return float(areas[np.argsort(numbers)].sum())
 
-    def make(self, kind: Callable[..., Any], *given: Any, **options: Any) -> Any:
+    def make(self, kind: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
         """See :meth:`~foamprb.flow.read.openfoam.Case.make`; a flow on the part."""
-        return (PartSeries if kind is SeriesFlow else PartFlow)(self._halo, *given, **options)
+        return (PartSeries if kind is SeriesFlow else PartFlow)(self._halo, *arguments, **options)
 
     def zones(self, time: str) -> Mapping[str, NDArray[np.int64]]:
         """Read the cells here of each zone by name; see :meth:`~foamprb.flow.read.openfoam.Case.zones`."""
         zones = join_zones(self.processors, self.mesh_folder(time), self._parts)
         names = {name for listed in self._team.of_all(list(zones)) for name in listed}
-        found, cells, nothing = {}, self._halo.part.cells, np.empty(0, dtype=np.int64)
+        cells_of, cells, nothing = {}, self._halo.part.cells, np.empty(0, dtype=np.int64)
         for name in sorted(names):
             inside = np.zeros(len(cells), dtype=bool)
             inside[np.searchsorted(cells, zones.get(name, nothing))] = True
             self._halo.fill("cells", inside)
-            found[name] = np.flatnonzero(inside)
-        return found
+            cells_of[name] = np.flatnonzero(inside)
+        return cells_of
 
 
 def fragment_of(piece: Piece, part: Address) -> Fragment:

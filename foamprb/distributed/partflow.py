@@ -40,29 +40,29 @@ def largest_eddies(k: Floats) -> Floats:
 
 
 class PartFlow(MeshFlow):
-    """Steady flow on a part of a mesh: the own cells of a node, and the layers around them.
+    """Steady flow on a part of a mesh: the owned cells of a node, and the layers around them.
 
     A path that leaves the layers sets ``strayed`` of the arrays. All nodes call the constructor and
-    :meth:`arrays` together. Hosts of own cells have numbers in the whole mesh, see :meth:`numbers_of`.
+    :meth:`arrays` together. Hosts of owned cells have numbers in the whole mesh, see :meth:`numbers_of`.
 
     Parameters
     ----------
     halo
         The part, and the other nodes.
-    given, options
+    arguments, options
         See :class:`MeshFlow`, with the mesh of the part.
     """
 
-    def __init__(self, halo: Halo, *given: Any, **options: Any) -> None:
+    def __init__(self, halo: Halo, *arguments: Any, **options: Any) -> None:
         self.halo = halo
-        super().__init__(*given, **options)
+        super().__init__(*arguments, **options)
         mesh = self.mesh
         self._close(*_ends(halo))
-        own = halo.part.own
-        totals = halo.of_all((int(own.sum()), int(halo.part.points.max(initial=-1)) + 1))
+        owned = halo.part.owned
+        totals = halo.of_all((int(owned.sum()), int(halo.part.points.max(initial=-1)) + 1))
         n_cells, n_points = sum(n for n, _ in totals), max(n for _, n in totals)
         ends = np.linspace(0, n_cells, halo.team.size + 1).astype(np.intp)
-        counts = Ranges(halo.team, ends, halo.part.cells[own]).put(np.diff(mesh.cell_start)[own])
+        counts = Ranges(halo.team, ends, halo.part.cells[owned]).put(np.diff(mesh.cell_start)[owned])
         tets = halo.of_all(int(counts.sum()))
         first = starts(counts)[:-1].astype(np.int64) + sum(tets[: halo.team.rank])
         self._first_tet = Ranges(halo.team, ends, halo.part.cells).get(first)
@@ -82,7 +82,7 @@ class PartFlow(MeshFlow):
         usable = np.flatnonzero(part.layer <= part.depth).astype(np.int32)
         tree = build_tree(boxes[usable])
         self._usable_box = tree.boxes[1].copy()
-        ends = self.halo.of_all((boxes[part.own, :3].min(axis=0), boxes[part.own, 3:].max(axis=0)))
+        ends = self.halo.of_all((boxes[part.owned, :3].min(axis=0), boxes[part.owned, 3:].max(axis=0)))
         tree.boxes[1, :3] = np.min([low for low, _ in ends], axis=0)
         tree.boxes[1, 3:] = np.max([high for _, high in ends], axis=0)
         return tree._replace(leaves=np.where(tree.leaves < 0, np.int32(-1), usable[tree.leaves]))
@@ -92,13 +92,13 @@ class PartFlow(MeshFlow):
         triangles = self._own_triangles(mesh)
         nodes = np.concatenate([part.points, self.counts[1] + part.cells])
         return Numbering(
-            part.own, part.cells, nodes, self._first_tet, triangles, self._faces_of(mesh, triangles)
+            part.owned, part.cells, nodes, self._first_tet, triangles, self._faces_of(mesh, triangles)
         )
 
     def _own_triangles(self, mesh: Mesh) -> Index:
-        """Return the boundary triangles of own cells."""
+        """Return the boundary triangles of owned cells."""
         cells = mesh.tets[mesh.triangle_tet, 0] - mesh.n_points
-        return np.flatnonzero(self.halo.part.own[cells] & (mesh.triangle_patch != BEYOND))
+        return np.flatnonzero(self.halo.part.owned[cells] & (mesh.triangle_patch != BEYOND))
 
     def _faces_of(self, mesh: Mesh, triangles: Index) -> Labels:
         """Return the faces of boundary triangles in the whole mesh."""
@@ -137,12 +137,12 @@ class PartFlow(MeshFlow):
         for box in halo.of_all(self._usable_box):
             near = np.all((high >= box[:3] - self._reach) & (low <= box[3:] + self._reach), axis=1)
             parcels.append((faces[near], halo.part.points[corners[near]], walls.take(near)))
-        found = halo.team.exchange(parcels)
-        order = np.argsort(np.concatenate([numbers for numbers, *_ in found]), kind="stable")
+        received = halo.team.exchange(parcels)
+        order = np.argsort(np.concatenate([numbers for numbers, *_ in received]), kind="stable")
         self._all_walls = walls = Walls(
-            *(np.concatenate(arrays)[order] for arrays in zip(*(own for *_, own in found), strict=True))
+            *(np.concatenate(arrays)[order] for arrays in zip(*(part for *_, part in received), strict=True))
         )
-        points = np.concatenate([points for _, points, _ in found])[order].reshape(-1)
+        points = np.concatenate([points for _, points, _ in received])[order].reshape(-1)
         _, first, place = np.unique(points, return_index=True, return_inverse=True)
         count, nodes, n_nodes = len(first), arrays.nodes, mesh.n_points + mesh.n_cells
         if len(nodes) == n_nodes:
@@ -171,16 +171,18 @@ class PartFlow(MeshFlow):
 
     def _coupled_boxes(self) -> dict[int, tuple[Floats, Floats]]:
         """Return the boxes of coupled patches by index."""
-        mesh, found = self.mesh, {}
+        mesh, boxes = self.mesh, {}
         rows = self._own_triangles(mesh)
         for coupling in mesh.couplings:
             some = rows[mesh.triangle_patch[rows] == coupling.other]
-            own = mesh.points[mesh.triangles[some]].reshape(-1, 3)
-            ends = self.halo.of_all((own.min(axis=0, initial=np.inf), own.max(axis=0, initial=-np.inf)))
+            corners = mesh.points[mesh.triangles[some]].reshape(-1, 3)
+            ends = self.halo.of_all(
+                (corners.min(axis=0, initial=np.inf), corners.max(axis=0, initial=-np.inf))
+            )
             low, high = (f([end[k] for end in ends], axis=0) for k, f in enumerate((np.min, np.max)))
             if np.all(low <= high):
-                found[coupling.other] = low, high
-        return found
+                boxes[coupling.other] = low, high
+        return boxes
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """See :meth:`MeshFlow.move`; with the fields that are sampled, and numbers of the cells."""
@@ -210,62 +212,62 @@ class PartFlow(MeshFlow):
         return np.where(hosts < 0, -1, numbers)
 
     def own_hosts(self, numbers: Labels) -> tuple[Index, Ints]:
-        """Return which of some tetrahedra of the whole mesh belong to own cells, and their indices here."""
+        """Return the rows of tetrahedra in owned cells, and the indices of these tetrahedra here."""
         cells = np.searchsorted(self._first_tet, numbers, side="right") - 1
         held = np.maximum(cells, 0)
         offset = numbers - self._first_tet[held]
         start = self.mesh.cell_start
-        here = (numbers >= 0) & (cells >= 0) & (offset < np.diff(start)[held]) & self.halo.part.own[held]
+        here = (numbers >= 0) & (cells >= 0) & (offset < np.diff(start)[held]) & self.halo.part.owned[held]
         rows = np.flatnonzero(here)
         return rows, (start[held[rows]] + offset[rows]).astype(np.int32)
 
     def locate_own(self, points: Floats) -> tuple[Index, Labels, Floats]:
-        """Return which points (n, 3) lie in own cells, the numbers of their hosts, and the depths there.
+        """Return the rows of points in owned cells, the numbers of their hosts, and the depths there.
 
         Of hosts of other nodes at the same place the one with the largest :func:`depth_of` counts, then the
         first.
         """
         hosts = self.locate(points)
         inside = np.flatnonzero(hosts >= 0)
-        rows = inside[self.halo.part.own[self.cell_of(hosts[inside])]]
+        rows = inside[self.halo.part.owned[self.cell_of(hosts[inside])]]
         depths = np.empty(len(rows))
         link(_depths)(self._arrays, points[rows], hosts[rows], depths)
         return rows, self.numbers_of(hosts[rows]), depths
 
     def at_own(self, name: str, numbers: Labels, points: Floats | None = None, *t: float) -> tuple[Any, ...]:
-        """Return which hosts, by their numbers, are own ones, and the results of a method there."""
+        """Return the rows of owned hosts, and the results of a method there."""
         rows, hosts = self.own_hosts(numbers)
-        found = getattr(self, name)(*((hosts,) if points is None else (points[rows], hosts, *t)))
-        return rows, *(found if isinstance(found, tuple) else (found,))
+        values = getattr(self, name)(*((hosts,) if points is None else (points[rows], hosts, *t)))
+        return rows, *(values if isinstance(values, tuple) else (values,))
 
     def fields_of_own(
         self, points: Floats, numbers: Labels, t: Floats, start: float, end: float
     ) -> tuple[Index, Floats]:
-        """Return which hosts are own ones, and the fields there at times t, from ``start`` to ``end``."""
+        """Return the rows of owned hosts, and the fields there at times t, from ``start`` to ``end``."""
         rows, hosts = self.own_hosts(numbers)
-        found = self.fields(start, end).at(points[rows], hosts, t[rows])
-        return rows, np.concatenate([field.values for field in found.values()], axis=1)
+        fields = self.fields(start, end).at(points[rows], hosts, t[rows])
+        return rows, np.concatenate([field.values for field in fields.values()], axis=1)
 
     def own_cells(self, low: int, high: int) -> tuple[Labels, Floats]:
-        """Return numbers of own cells from ``low`` to before ``high``, and their volumes, m³."""
+        """Return numbers of owned cells from ``low`` to before ``high``, and their volumes, m³."""
         cells = self.halo.part.cells
-        rows = np.flatnonzero(self.halo.part.own & (cells >= low) & (cells < high))
+        rows = np.flatnonzero(self.halo.part.owned & (cells >= low) & (cells < high))
         return cells[rows], self.mesh.volumes[rows]
 
     def own_faces(self) -> tuple[Labels, Ints, Labels, Floats, Floats]:
-        """Return the boundary faces of own cells: numbers, patches, cells, areas, m², and centres, m."""
+        """Return the boundary faces of owned cells: numbers, patches, cells, areas, m², and centres, m."""
         part, mesh = self.halo.part, self.mesh
-        found, counts = self.mesh_sizes(), np.diff(mesh.patch_start)[:-1]
+        sizes, counts = self.mesh_sizes(), np.diff(mesh.patch_start)[:-1]
         patches = np.repeat(np.arange(len(counts), dtype=np.int32), counts)
-        rows = np.flatnonzero(part.own[found.owner[: len(patches)]])
-        cells, faces = part.cells[found.owner[rows]], part.faces[mesh.n_internal + rows]
-        return faces, patches[rows], cells, found.areas[rows], found.centres[rows]
+        rows = np.flatnonzero(part.owned[sizes.owner[: len(patches)]])
+        cells, faces = part.cells[sizes.owner[rows]], part.faces[mesh.n_internal + rows]
+        return faces, patches[rows], cells, sizes.areas[rows], sizes.centres[rows]
 
     def own_zone(self, name: str | None) -> tuple[Floats, Labels]:
-        """Return the volumes and the numbers of the tetrahedra of a zone of cells that are own ones."""
+        """Return volumes and numbers of a zone's tetrahedra in owned cells."""
         zone = self.cell_zone(name)
-        own = self.halo.part.own[self.cell_of(zone.hosts)]
-        return zone.volumes[own], self.numbers_of(zone.hosts[own])
+        owned = self.halo.part.owned[self.cell_of(zone.hosts)]
+        return zone.volumes[owned], self.numbers_of(zone.hosts[owned])
 
     def every_node(self, stride: int) -> tuple[Labels, NodeValues]:
         """Return nodes by their numbers in the whole mesh, multiples of ``stride``, and the values there."""
@@ -276,12 +278,12 @@ class PartFlow(MeshFlow):
 
     @property
     def rate(self) -> float:
-        """Largest number of own cells that the fluid passes in a time, 1/s."""
+        """Largest number of owned cells that the fluid passes in a time, 1/s."""
         return self._rate_of(self.at_nodes()[1], self.turbulence_at_nodes())
 
     @property
     def steepness(self) -> float:
-        """Largest number of own cells on a length, 1/m."""
+        """Largest number of owned cells on a length, 1/m."""
         n = self.mesh.n_cells
         return self._most_passed(np.zeros((n, 3)), np.ones(n))
 
@@ -293,7 +295,7 @@ class PartFlow(MeshFlow):
         return self._most_passed(u[cells], eddies)
 
     def _most_passed(self, u: Floats, further: Floats) -> float:
-        """Return the largest flux through a face over the volume, of own cells, 1/s.
+        """Return the largest flux through a face over the volume, of owned cells, 1/s.
 
         Cells have the velocities u (n, 3), m/s, and further ones in any direction, (n,).
         """
@@ -301,22 +303,21 @@ class PartFlow(MeshFlow):
         of_faces = mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour
         faces = Faces(*of_faces, mesh.cell_face_start, mesh.cell_faces)
         most = largest_fluxes(mesh.points, faces, u, further)
-        return float((most / mesh.volumes)[self.halo.part.own].max(initial=0.0))
+        return float((most / mesh.volumes)[self.halo.part.owned].max(initial=0.0))
 
     def places_in_whole(self) -> tuple[Labels, Ints, Labels, Ints, Ints]:
-        """Return numbers, nodes and first tetrahedra of cells in the whole mesh, those here, and folders."""
+        """Return the columns of :class:`~foamprb.distributed.node.PlacesInWhole`."""
         halo = self.halo
         return halo.part.cells, halo.part.node, self._first_tet, self.mesh.cell_start, halo.folders.of_cells
 
     def own_patch_faces(self, name: str, t: float) -> tuple[Labels, PatchFaces]:
-        """Return the triangles of a patch at own cells with the numbers of their faces and of their hosts."""
-        mesh, found = self.mesh, self.patch_faces(name, t)
+        """Return the triangles of a patch at owned cells, with the numbers of faces and hosts."""
+        mesh, v = self.mesh, self.patch_faces(name, t)
         at = np.flatnonzero(mesh.triangle_patch == [patch.name for patch in self.patches].index(name))
-        mine = self.halo.part.own[self.cell_of(mesh.triangle_tet[at])]
-        v = found
-        own = PatchFaces(v.vertices[mine], v.areas[mine], v.normals[mine], v.velocity[mine], v.hosts[mine])
-        numbers: Any = self.numbers_of(own.hosts)
-        return self._faces_of(mesh, at[mine]), own._replace(hosts=numbers)
+        mine = self.halo.part.owned[self.cell_of(mesh.triangle_tet[at])]
+        owned = PatchFaces(v.vertices[mine], v.areas[mine], v.normals[mine], v.velocity[mine], v.hosts[mine])
+        numbers: Any = self.numbers_of(owned.hosts)
+        return self._faces_of(mesh, at[mine]), owned._replace(hosts=numbers)
 
 
 class PartSeries(PartFlow, SeriesFlow):
@@ -333,9 +334,9 @@ class PartSeries(PartFlow, SeriesFlow):
     """
 
     def __init__(
-        self, halo: Halo, mesh: Mesh, times: Sequence[float], *given: Any, keep: int = 0, **options: Any
+        self, halo: Halo, mesh: Mesh, times: Sequence[float], *arguments: Any, keep: int = 0, **options: Any
     ) -> None:
-        super().__init__(halo, mesh, times, *given, keep=min(halo.of_all(keep)), **options)
+        super().__init__(halo, mesh, times, *arguments, keep=min(halo.of_all(keep)), **options)
         self._rates: dict[int, float] = {}
         self._place: Callable[..., NDArray[Any]] = lambda array, _: array
 

@@ -1,4 +1,4 @@
-"""Part of a mesh that a node holds: its own cells, which it reads, and layers of cells around them."""
+"""Part of a mesh that a node holds: its owned cells, which it reads, and layers of cells around them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def hold_part(
     Parameters
     ----------
     read
-        Returns the own cells.
+        Returns the owned cells.
     patches, patch_start
         Patches of the whole mesh, and the first boundary face of each.
     n_internal
@@ -59,11 +59,11 @@ def hold_part(
     return part
 
 
-def has_baffles(own: Fragment, team: Team, n_internal: int) -> bool:
-    """Return True if two boundary faces of the own cells of all nodes have the same points.
+def has_baffles(owned: Fragment, team: Team, n_internal: int) -> bool:
+    """Return True if two boundary faces of the owned cells of all nodes have the same points.
 
     ``n_internal`` is the number of faces between cells in the whole mesh.
     """
-    codes, size = codes_of(own.start, own.lists, np.flatnonzero(own.faces >= n_internal)), team.size
-    found = np.concatenate(team.exchange([codes[codes % np.uint64(size) == k] for k in range(size)]))
-    return any(team.of_all(len(np.unique(found)) < len(found)))
+    codes, size = codes_of(owned.start, owned.lists, np.flatnonzero(owned.faces >= n_internal)), team.size
+    received = np.concatenate(team.exchange([codes[codes % np.uint64(size) == k] for k in range(size)]))
+    return any(team.of_all(len(np.unique(received)) < len(received)))

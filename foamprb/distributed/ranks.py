@@ -6,8 +6,8 @@ process reads the case and executes the run. Each of its decisions is broadcast 
 the next operation, and an error or a signal of any process returns with its answer. The flow's arrays lie in
 memory that the processes of a computer share (:mod:`foamprb.distributed.shared_memory`).
 
-The compiled code and the distance to which walls are listed are those of a run on one process, and particles
-do not act on each other. Results are the same, bit for bit, for any distribution.
+The compiled code and the distance to which walls are listed do not depend on the number of processes, and
+particles do not act on each other. Results are the same, bit for bit, for any distribution.
 """
 
 from __future__ import annotations
@@ -71,14 +71,16 @@ class Ranks(Communicator):
         """Number of particles of each status on each rank, from the first step on."""
         self._way: _WholeFlow | _PartedFlow | None = None
 
-    def call(self, function: Callable[..., Value], *arguments: Any, own: tuple[Any, ...] = ()) -> list[Value]:
+    def call(
+        self, function: Callable[..., Value], *arguments: Any, here: tuple[Any, ...] = ()
+    ) -> list[Value]:
         """See :meth:`Communicator.call`; the other processes import the function.
 
         Parameters
         ----------
         function, arguments
             Function and arguments.
-        own
+        here
             Further arguments for this process alone, which cannot be sent.
 
         Raises
@@ -90,7 +92,7 @@ class Ranks(Communicator):
         self._in_collective = True
         worker.wait_for_all()
         worker.comm.bcast(message)
-        answer = worker.execute(function, (*arguments, *own))
+        answer = worker.execute(function, (*arguments, *here))
         worker.wait_for_all()
         answers: list[Answer] = worker.comm.gather(answer)
         self._in_collective = False
@@ -129,14 +131,14 @@ class Ranks(Communicator):
         firsts = self.rank.firsts
         ends = np.searchsorted(numbers, firsts)
         for rank, rows in enumerate(map(slice, ends[:-1], ends[1:])):
-            own = {name: array[rows] for name, array in arrays.items()}
+            of_rank = {name: array[rows] for name, array in arrays.items()}
             if rows.start == rows.stop:
                 continue
             first = int(numbers[rows.start] - firsts[rank])
             if rank == 0:
-                self.rank.put(0, first, own)
+                self.rank.put(0, first, of_rank)
             else:
-                self.call(Worker.put, rank, first, own=(own,))
+                self.call(Worker.put, rank, first, here=(of_rank,))
 
     def map_by_id(
         self, function: Callable[..., Value], *arguments: Any, of: str | None = None
@@ -147,13 +149,15 @@ class Ranks(Communicator):
             sizes = enumerate(np.diff(self.rank.firsts).tolist())
             blocks = [(rank, rows) for rank, n in sizes if n or rank == 0 for rows in parts_of(n)]
             for some in (blocks[k : k + BLOCKS] for k in range(0, len(blocks), BLOCKS)):
-                own = [iter(found) for found in self.call(Worker.map_blocks, function, some, of, *arguments)]
-                yield from (next(own[rank]) for rank, _ in some)
+                results = [
+                    iter(answer) for answer in self.call(Worker.map_blocks, function, some, of, *arguments)
+                ]
+                yield from (next(results[rank]) for rank, _ in some)
             return
         rows = max(1, min(BLOCKS, self.size) * communicator.PART // self.size)
         for first in range(0, max(self._n, 1), rows * self.size):
-            found: list[Value] = self.call(Worker.map_numbers, function, first, rows, of, *arguments)
-            yield from found[: max(1, -(-(self._n - first) // rows))]
+            answer: list[Value] = self.call(Worker.map_numbers, function, first, rows, of, *arguments)
+            yield from answer[: max(1, -(-(self._n - first) // rows))]
 
     def arrays_here(self) -> Arrays:
         """See :meth:`Communicator.arrays_here`; each rank writes its own."""
@@ -191,8 +195,8 @@ class Ranks(Communicator):
             return None
         flow.seconds = clock.perf_counter() - started
         for number, summary in enumerate(flow.summaries):
-            log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.own,
-                     summary.held - summary.own)  # fmt: skip
+            log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.owned,
+                     summary.held - summary.owned)  # fmt: skip
         return flow
 
     def signal(self) -> int:
@@ -234,24 +238,24 @@ class Ranks(Communicator):
         self, function: Callable[..., ShareState], stop: Callable[[], bool], *steps: Any
     ) -> Outcome:
         """Let all ranks take steps by a function of :class:`Worker`."""
-        states = self.call(function, *steps, own=(stop,))
+        states = self.call(function, *steps, here=(stop,))
         self._counts = [state.counts for state in states]
         return sum((state.outcome for state in states), Outcome())
 
     def exchange(self, groups: Iterable[Sequence[int]]) -> None:
         """Balance the shares of the ranks of each group if they differ too much."""
-        whole = np.zeros(2 * (self.size,), dtype=np.int64)
-        for own in groups:
-            plan = plan_exchange([int(self._counts[rank][Status.ACTIVE]) for rank in own])
+        plans = np.zeros(2 * (self.size,), dtype=np.int64)
+        for group in groups:
+            plan = plan_exchange([int(self._counts[rank][Status.ACTIVE]) for rank in group])
             if plan is not None:
-                whole[np.ix_(own, own)] = plan
-        if whole.any():
-            self.call(Worker.exchange, whole)
+                plans[np.ix_(group, group)] = plan
+        if plans.any():
+            self.call(Worker.exchange, plans)
 
     def counts(self) -> dict[Status, int]:
         """See :meth:`Communicator.counts`."""
-        found = self._counts or [state.counts for state in self.call(Worker.state)]
-        total = np.sum(found, axis=0)
+        counts_of_ranks = self._counts or [state.counts for state in self.call(Worker.state)]
+        total = np.sum(counts_of_ranks, axis=0)
         return {status: int(total[status]) for status in Status}
 
     def regroup(self) -> None:
@@ -306,7 +310,7 @@ class _WholeFlow:
 
     def __init__(self, ranks: Ranks, cloud: Cloud) -> None:
         self._ranks = ranks
-        self.publisher = Publisher(ranks.rank.windows, lambda *given: ranks.call(Worker.window, *given))
+        self.publisher = Publisher(ranks.rank.windows, lambda *call: ranks.call(Worker.window, *call))
         self._placed = b""
         self.ranks_of = [list(range(ranks.size))]
         """Ranks that share particles with each other."""

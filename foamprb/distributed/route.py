@@ -51,18 +51,18 @@ class Route:
         """
         if not self._comm.allreduce(has_bits(array), self._MPI.LOR):
             return np.zeros((self.size, *array.shape[1:]), array.dtype)
-        found = np.empty((self.size, *array.shape[1:]), array.dtype)
+        arrived = np.empty((self.size, *array.shape[1:]), array.dtype)
         row = self._MPI.BYTE.Create_contiguous(array.dtype.itemsize * math.prod(array.shape[1:])).Commit()
         start = 0
         for rows, sent, received in self._rounds:
             end = start + int(received.sum())
             self._comm.Alltoallv(
                 [array[rows], (sent, _starts(sent)), row],
-                [found[start:end], (received, _starts(received)), row],
+                [arrived[start:end], (received, _starts(received)), row],
             )
             start = end
         row.Free()
-        return found
+        return arrived
 
 
 def _sorted_rows(to: NDArray[np.int64], first: int) -> NDArray[np.int64] | slice:

@@ -16,7 +16,7 @@ from foamprb.errors import RunStopped
 Array = NDArray[Any]
 
 NODE_RANKS = "FOAMPRB_NODE_RANKS"
-"""Environment variable with the number of processes that make a node, instead of those of a computer."""
+"""Environment variable with the number of processes of a node; by default all of a computer."""
 _LONGEST_PAUSE = 1e-3
 """Longest pause between two tests of a barrier, s."""
 _SMALLEST = 1 << 16
@@ -49,7 +49,7 @@ class Windows:
         self._MPI = MPI
         few = int(os.environ.get(NODE_RANKS, "0"))
         self.node = comm.Split(comm.rank // few, comm.rank) if few else comm.Split_type(MPI.COMM_TYPE_SHARED)
-        # The first process of each computer, that of all first among them.
+        # The first process of each computer; rank 0 is the first of these.
         first = self.node.rank == 0
         self.leaders = comm.Split(0 if first else MPI.UNDEFINED)
         self.nodes: int = comm.allreduce(int(first))
@@ -88,14 +88,14 @@ class Windows:
         self._windows[key].Sync()
 
     def free(self, key: int) -> None:
-        """Give the memory of an array back; whoever reads it afterwards is lost."""
+        """Free a window; later reads are invalid."""
         del self.arrays[key]
         window = self._windows.pop(key)
         window.Unlock_all()
         window.Free()
 
     def find(self, tree: Any) -> Any:
-        """Return a tuple, and those in it, with this process' arrays for the places that stand for them."""
+        """Replace each :class:`Place` in a tree by this rank's array."""
         return _map(
             tree,
             lambda leaf: self.arrays[leaf.key].reshape(leaf.shape) if isinstance(leaf, Place) else leaf,
@@ -108,7 +108,7 @@ class Publisher:
     Parameters
     ----------
     windows
-        Those of the first process.
+        The windows of the first process.
     order
         Lets all processes call a method of their windows, by its name and arguments.
     """
@@ -248,7 +248,7 @@ def _where(array: Array) -> tuple[int, tuple[int, ...], str]:
 
 
 def _map(tree: Any, function: Callable[[Any], Any]) -> Any:
-    """Apply a function to the leaves of a tuple with named items, and of those in it."""
+    """Apply a function to the leaves of nested named tuples."""
     if isinstance(tree, tuple) and hasattr(tree, "_fields") and not isinstance(tree, Place):
         return type(tree)(*(_map(item, function) for item in tree))
     return function(tree)

@@ -51,7 +51,7 @@ class SubMesh:
     faces: Labels
     """(n_faces,) numbers of the faces."""
     layer: NDArray[np.uint8]
-    """(n_cells,) 0 for own cells."""
+    """(n_cells,) 0 for owned cells."""
     node: NDArray[np.int32]
     """(n_cells,) the node that owns the cell."""
     n_internal: int
@@ -62,10 +62,10 @@ class SubMesh:
     """(n_boundary,) False for faces outside these layers, and of coupled patches that lead out of them."""
 
     @property
-    def own(self) -> NDArray[np.bool_]:
-        """Return True for own cells, (n_cells,)."""
-        own: NDArray[np.bool_] = self.layer == 0
-        return own
+    def owned(self) -> Mask:
+        """Return True for owned cells, (n_cells,)."""
+        owned: Mask = self.layer == 0
+        return owned
 
     @property
     def usable(self) -> Mask:
@@ -99,8 +99,8 @@ def assemble_part(
     n_inside, n_outside = len(poly.faces.neighbour), int(poly.patch_start[-2])
     boundary, depth = numbers[2][n_inside:][:n_outside], layers - RINGS
     usable = (layer <= depth)[poly.faces.owner[n_inside : n_inside + n_outside]]
-    found = _local_couplings(joints, boundary)
-    mesh = assemble(poly, source, lambda *_: found)
+    coupled = _local_couplings(joints, boundary)
+    mesh = assemble(poly, source, lambda *_: coupled)
     patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
     continued = np.append(usable, np.ones(len(mesh.boundary_centres) - n_outside, dtype=bool))
     one, other = (places_of(boundary, faces) for faces in joints.links)
@@ -110,12 +110,12 @@ def assemble_part(
 
 def _local_couplings(joints: Joints, boundary: Labels) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
     """Return the patches, and the couplings with the pairs of faces of which both are here."""
-    kept = []
+    couplings = []
     for coupling in joints.couplings:
         faces, partners = (places_of(boundary, side) for side in (coupling.faces, coupling.partners))
         pairs = (faces >= 0) & (partners >= 0)
-        kept.append(coupling._replace(faces=faces[pairs], partners=partners[pairs]))
-    return (*joints.patches, Patch(CUT.name, CUT.type)), tuple(kept)
+        couplings.append(coupling._replace(faces=faces[pairs], partners=partners[pairs]))
+    return (*joints.patches, Patch(CUT.name, CUT.type)), tuple(couplings)
 
 
 def _local_poly(
@@ -154,10 +154,9 @@ def _local_poly(
 class Folders(NamedTuple):
     """Processor folders that a node has read."""
 
-    chosen: range
-    """Which of all."""
+    numbers: range
     of_cells: Ints
-    """(n_cells,) the folder of each own cell."""
+    """(n_cells,) the folder of each owned cell."""
 
 
 class Halo(MeshCommunicator):
@@ -179,9 +178,9 @@ class Halo(MeshCommunicator):
         mesh, cells = part.mesh, part.cells
         everyone = range(team.size)
         n_boundary = int(mesh.patch_start[-2])
-        counted = part.own[mesh.owner]
+        counted = part.owned[mesh.owner]
         counted[mesh.n_internal + n_boundary :] = False
-        self.own_cells, self.own_faces = np.flatnonzero(part.own), np.flatnonzero(counted)
+        self.own_cells, self.own_faces = np.flatnonzero(part.owned), np.flatnonzero(counted)
         self.own_boundary = np.flatnonzero(counted[mesh.n_internal :])
         owner = mesh.owner[: mesh.n_internal + n_boundary]
         # Any node with a cell around a point that it owns can compute the values there.
@@ -189,7 +188,7 @@ class Halo(MeshCommunicator):
         of_points = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
         np.minimum.at(lowest, mesh.cell_points, of_points)
         giver = part.node[lowest]
-        giver[mesh.cell_points[np.repeat(part.own, np.diff(mesh.cell_point_start))]] = team.rank
+        giver[mesh.cell_points[np.repeat(part.owned, np.diff(mesh.cell_point_start))]] = team.rank
         self._plans = {}
         del of_points, lowest
         for name, numbers, node in (
@@ -200,14 +199,14 @@ class Halo(MeshCommunicator):
         ):
             wanted = [np.flatnonzero(node == k) if k != team.rank else np.empty(0, np.intp) for k in everyone]
             asked = team.exchange([numbers[rows] for rows in wanted])
-            given = [np.searchsorted(numbers, ids) for ids in asked]
-            self._plans[name] = [int32(rows) for rows in given], [int32(rows) for rows in wanted]
+            sent = [np.searchsorted(numbers, ids) for ids in asked]
+            self._plans[name] = [int32(rows) for rows in sent], [int32(rows) for rows in wanted]
 
     def fill(self, kind: str, values: NDArray[Any]) -> None:
         """See :meth:`MeshCommunicator.fill`."""
-        given, taken = self._plans[kind]
-        for rows, found in zip(taken, self.team.exchange([values[rows] for rows in given]), strict=True):
-            values[rows] = found
+        sent, received = self._plans[kind]
+        for rows, arrived in zip(received, self.team.exchange([values[rows] for rows in sent]), strict=True):
+            values[rows] = arrived
 
     def of_all(self, value: Any) -> list[Any]:
         """See :meth:`MeshCommunicator.of_all`."""
@@ -224,24 +223,24 @@ class Halo(MeshCommunicator):
         team, numbers, cells = self.team, self.part.cells, self.own_cells
         parts = [(len(segments) - 1) * k // team.size for k in range(team.size + 1)]
         ends = segments[parts]
-        own, held = (Ranges(team, ends, some) for some in (numbers[cells], numbers))
+        owned, held = (Ranges(team, ends, some) for some in (numbers[cells], numbers))
         start, columns, values, diagonal = rows
         counts = np.diff(start.astype(np.intp))[cells]
         entries = ragged(start[cells].astype(np.intp), counts)
-        begin, to, values = own.put_lists(starts(counts), numbers[columns[entries]], values[entries])
+        row_start, to, values = owned.put_lists(starts(counts), numbers[columns[entries]], values[entries])
         first, end = ends[team.rank : team.rank + 2]
         inside = (to >= first) & (to < end)
         beyond = np.unique(to[~inside])
         others = Ranges(team, ends, beyond)
         columns = np.where(inside, to - first, end - first + np.searchsorted(beyond, to)).astype(np.uint32)
-        block = own.put(blocks[0])
+        block = owned.put(blocks[0])
         here = segments[parts[team.rank] : parts[team.rank + 1] + 1] - first
-        given = (
-            (begin.astype(np.uint32), columns, values, own.put(diagonal[cells])),
+        equations = (
+            (row_start.astype(np.uint32), columns, values, owned.put(diagonal[cells])),
             np.concatenate([block, others.get(block)]), blocks[1], here,
             team.of_all, others.get, int(np.searchsorted(beyond, first)),
         )  # fmt: skip
-        return given, own.put, held.get
+        return equations, owned.put, held.get
 
 
 class Ranges:
@@ -264,25 +263,25 @@ class Ranges:
         self._rows = [cells - ends[team.rank] for cells in asked]
 
     def put(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Scatter values (n,) to the nodes of the cells' ranges; return those of this range."""
+        """Scatter values (n,) to the nodes of the cells' ranges; return the values of this range."""
         return self._placed([values[part] for part in self._parts], self._rows, self._n)
 
     def put_lists(self, start: Index, *lists: NDArray[Any]) -> tuple[Any, ...]:
-        """Scatter lists; return starts and entries of those of this range."""
+        """Scatter lists; return starts and entries of the lists of this range."""
         counts = self.put(np.diff(start))
-        begin = starts(counts)
-        places = [ragged(begin[rows], counts[rows]) for rows in self._rows]
+        first = starts(counts)
+        places = [ragged(first[rows], counts[rows]) for rows in self._rows]
         parts = [slice(start[part.start], start[part.stop]) for part in self._parts]
-        return begin, *(
-            self._placed([entries[part] for part in parts], places, int(begin[-1])) for entries in lists
+        return first, *(
+            self._placed([entries[part] for part in parts], places, int(first[-1])) for entries in lists
         )
 
     def _placed(self, parcels: list[NDArray[Any]], places: list[Index], n: int) -> NDArray[Any]:
-        whole = np.empty(n, dtype=parcels[0].dtype)
+        values = np.empty(n, dtype=parcels[0].dtype)
         for rows, part in zip(places, self._team.exchange(parcels), strict=True):
-            whole[rows] = part
-        return whole
+            values[rows] = part
+        return values
 
     def get(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Gather values (n,) from the nodes of the cells' ranges, each of which has those of its own."""
+        """Gather values (n,) from the nodes of the cells' ranges."""
         return np.concatenate(self._team.exchange([values[rows] for rows in self._rows]))

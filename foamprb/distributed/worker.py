@@ -71,7 +71,7 @@ class Worker(Rank):
         self.windows = Windows(MPI, self.comm)
         self._firsts = np.zeros(self.comm.size + 1, dtype=np.int64)
         self.in_order, self._allocated = True, False
-        """Whether each rank has the particles that it writes to checkpoints; whether those of its cells."""
+        """Whether each rank has the particles that it writes; whether it has the particles in its cells."""
         self._local_hosts = False
         """Whether hosts are numbered as in the part of the node."""
         self._sorted: NDArray[np.int64] | None = None
@@ -146,10 +146,10 @@ class Worker(Rank):
             if self.number == 0 != rank:
                 self.comm.send(arrays, rank)
             elif self.number == rank:
-                given = self.comm.recv(source=0) if arrays is None else arrays
-                own = self.share.arrays()
-                for name, array in given.items():
-                    own[name][first : first + len(array)] = array
+                received = self.comm.recv(source=0) if arrays is None else arrays
+                stored = self.share.arrays()
+                for name, array in received.items():
+                    stored[name][first : first + len(array)] = array
 
     def prepare(self, tracker: Any, threads: int) -> None:
         """Take the tracker of the cloud, which compiles with the first steps."""
@@ -213,9 +213,9 @@ class Worker(Rank):
             sought = self.comm.bcast(hosts if rank == self.number else None, rank)
             flow = self._held.flow
             rows = None if flow is None else flow.own_hosts(sought)[0]
-            for number, own in self.comm.gather((self._held.number, rows), rank) or ():
-                if own is not None:
-                    nodes[own] = number
+            for number, rows_there in self.comm.gather((self._held.number, rows), rank) or ():
+                if rows_there is not None:
+                    nodes[rows_there] = number
         return nodes
 
     def _ranks_in(self, node: NDArray[np.int32], ids: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -271,9 +271,9 @@ class Worker(Rank):
 
     def load_part(self, start: float, end: float) -> tuple[float, float] | None:
         """Load a flow that changes; see :meth:`Part.load`."""
-        found = self._held.load(start, end)
+        loaded = self._held.load(start, end)
         self._use_part()
-        return found
+        return loaded
 
     def _use_part(self) -> None:
         part = self._held
@@ -293,7 +293,7 @@ class Worker(Rank):
         return self._part
 
     def wall_distances(self, x: Floats, numbers: NDArray[np.int64], *others: Any) -> Any:
-        """Return which hosts are in own cells of the node, and the distances from walls there.
+        """Return the rows of hosts in owned cells of the node, and their distances from walls.
 
         On the first process of a node only; see :func:`foamprb.cloud.surroundings.wall_lift.wall_distances`.
         """
@@ -301,8 +301,8 @@ class Worker(Rank):
         if part.flow is None:
             return None
         rows, hosts = part.flow.own_hosts(numbers)
-        cuts, chosen = others
-        return rows, wall_distances(MeshFlow.kernels, part.mesh, x[rows], hosts, cuts[rows], chosen)
+        cuts, patches = others
+        return rows, wall_distances(MeshFlow.kernels, part.mesh, x[rows], hosts, cuts[rows], patches)
 
     def use_flow(self, flow: Any) -> None:
         """Replace the arguments of the flow's kernels and the fields, whose arrays lie in shared memory."""
@@ -317,7 +317,7 @@ class Worker(Rank):
         self.send(rows, np.repeat(np.arange(self.comm.size), sent))
 
     def send(self, rows: NDArray[np.int64], rank_of: NDArray[np.int64]) -> None:
-        """Send the particles of some rising rows to processes, and take those that others send."""
+        """Send the particles in rising rows to other processes; store the particles that arrive."""
         with self.collective():
             arrived = unpack(self._route(rank_of).send(self._packed(rows)))
             if self._local_hosts:
@@ -341,7 +341,7 @@ class Worker(Rank):
     def take_steps_in_part(
         self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
     ) -> ShareState:
-        """Advance the particles by some steps, and send those that have come to other nodes there.
+        """Advance the particles by some steps, then migrate.
 
         See :meth:`take_steps`. If any process fails, none sends particles.
         """
@@ -360,7 +360,7 @@ class Worker(Rank):
         return self.state()._replace(outcome=outcome)
 
     def migrate(self) -> None:
-        """Send the particles that may still move and have come to cells of other nodes to these."""
+        """Send movable particles to the nodes that own their cells."""
         p, part = self.particles, self._held
         rows = np.flatnonzero(np.isin(p.status, self.tracker.movable) & (p.host >= 0))
         node = part.places.node[part.cells_of(p.host[rows])]
@@ -383,38 +383,42 @@ class Worker(Rank):
         return here, self._order[at[here]]
 
     def map_blocks(
-        self, function: Callable[..., Any], blocks: Sequence[tuple[int, slice]], of: str | None, *given: Any
+        self,
+        function: Callable[..., Any],
+        blocks: Sequence[tuple[int, slice]],
+        of: str | None,
+        *arguments: Any,
     ) -> list[Any]:
         """Apply a function to some blocks of this rank, while particles are in the order of their numbers.
 
         Parameters
         ----------
-        function, of, given
+        function, of, arguments
             See :meth:`Share.apply`.
         blocks
             Ranks, and rows of their particles.
         """
-        own = (self.share.take(rows) for rank, rows in blocks if rank == self.number)
-        return [share.apply(function, of, *given) for share in own]
+        shares = (self.share.take(rows) for rank, rows in blocks if rank == self.number)
+        return [share.apply(function, of, *arguments) for share in shares]
 
     def map_numbers(
-        self, function: Callable[..., Any], first: int, rows: int, of: str | None, *given: Any
+        self, function: Callable[..., Any], first: int, rows: int, of: str | None, *arguments: Any
     ) -> Any:
         """Apply a function to particles of consecutive numbers, other ones on each rank.
 
         Parameters
         ----------
-        function, of, given
+        function, of, arguments
             See :meth:`Share.apply`.
         first, rows
             The first number of the first process, and how many particles each has; the last may have fewer.
         """
         numbers, end = self.particles.number, first + rows * self.comm.size
-        chosen = self._order[slice(*np.searchsorted(numbers, (first, end), sorter=self._order))]
-        arrived = self.sent((numbers[chosen] - first) // rows, self._packed(chosen))
+        rows_sent = self._order[slice(*np.searchsorted(numbers, (first, end), sorter=self._order))]
+        arrived = self.sent((numbers[rows_sent] - first) // rows, self._packed(rows_sent))
         if self.number and not len(arrived):
             return None
-        return unpack(arrived[np.argsort(arrived["number"])]).apply(function, of, *given)
+        return unpack(arrived[np.argsort(arrived["number"])]).apply(function, of, *arguments)
 
     def write_part(self, file: Path, time: float) -> tuple[int, str] | None:
         """Write particles of consecutive numbers, and sums of cells, to part of a checkpoint at a time, s.
@@ -436,7 +440,7 @@ class Worker(Rank):
                 return None
             return first, write_arrays(part_file(Path(file), first), time, {}, arrays)
         finally:
-            # The others need what this process has not sent yet.
+            # The others wait for the arrays that this process has not sent yet.
             for _ in arrays:
                 pass
 
@@ -453,8 +457,8 @@ class Worker(Rank):
         for kind, arrays in ((PARTICLES, share.particles._asdict()), (FUNCTIONS, share.memory)):
             for name, array in arrays.items():
                 with self.collective():
-                    found = route.send(array)
-                yield f"{kind}{name}", found[order]
+                    arrived = route.send(array)
+                yield f"{kind}{name}", arrived[order]
         sums = {} if self.sampling is None else self.sampling.sums
         yield from ((f"{FUNCTIONS}{name}", array) for name, (_, array) in sums.items())
 

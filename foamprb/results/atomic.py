@@ -21,7 +21,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
     """Yield a temporary file; rename it to ``path`` when the context ends without an error.
 
     Even after a full disk or a killed process ``path`` holds either its earlier contents or all of the new
-    ones. The folder of ``path`` is made if it is absent, but not those above it: a case that is moved while
+    ones. The folder of ``path`` is made if it is absent, but not its parents: a case that is moved while
     its results are written is not begun anew at its old place. An error inside the context removes the
     temporary file. A killed process leaves it behind; :func:`remove_unfinished` removes it.
 

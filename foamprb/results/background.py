@@ -11,8 +11,8 @@ from typing import Self
 class Writer:
     """Thread that performs one task at a time, in order.
 
-    At most one task is unfinished, which bounds the memory: :meth:`begin` waits for the task before. The next
-    call of any method raises the error of a task, once.
+    At most one task is unfinished, which bounds the memory: :meth:`submit` waits for the task before.
+    The next call of any method raises the error of a task, once.
 
     At the end of the context the last task is finished, or its error raised. An error of the context itself
     takes precedence.
@@ -22,7 +22,7 @@ class Writer:
         self._thread = ThreadPoolExecutor(1, "foamprb-writer")
         self._unfinished: Future[object] | None = None
 
-    def begin(self, work: Callable[[], object]) -> None:
+    def submit(self, work: Callable[[], object]) -> None:
         """Begin a task when the task before is finished."""
         self.finish()
         self._unfinished = self._thread.submit(work)

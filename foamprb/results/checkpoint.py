@@ -36,7 +36,7 @@ log = logging.getLogger("foamprb")
 
 VERSION = 12
 PARTICLES, FUNCTIONS = "particles/", "functions/"
-"""What the names of arrays begin with: of the state of particles, and of what cloud functions remember."""
+"""Prefixes of array names: particle state, cloud-function data."""
 MOST_FILES = 2
 """Number of checkpoints that stay on disk."""
 
@@ -181,8 +181,8 @@ def write_arrays(
     first, names, rows = _FORMAT + b"%d\n" % VERSION, [], {}
     with atomic_write(path) as temporary, temporary.open("w+b") as file:
         file.write(first + bytes(_SUM_BYTES + _PLACE_BYTES))
-        for name, given in arrays:
-            array = np.asarray(given, order="C")
+        for name, values in arrays:
+            array = np.asarray(values, order="C")
             names.append(name)
             if is_one_row(array):
                 rows[name] = len(array)
@@ -220,9 +220,9 @@ class _File(NamedTuple):
     def read_into(self, array: NDArray[Any], name: str, first: int) -> None:
         """Read rows of an array from a number on."""
         place = self.arrays[name]
-        own = array[:1] if place.repeated else array
+        rows = array[:1] if place.repeated else array
         row = math.prod(place.shape[1:]) * place.dtype.itemsize
-        left = own.reshape(-1).view(np.uint8)
+        left = rows.reshape(-1).view(np.uint8)
         with self.path.open("rb", buffering=0) as file:
             file.seek(place.offset + (0 if place.repeated else first * row))
             while len(left):
@@ -254,23 +254,23 @@ class StoredCheckpoint:
 
     def __init__(self, path: Path, verify: bool = False) -> None:
         self.path = path
-        whole, _ = _open(path, verify)
-        self.time, self.header = whole.time, whole.header
-        self._files = [(0, whole)]
+        main, _ = _open(path, verify)
+        self.time, self.header = main.time, main.header
+        self._files = [(0, main)]
         for first, expected in self.header.get("parts", ()):
-            own = part_file(path, first)
+            file = part_file(path, first)
             try:
-                part, checksum = _open(own, verify)
+                part, checksum = _open(file, verify)
             except FileNotFoundError:
-                raise DamagedError(f"{own.name} is missing") from None
+                raise DamagedError(f"{file.name} is missing") from None
             except DamagedError as error:
-                raise DamagedError(f"in {own.name} {error}") from error
+                raise DamagedError(f"in {file.name} {error}") from error
             if checksum != expected:
-                raise DamagedError(f"{own.name} belongs to another checkpoint")
+                raise DamagedError(f"{file.name} belongs to another checkpoint")
             self._files.append((first, part))
         self.layout: dict[str, tuple[tuple[int, ...], np.dtype[Any]]] = {}
         """Shapes and types of the arrays."""
-        for name, place in whole.arrays.items():
+        for name, place in main.arrays.items():
             more = sum(part.arrays[name].shape[0] for part in self._parts(name))
             shape = (place.shape[0] + more, *place.shape[1:]) if more else place.shape
             self.layout[name] = shape, place.dtype
@@ -303,15 +303,15 @@ class StoredCheckpoint:
         OSError
             If a file cannot be read.
         """
-        rows, begin = np.atleast_1d(array), 0
+        rows, start = np.atleast_1d(array), 0
         for file in (self._files[0][1], *self._parts(name)):
-            end = begin + (file.arrays[name].shape[0] if array.ndim else 1)
-            low, high = max(first, begin), min(first + len(rows), end)
+            end = start + (file.arrays[name].shape[0] if array.ndim else 1)
+            low, high = max(first, start), min(first + len(rows), end)
             if low < high:
-                file.read_into(rows[low - first : high - first], name, low - begin)
-            begin = end
+                file.read_into(rows[low - first : high - first], name, low - start)
+            start = end
 
-    def whole(self) -> Checkpoint:
+    def read_all(self) -> Checkpoint:
         """Return header and all arrays."""
         return Checkpoint(self.time, self.header, {name: self.read(name) for name in self.layout})
 

@@ -120,13 +120,13 @@ def remove_lagrangian(case: Path, cloud: str) -> None:
     OSError
         If a file cannot be removed.
     """
-    for own in case.glob(f"[0-9]*/uniform/lagrangian/{cloud}/cloudProperties"):
+    for properties in case.glob(f"[0-9]*/uniform/lagrangian/{cloud}/cloudProperties"):
         # OpenFOAM's own files have more entries.
-        if not own.read_text(encoding="utf-8", errors="replace").endswith(f"}}\n\n{_GEOMETRY}"):
+        if not properties.read_text(encoding="utf-8", errors="replace").endswith(f"}}\n\n{_GEOMETRY}"):
             continue
-        time = own.parents[3]
+        time = properties.parents[3]
         shutil.rmtree(time / "lagrangian" / cloud, ignore_errors=True)
-        shutil.rmtree(own.parent)
+        shutil.rmtree(properties.parent)
         for folder in ("lagrangian", "uniform/lagrangian", "uniform", "."):
             # Only an empty folder can be removed.
             with suppress(OSError):
@@ -158,12 +158,12 @@ def write_lagrangian(
         If a file cannot be written.
     """
     time = folder.parents[1]
-    own = time / "uniform" / "lagrangian" / folder.name / "cloudProperties"
+    properties = time / "uniform" / "lagrangian" / folder.name / "cloudProperties"
     # Without this file OpenFOAM would expect barycentric coordinates, and find no particles.
-    location = str(own.parent.relative_to(time.parent))
-    for place in (folder, own.parent):
+    location = str(properties.parent.relative_to(time.parent))
+    for place in (folder, properties.parent):
         place.mkdir(parents=True, exist_ok=True)
-    write_text(own, _header("dictionary", own.name, location) + _GEOMETRY)
+    write_text(properties, _header("dictionary", properties.name, location) + _GEOMETRY)
     n = len(points)
     lines = [
         f"({x!r} {y!r} {z!r}) {c}\n" for (x, y, z), c in zip(points.tolist(), cells.tolist(), strict=True)

@@ -82,7 +82,7 @@ class ResultsFolder:
         Raises
         ------
         InputError
-            If there are no such results, or those of several clouds or regions.
+            If there are no such results, or results of several clouds or regions.
         """
         if not case.is_dir():
             raise InputError(f"{case}: no such folder.")

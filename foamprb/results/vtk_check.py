@@ -23,7 +23,7 @@ def is_compressed(path: Path) -> bool:
 
 
 def require_sizes(path: Path) -> None:
-    """Check that the sizes in the header of a compressed ``.vtp`` file are those of its data.
+    """Check that the sizes in the header of a compressed ``.vtp`` file match its data.
 
     Raises
     ------
@@ -73,9 +73,9 @@ def _head(file: BinaryIO) -> bytes:
     """Return the beginning of a file with the header, and some of the data."""
     head = bytearray()
     while (chunk := file.read(_CHUNK)) and len(head) < _MOST_HEADER:
-        found = _DATA in head
+        has_data = _DATA in head
         head += chunk
-        if found:
+        if has_data:
             break
     return bytes(head)
 

@@ -66,7 +66,7 @@ def _at_few_nodes(flow: Flow) -> NodeValues:
     return values.take(slice(None, None, max(1, len(values.u) // _MOST_NODES)))
 
 
-def groups(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> Groups:
+def dimensionless_groups(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> Groups:
     """Return the dimensionless groups of the particles that one injection model releases.
 
     Parameters
@@ -77,7 +77,7 @@ def groups(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> Group
         :func:`extension_rates` of the flow.
     """
     parts = [(p.size, _ranges(cloud, p)) for p in cloud.map_by_id(_released_by, injector) if p.size]
-    ranges = np.array([own for _, own in parts]) if parts else np.full((1, 8, 2), np.nan)
+    ranges = np.array([limits for _, limits in parts]) if parts else np.full((1, 8, 2), np.nan)
     lowest, largest = ranges[:, :, 0].min(axis=0), ranges[:, :, 1].max(axis=0)
     rate, capillary, reynolds, stokes, step, size, path, stiffness = (
         (float(low), float(high)) for low, high in zip(lowest, largest, strict=True)
@@ -127,12 +127,12 @@ def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> f
     A solid has none beyond a capillary number of extension. A drop breaks up where it grows faster than its
     surface tension restores it.
     """
-    softest = [own for of_rank in cloud.map_ranks(_softest_of, injector) for own in of_rank]
+    softest = [softness for of_rank in cloud.map_ranks(_softest_of, injector) for softness in of_rank]
     if len(extension) == 0 or not softest:
         return 0.0
     values = _at_few_nodes(cloud.flow)
     mu = np.asarray(viscosity_at_nodes(cloud.medium.mu, values))
-    modulus, eta = min(softest, key=lambda own: own[0])
+    modulus, eta = min(softest, key=lambda softness: softness[0])
     times = mu / modulus
     if MATERIALS[cloud.models.material].liquid:
         ratio = eta / mu
@@ -143,7 +143,7 @@ def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> f
     return float(np.mean(np.sqrt(3.0) * extension * times > STEADY_CAPILLARY))
 
 
-def doubts(g: Groups, integrator: str, where: str, liquid: bool = False) -> list[str]:
+def validity_warnings(g: Groups, integrator: str, where: str, liquid: bool = False) -> list[str]:
     """Return a sentence, with its number, for each group that is out of the model's range.
 
     Parameters

@@ -25,7 +25,7 @@ from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
 from foamprb.results.folder import RECORD_FORMAT
-from foamprb.run.checks import doubts, extension_rates, groups
+from foamprb.run.checks import dimensionless_groups, extension_rates, validity_warnings
 from foamprb.settings.settings import Settings
 
 __all__ = ["describe", "write_record"]
@@ -54,20 +54,20 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     warnings = [str(note) for note in flow.notes if isinstance(note, Caveat)]
     extension = extension_rates(flow)
     for index, injection in enumerate(settings.injections):
-        g = groups(cloud, index, extension)
+        g = dimensionless_groups(cloud, index, extension)
         ranges = {name: value for name, value in g._asdict().items() if name != "n"} if g.n else {}
         injections.append(
             {"name": injection.name, "type": type(injection.model).__name__, "particles": g.n, **ranges}
         )
         if g.n:
             liquid = MATERIALS[models.material].liquid
-            warnings += doubts(g, models.integrator, f"injection model {injection.name}", liquid)
+            warnings += validity_warnings(g, models.integrator, f"injection model {injection.name}", liquid)
     p = _surveyed(cloud)
     medium = medium_at(cloud.medium, flow, p, cloud.time) if models.surroundings else cloud.medium
     survey = Survey(p, flow, medium, cloud.dt, cloud.make_ready())
     remarks = [model.remarks(survey) for model in models.surroundings]
-    notes = [line for own in remarks for line in own.notes]
-    warnings += [line for own in remarks for line in own.warnings]
+    notes = [line for remark in remarks for line in remark.notes]
+    warnings += [line for remark in remarks for line in remark.warnings]
     if cloud.size == 0:
         warnings.append("there is no particle: no injection model releases any.")
     number, path_number = cloud.stokes_numbers or (None, None)

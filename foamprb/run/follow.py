@@ -145,7 +145,7 @@ def begin_to_follow(
     Parameters
     ----------
     case, source
-        The case, and what to read.
+        The case, and the fields to read.
     folder
         Folder of the results.
     options
@@ -216,7 +216,7 @@ def wait(
     RunStopped
         The solver has written no time for too long.
     """
-    started, next_line, known = clock.monotonic(), _FIRST_LINE, -1
+    started, next_line, n_times = clock.monotonic(), _FIRST_LINE, -1
     while True:
         case.look()
         if ready() or case.ended:
@@ -225,8 +225,8 @@ def wait(
             return True
         if stop():
             return False
-        if len(case.times) != known:
-            known, started, next_line = len(case.times), clock.monotonic(), _FIRST_LINE
+        if len(case.times) != n_times:
+            n_times, started, next_line = len(case.times), clock.monotonic(), _FIRST_LINE
         waited = clock.monotonic() - started
         if waited > patience:
             raise RunStopped(f"no new time of the flow for {patience:g} s (-patience)")

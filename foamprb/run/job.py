@@ -92,7 +92,7 @@ class Job:
 
     @property
     def steps(self) -> int:
-        """Number of steps from the start to the end of the run, which may be that of the solver."""
+        """Number of steps from the start to the end of the run, or of the solver that it follows."""
         steps = _steps(self.settings.solution, self.cloud.start)
         if self.following is not None and self.following.ended:
             return min(steps, self.cloud.steps_until(self.following.flow.span[1]))
@@ -191,8 +191,8 @@ def prepare(
         flow = None if flows is None or settings.solution.transient else flows.get(source)
         if follow is not None:
             following = _follow(settings, time, source, output, follow, comm)
-            given: Any = following.flow
-            flow = given
+            followed: Any = following.flow
+            flow = followed
         if flow is None:
             times = FlowTimes(time, settings.solution.transient, settings.solution.period)
             flow = _open_flow(settings, comm, case, times, source)

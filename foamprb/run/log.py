@@ -62,7 +62,8 @@ def log_description(job: Job) -> None:
     log.info("Selecting tractionModel %s", models["traction"])
     forces = {"ellipsoidDrag": models["drag"], **models["forces"], **models["surroundings"]}
     log.info(
-        "Selecting particleForces %s", ", ".join(f"{name} {own}".rstrip() for name, own in forces.items())
+        "Selecting particleForces %s",
+        ", ".join(f"{name} {entries}".rstrip() for name, entries in forces.items()),
     )
     log.info("Selecting solid %s", models["solid"])
     log.info("Selecting integrationScheme %s: %s", models["integrator"], models["integratorDescription"])
@@ -72,10 +73,10 @@ def log_description(job: Job) -> None:
                  models["shapeStokesNumber"], models["pathStokesNumber"], SMALL_STOKES)  # fmt: skip
     if models["longestStep"] > 1:
         log.info("    steps of up to %d deltaT where the error allows it", models["longestStep"])
-    for name, own in models["dispersion"].items():
-        log.info("Selecting dispersionModel %s %s", name, own)
-    for name, own in models["fates"].items():
-        log.info("Selecting %s %s", name, own)
+    for name, entries in models["dispersion"].items():
+        log.info("Selecting dispersionModel %s %s", name, entries)
+    for name, entries in models["fates"].items():
+        log.info("Selecting %s %s", name, entries)
     for line in models["notes"]:
         log.info("    %s", line)
     log.info(
@@ -170,8 +171,8 @@ class RunLog:
         cloud, room = self._job.cloud, _MAX_LISTED_FAILURES - len(self._listed)
         if room <= 0 or cloud.counts()[Status.FAILED] == len(self._listed):
             return
-        found = [row for rows in cloud.map_in_flow(_failures_of, self._listed, room) for row in rows]
-        for number, t, x, reason in sorted(found)[:room]:
+        failures = [row for rows in cloud.map_in_flow(_failures_of, self._listed, room) for row in rows]
+        for number, t, x, reason in sorted(failures)[:room]:
             self._listed.add(number)
             log.warning("particle %d failed at t = %.6g s, position (%g %g %g): %s.",
                         number, t, *x, explain(reason, cloud.models, cloud.limits))  # fmt: skip
@@ -181,8 +182,8 @@ class RunLog:
         cloud = self._job.cloud
         if cloud.models.integrator != PAPER.name:
             return
-        found = cloud.map_in_flow(_unstable_of, cloud.medium, cloud.dt, cloud.models.material)
-        beyond, limit = sum(n for n, _ in found), min(limit for _, limit in found)
+        answers = cloud.map_in_flow(_unstable_of, cloud.medium, cloud.dt, cloud.models.material)
+        beyond, limit = sum(n for n, _ in answers), min(limit for _, limit in answers)
         if beyond > self._unstable:
             self._unstable = beyond
             log.warning("%s", warning_of(beyond, limit, cloud.dt))
@@ -199,10 +200,10 @@ class RunLog:
                 "too small for a sphere there.", worst, 100.0 * drag_excess(worst))  # fmt: skip
 
     def _log_fates(self) -> None:
-        """Log the number of particles by fate and patch; the numbers sum to those injected."""
+        """Log the number of particles by fate and patch; their sum is the number injected."""
         job, counts = self._job, self._job.cloud.counts()
-        found = job.cloud.map_in_flow(_fates_of, len(job.patch_names), job.cloud.dt)
-        at_patches, close = zip(*found, strict=True)
+        answers = job.cloud.map_in_flow(_fates_of, len(job.patch_names), job.cloud.dt)
+        at_patches, close = zip(*answers, strict=True)
         log.info("Fate of the particles")
         log.info("    %-24s %10d", "injected", sum(counts.values()) - counts[Status.PENDING])
         for status in tuple(Status)[Status.ACTIVE :]:
@@ -237,11 +238,11 @@ def _steps_of(p: Particles, _flow: Sampled, _t: float, dt: float) -> tuple[int, 
 
 
 def _failures_of(
-    p: Particles, _flow: Sampled, _t: float, known: Collection[int], most: int
+    p: Particles, _flow: Sampled, _t: float, listed: Collection[int], most: int
 ) -> list[tuple[int, float, list[float], int]]:
     """Return number, time, position and reason of failed particles that are not known, the first few."""
     rows = np.flatnonzero(p.status == Status.FAILED)
-    rows = rows[~np.isin(p.number[rows], list(known))]
+    rows = rows[~np.isin(p.number[rows], list(listed))]
     rows = rows[np.argsort(p.number[rows])[:most]]
     columns = (array[rows].tolist() for array in (p.number, p.t, p.x, p.reason))
     return list(zip(*columns, strict=True))

@@ -154,9 +154,9 @@ def _advance_to_write(
         if stop() or (following is not None and not following.wait(cloud, stop)):
             return False
         until = results.next_observation(job.next_write(first))
-        known = until if following is None else min(until, cloud.steps_until(following.flow.span[1]))
-        if known > cloud.step:
-            schedule.advance(known, stop)
+        computed = until if following is None else min(until, cloud.steps_until(following.flow.span[1]))
+        if computed > cloud.step:
+            schedule.advance(computed, stop)
         if cloud.step == until:
             results.observe()
         show(cloud.time)
@@ -200,8 +200,8 @@ class _Schedule:
         cloud = self.stepper.cloud
         most = MOST_STEPS / _moving(cloud)
         steps = min(most, self._steps or _FIRST_CALL * most)
-        rest, whole = target - cloud.step, cloud.tracker.whole
+        left, stretch = target - cloud.step, cloud.tracker.whole
         # Calls of similar length: not a long one and a remainder.
-        steps = max(1, min(int(most), math.ceil(rest / max(1, round(rest / max(1.0, steps))))))
+        steps = max(1, min(int(most), math.ceil(left / max(1, round(left / max(1.0, steps))))))
         # Steps of several Δt end at multiples of the stretch: calls that end elsewhere would change results.
-        return min(rest, -(-(cloud.step + steps) // whole) * whole - cloud.step)
+        return min(left, -(-(cloud.step + steps) // stretch) * stretch - cloud.step)

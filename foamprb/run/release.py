@@ -78,12 +78,12 @@ class _Source:
         solid = injection.solid
         try:
             self._places = injection.model.places(flow, self._random(), read_positions)
-            self._given = self._places.given
+            self._values = self._places.given
             mu = viscosity_at_rate(medium.mu, solid.referenceShearRate)
             self._stiffness = given_shear_modulus(
-                self._given, solid.poissonsRatio, mu, solid.referenceShearRate
+                self._values, solid.poissonsRatio, mu, solid.referenceShearRate
             )
-            if injection.sizeDistribution is None and "d" not in self._given:
+            if injection.sizeDistribution is None and "d" not in self._values:
                 raise InputError("sizeDistribution is missing, and the file of positions has no column d.")
             kind = MATERIALS[solid.type]
             if self._stiffness is not None and (kind.liquid or kind.membrane):
@@ -105,8 +105,8 @@ class _Source:
 
             def values(name: str, quantity: float | Distribution, key: str) -> Floats:
                 """Return the values in the file of positions, or random ones."""
-                own = self._given.get(name)
-                return draw(quantity, p.size, streams[key]) if own is None else own[rows]  # noqa: B023
+                column = self._values.get(name)
+                return draw(quantity, p.size, streams[key]) if column is None else column[rows]  # noqa: B023
 
             p.R[:] = 0.5 * values("d", size, "size")
             p.rho[:] = values("rho", self._injection.rho0, "rho")
@@ -131,7 +131,7 @@ class _Source:
             yield p
 
     def _viscous_stress(self, p: Particles) -> Any:
-        """Return μ_f γ̇ at particles, or that of the reference shear rate, Pa."""
+        """Return μ_f γ̇, Pa, at particles, or at the reference shear rate."""
         rate = self._injection.solid.referenceShearRate
         if rate is not None:
             return viscosity_at_rate(self._medium.mu, rate) * rate

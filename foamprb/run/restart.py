@@ -60,9 +60,9 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     for field in fields(settings):
         if field.name not in _LEFT_OUT:
             texts |= _leaves(field.name, getattr(settings, field.name))
-    own = dict(_leaves("models", cloud.models))
+    models = dict(_leaves("models", cloud.models))
     # These the settings have by their names.
-    texts |= {n: v for n, v in own.items() if not n.startswith(("models/forces", "models/surroundings"))}
+    texts |= {n: v for n, v in models.items() if not n.startswith(("models/forces", "models/surroundings"))}
     texts |= _leaves("limits", cloud.limits)
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         texts |= {f"patch {patch.name}": interaction}
@@ -139,7 +139,7 @@ def checkpoint_of(
 
 
 def _arrays_of(p: Particles, memory: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """Return the arrays of a checkpoint: particles, and what cloud functions remember."""
+    """Return the arrays of a checkpoint: particles, and data of cloud functions."""
     return {f"{PARTICLES}{name}": array for name, array in p._asdict().items()} | {
         f"{FUNCTIONS}{name}": array for name, array in memory.items()
     }
@@ -181,7 +181,7 @@ def refuse_other_times(checkpoint: StoredCheckpoint, flow: Flow, where: str) -> 
     """Raise InputError if the flow until a checkpoint has other times than in the run, or other fields there.
 
     The fields are compared at the times around the checkpoint. A solver may have written later times, and
-    removed those that the run has gone through.
+    removed earlier ones.
 
     Parameters
     ----------
@@ -205,8 +205,8 @@ def refuse_other_times(checkpoint: StoredCheckpoint, flow: Flow, where: str) -> 
 
 def sums_around(flow: Flow, t: float) -> list[Sums]:
     """Return sums over the fields at the times of a flow around t, s, one by one; none if it is steady."""
-    given: Any = flow
-    return [[[1.0], *sums] for sums in given.sums_around(t).tolist()] if isinstance(flow, Timeline) else []
+    series: Any = flow
+    return [[[1.0], *sums] for sums in series.sums_around(t).tolist()] if isinstance(flow, Timeline) else []
 
 
 def _times_until(flow: Flow, t: float) -> tuple[float, ...]:
@@ -232,7 +232,7 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoin
         f"{PARTICLES}{name}": ((n, *variable.shape), np.dtype(variable.dtype))
         for name, variable in VARIABLES.items()
     }
-    if {name: own for name, own in checkpoint.layout.items() if name.startswith(PARTICLES)} != layout:
+    if {name: shape for name, shape in checkpoint.layout.items() if name.startswith(PARTICLES)} != layout:
         raise InputError(
             f"{where}: foamprb {header['foamprb']} wrote the checkpoint, with other variables than those of "
             f"foamprb {version('foamprb')}. Start over: -overwrite, or startFrom startTime."
@@ -295,7 +295,7 @@ def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tupl
 
 
 def _existing(stem: Path) -> Path:
-    """Return the file of a snapshot: that of several processes if it is there, else that of one."""
+    """Return the file of a snapshot, preferably the file that lists the pieces of several processes."""
     pieces = with_ending(stem, ".pvtp")
     return pieces if pieces.exists() else with_ending(stem, ".vtp")
 

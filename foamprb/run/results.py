@@ -107,8 +107,8 @@ class Results:
             "patch": job.patch_names,
             "injector": job.injector_names,
         }
-        own = [name for model in job.cloud.models.surroundings for name in model.traits.measures]
-        self._further = tuple(dict.fromkeys((*job.settings.solution.optionalFields, *own)))
+        of_models = [name for model in job.cloud.models.surroundings for name in model.traits.measures]
+        self._further = tuple(dict.fromkeys((*job.settings.solution.optionalFields, *of_models)))
         self._series = Series(job.folder)
         self.finished = False
         """Whether the run had ended before."""
@@ -199,7 +199,7 @@ class Results:
         self._manifest.expect([*expected, *self._checkpoint_files(now=True)])
         write_cloud = self._begin_pieces(stem) if files else self._begin_cloud(snapshot)
         parts = self._write_parts()
-        self._writer.begin(partial(self._end_write, write_cloud, snapshot, memory, parts))
+        self._writer.submit(partial(self._end_write, write_cloud, snapshot, memory, parts))
 
     def save(self) -> None:
         """Write only a checkpoint, for a run that is stopped between two write times.
@@ -287,11 +287,11 @@ class Results:
         self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]], parts: Sequence[tuple[int, str]]
     ) -> None:
         entries = self._series.entries
-        given = self._fingerprint, parts, self._around
-        self._checkpoints.write(checkpoint_of(cloud, memory, entries, *given))
+        entries_of_run = self._fingerprint, parts, self._around
+        self._checkpoints.write(checkpoint_of(cloud, memory, entries, *entries_of_run))
 
     def _checkpoint_files(self, *, now: bool = False) -> list[Path]:
-        """Return the files of checkpoints: those on disk, and perhaps those of the present time."""
+        """Return the checkpoint files on disk, with ``now`` also the files of the present time."""
         files = [f for file in self._checkpoints.files().values() for f in (file, *parts_of(file))]
         if now:
             file, cloud = self._checkpoints.file(self._job.cloud.time), self._job.cloud
@@ -347,7 +347,7 @@ class Results:
     def _resume(self, checkpoint: StoredCheckpoint) -> None:
         """Restore a checkpoint, and remove the files of later times."""
         job = self._job
-        # Before the particles are those of the checkpoint.
+        # Before the particles are restored from the checkpoint.
         description = job.description
         where = f"{job.folder.path}: cannot continue from t = {checkpoint.time:.12g} s"
         refuse_changes(checkpoint, self._fingerprint, where)
@@ -372,15 +372,15 @@ class Results:
         snapshots = [file for entry in entries for file in files_of(job.folder.path / entry.file)]
         functions = self._function_folders()
         tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
-        kept = {
+        remaining = {
             self._job.folder.record,
             self._job.folder.pvd,
             *snapshots,
             *tables,
             *self._checkpoint_files(),
         }
-        manifest.remove(sorted(manifest.files - kept))
-        self._manifest = Manifest(job.folder.path, (file for file in kept if file.exists()))
+        manifest.remove(sorted(manifest.files - remaining))
+        self._manifest = Manifest(job.folder.path, (file for file in remaining if file.exists()))
 
 
 def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:

@@ -60,11 +60,11 @@ class Study:
 
     def overrides(self, number: int) -> dict[str, object]:
         """Return the values of the entries in a run, from 1 on; the last entry changes first."""
-        chosen, left = {}, number - 1
+        overrides, left = {}, number - 1
         for path, values in reversed(list(self.values.items())):
             left, k = divmod(left, len(values))
-            chosen[path] = values[k]
-        return {path: chosen[path] for path in self.values}
+            overrides[path] = values[k]
+        return {path: overrides[path] for path in self.values}
 
     def folder(self, number: int) -> Path:
         """Return the folder of a run's results: beside the file, ``<name of the file>/<number>``."""
@@ -230,10 +230,15 @@ def require_entries(study: Study, outside_libs: bool = False) -> None:
     numbers, faults = {1, len(study)}, []
     with _logged_to(Path(os.devnull)):
         for number in sorted(numbers):
-            given = study.overrides(number)
+            of_run = study.overrides(number)
             try:
                 read_settings(
-                    study.case, study.dictionary, study.region, time_of_fluid(study.time), outside_libs, given
+                    study.case,
+                    study.dictionary,
+                    study.region,
+                    time_of_fluid(study.time),
+                    outside_libs,
+                    of_run,
                 )
             except InputError as fault:
                 faults.append(fault)
@@ -256,7 +261,7 @@ def _require_same(folder: ResultsFolder, job: Job) -> None:
 
 @contextmanager
 def _logged_to(path: Path) -> Iterator[None]:
-    """Send what is logged to a file."""
+    """Redirect the log to a file."""
     handlers = log.handlers[:]
     handler = logging.FileHandler(path, mode="a", encoding="utf-8")
     log.handlers[:] = [handler]

@@ -240,8 +240,8 @@ def rates_on_paths(flow: MeshFlow, scales: FlowScales) -> NDArray[np.float64]:
     if scales.inlet:
         faces = flow.patch_faces(scales.inlet, 0.0)
         inflow = np.einsum("tvi,ti->t", faces.velocity, faces.normals).clip(0.0) * faces.areas
-        chosen = random.choice(len(inflow), _PATHS, p=inflow / inflow.sum())
-        x, hosts = faces.vertices[chosen].mean(axis=1), faces.hosts[chosen]
+        rows = random.choice(len(inflow), _PATHS, p=inflow / inflow.sum())
+        x, hosts = faces.vertices[rows].mean(axis=1), faces.hosts[rows]
     else:
         x = flow.mesh.centres[random.integers(flow.mesh.n_cells, size=_PATHS)]
         hosts = flow.locate(x)
@@ -381,33 +381,33 @@ def _temperature(case: Path, region: str, *phases: str) -> tuple[float, str]:
     """Return the mean temperature of a phase or of the fluid, K, and its source for a comment."""
     for field in (*(f"T.{phase}" for phase in phases), "T"):
         try:
-            found = mean_temperature(case, region, "latestTime", field)
+            mean = mean_temperature(case, region, "latestTime", field)
         except InputError:
-            found = None
-        if found is not None:
-            return float(f"{found[0]:.4g}"), f", mean of {field} at {found[1]}"
+            mean = None
+        if mean is not None:
+            return float(f"{mean[0]:.4g}"), f", mean of {field} at {mean[1]}"
     return _TEMPERATURE, ""
 
 
 def _pressure(case: Path, region: str) -> float:
     """Return the mean pressure of the fluid, Pa."""
     try:
-        found = mean_pressure(case, region, "latestTime")
+        mean = mean_pressure(case, region, "latestTime")
     except InputError:
-        found = None
-    return _PRESSURE if found is None else found[0]
+        mean = None
+    return _PRESSURE if mean is None else mean[0]
 
 
 def _phases(case: Path, source: FlowSource, rate: float) -> tuple[float, float, list[str]] | None:
     """Return the result of :func:`_fluid` for one of several phases; the others are in comments."""
-    known = _known_phases(case, source, rate)
-    if not known:
+    phases = _known_phases(case, source, rate)
+    if not phases:
         return None
     lines = []
-    for index, (name, nu, rho) in enumerate(known):
+    for index, (name, nu, rho) in enumerate(phases):
         start, why = ("// ", "") if index else ("", ", in which the particles move")
         lines += [f"{start}nu {nu:g}; // m2/s, of {name}{why}", f"{start}rhoInf {rho:g}; // kg/m3, of {name}"]
-    return known[0][2], known[0][1], lines
+    return phases[0][2], phases[0][1], lines
 
 
 def _known_phases(case: Path, source: FlowSource, rate: float) -> list[tuple[str, float, float]]:
@@ -415,17 +415,17 @@ def _known_phases(case: Path, source: FlowSource, rate: float) -> list[tuple[str
 
     The phase of the velocity, such as ``U.air``, or else the first goes first.
     """
-    known = []
+    phases = []
     try:
         for name, phase in phases_of(case, source.region).items():
             T, p = _temperature(case, source.region, name)[0], _pressure(case, source.region)
             nu, rho = phase_values(phase, rate, p, T)
             if nu is not None and rho is not None:
-                known.append((name, float(f"{nu:.4g}"), float(f"{rho:.4g}")))
+                phases.append((name, float(f"{nu:.4g}"), float(f"{rho:.4g}")))
     except InputError:
         return []
-    own = source.velocity.partition(".")[2]
-    return sorted(known, key=lambda phase: phase[0] != own)
+    name_of_source = source.velocity.partition(".")[2]
+    return sorted(phases, key=lambda phase: phase[0] != name_of_source)
 
 
 def _viscosity_of_model(file: Path, case: Path, rate: float, T: float) -> tuple[float, str]:
@@ -434,8 +434,8 @@ def _viscosity_of_model(file: Path, case: Path, rate: float, T: float) -> tuple[
         root = read_dictionary(file, case)
     except InputError:
         return 1e-6, ""
-    if found := apparent_viscosity(root, rate, T):
-        return float(f"{found[1]:.4g}"), f"{found[0]} at {rate:.3g} 1/s"
+    if law := apparent_viscosity(root, rate, T):
+        return float(f"{law[1]:.4g}"), f"{law[0]} at {rate:.3g} 1/s"
     return (1.5e-5, "not constant: like air") if is_gas(root) else (1e-6, "")
 
 

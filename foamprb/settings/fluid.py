@@ -98,8 +98,8 @@ class Fluid:
 
 def of_region(case: Path, region: str, name: str) -> Path:
     """Return the path, relative to the case, of a region's file; without it, of the case's file."""
-    own = Path("constant") / region / name
-    return own if (case / own).is_file() else Path("constant") / name
+    file = Path("constant") / region / name
+    return file if (case / file).is_file() else Path("constant") / name
 
 
 def read_fluid(

@@ -31,7 +31,7 @@ class EntryText(NamedTuple):
     model: str
     """The ``type`` that has the entry; empty if all have it."""
     name: str
-    """With the dictionaries between it and that of its section: ``integrationSchemes/shape``."""
+    """Path below the dictionary of the section: ``integrationSchemes/shape``."""
     unit: str
     default: str
     allowed: str
@@ -73,7 +73,7 @@ class Texts(NamedTuple):
 
     def to_json(self) -> str:
         """Return the text of the file, with a line for each entry."""
-        lines = [json.dumps(own, ensure_ascii=False) for own in (self.sections, self.forces, *self.entries)]
+        lines = [json.dumps(part, ensure_ascii=False) for part in (self.sections, self.forces, *self.entries)]
         return "[\n" + ",\n".join(lines) + "\n]\n"
 
 
@@ -114,9 +114,9 @@ def explain(word: str | None) -> list[str]:
             lines += _section_lines(name)
     if wanted in forces:
         path = f"particleForces/{wanted}/"
-        own = [t._replace(name=t.name.removeprefix(path)) for t in everything if t.name.startswith(path)]
+        inner = [t._replace(name=t.name.removeprefix(path)) for t in everything if t.name.startswith(path)]
         title = [f"subModels/particleForces/{wanted}", *_wrapped(plain(forces[wanted]))]
-        lines += [*title, *_list_lines(own), ""]
+        lines += [*title, *_list_lines(inner), ""]
     if not lines:
         # A dictionary without a section, such as integrationSchemes.
         within = [text for text in everything if f"/{wanted}/" in f"/{text.path}"]

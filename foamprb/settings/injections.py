@@ -224,15 +224,15 @@ def _injection(
     name = unquoted(dictionary.key)
     if fault := fault_of_word(name):
         mistakes.add(dictionary.mistake(f"is not a valid name of an injection model: {fault}."))
-    own = {key for model in INJECTIONS.values() for key in names_of(model)}
+    names = {key for model in INJECTIONS.values() for key in names_of(model)}
     with mistakes:
         kind = selected(INJECTIONS, dictionary)
-        own = set(names_of(kind))
+        names = set(names_of(kind))
         with mistakes:
             model = read_entries(kind, dictionary, also=names_of(InjectionModel))
     with mistakes:
-        common = read_entries(InjectionModel, dictionary, also=own)
-        if common.sizeDistribution is None and "positionsFile" not in own:
+        common = read_entries(InjectionModel, dictionary, also=names)
+        if common.sizeDistribution is None and "positionsFile" not in names:
             hint = hints_of(InjectionModel)["sizeDistribution"]
             raise dictionary.missing("sizeDistribution", allowed(hint))
     with mistakes:
@@ -279,11 +279,11 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     combined: dict[str, Any] = {}
     for place in places:
         with mistakes:
-            own = _solid_entries(place.entries["solid"].dictionary())
+            entries = _solid_entries(place.entries["solid"].dictionary())
             for one_of in (STIFFNESS, COMPRESSIBILITY):
-                if own.keys() & set(one_of):
+                if entries.keys() & set(one_of):
                     combined = {key: value for key, value in combined.items() if key not in one_of}
-            combined |= own
+            combined |= entries
     # Whether entries are missing depends on valid entries.
     mistakes.raise_any()
     where = places[-1].entries["solid"].dictionary()
@@ -326,10 +326,10 @@ def _solid_entries(dictionary: Dictionary) -> dict[str, Any]:
             if name in dictionary.entries:
                 values[name] = read_entry(dictionary, name, hint)
     for one_of in (STIFFNESS, COMPRESSIBILITY):
-        given = [key for key in one_of if key in dictionary.entries]
-        if len(given) > 1:
+        present = [key for key in one_of if key in dictionary.entries]
+        if len(present) > 1:
             mistakes.add(
-                dictionary.mistake(f"gives {' and '.join(given)}. Allowed: one of {', '.join(one_of)}.")
+                dictionary.mistake(f"gives {' and '.join(present)}. Allowed: one of {', '.join(one_of)}.")
             )
     mistakes.raise_any()
     return values

@@ -29,7 +29,7 @@ _REGISTRIES: dict[str, dict[str, Any]] = {
     "surroundings": SURROUNDINGS,
 }
 _loaded: dict[Path, tuple[str, tuple[tuple[str, str], ...]]] = {}
-"""Checksum of each file, empty if it failed, and what it has added: registries and names."""
+"""Checksum of each file, empty if it failed, and its registries and names."""
 
 
 def loaded_libs() -> tuple[Path, ...]:
@@ -72,12 +72,12 @@ def load_libs(files: Iterable[Path]) -> None:
             continue
         for kind, name in names:
             _REGISTRIES[kind].pop(name, None)
-        known = _names()
+        names_before = _names()
         log.info("Running the Python file %s of libs", path)
         try:
             _run(path, digest)
         finally:
-            _loaded[path] = ("", tuple(_names() - known))
+            _loaded[path] = ("", tuple(_names() - names_before))
         for kind, name in sorted(_loaded[path][1]):
             _check(file, kind, name)
         _loaded[path] = (digest, _loaded[path][1])

@@ -258,8 +258,8 @@ def needs_entry(patch: Patch) -> bool:
 
 def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
     for rule in rules:
-        own = rule == PatchRule(patch.name, rule.interaction)
-        if own or (applies(rule, patch) and not _continues(patch)):
+        is_named = rule == PatchRule(patch.name, rule.interaction)
+        if is_named or (applies(rule, patch) and not _continues(patch)):
             return rule.interaction
     if _continues(patch):
         return Cyclic()

@@ -280,28 +280,28 @@ T = TypeVar("T")
 
 def _chosen(registry: Mapping[str, type[T]], dictionary: Dictionary, mistakes: Mistakes) -> dict[str, T]:
     """Read the models of a registry whose names are entries of a dictionary, in the registry's order."""
-    chosen: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for name, kind in registry.items():
         with mistakes:
             if name in dictionary.entries:
-                chosen[name] = read_entry(dictionary, name, kind)
-    return chosen
+                values[name] = read_entry(dictionary, name, kind)
+    return values
 
 
 def _dispersion(sub_models: Dictionary) -> dict[str, Surrounding]:
     """Read the ``dispersionModel`` of ``subModels`` with its coefficients; empty if there is none."""
     mistakes = Mistakes()
-    chosen, models = "none", {}
+    selected, models = "none", {}
     with mistakes:
         if "dispersionModel" in sub_models.entries:
             rule = Annotated[str, Choice(("none", *DISPERSIONS))]
-            chosen = read_entry(sub_models, "dispersionModel", rule)
+            selected = read_entry(sub_models, "dispersionModel", rule)
     for name, model in DISPERSIONS.items():
         with mistakes:
-            given = f"{name}Coeffs" in sub_models.entries
-            models[name] = read_entry(sub_models, f"{name}Coeffs", model) if given else model()
+            has_coefficients = f"{name}Coeffs" in sub_models.entries
+            models[name] = read_entry(sub_models, f"{name}Coeffs", model) if has_coefficients else model()
     mistakes.raise_any()
-    return {name: model for name, model in models.items() if name == chosen}
+    return {name: model for name, model in models.items() if name == selected}
 
 
 def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:
@@ -310,9 +310,9 @@ def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:
     mistakes = Mistakes()
     for entry in dictionary.entries.values():
         with mistakes:
-            name, own = unquoted(entry.key), entry.dictionary()
+            name, entries = unquoted(entry.key), entry.dictionary()
             if fault := fault_of_function(name, cloud):
                 raise entry.mistake(f"is not a valid name of a folder for results: {fault}.")
-            functions[name] = read_model(FUNCTIONS, own)
+            functions[name] = read_model(FUNCTIONS, entries)
     mistakes.raise_any()
     return functions

@@ -55,7 +55,7 @@ class InterpolationSchemes:
 
     @staticmethod
     def instead(word: str) -> Instead | None:
-        """Return the name without that of a phase, as in ``U.air``."""
+        """Return the name without a phase's, as in ``U.air``."""
         name, dot, _ = word.partition(".")
         return Instead(name, "there is one fluid") if dot and name in ("U", "rho", "mu") else None
 

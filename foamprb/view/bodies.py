@@ -73,8 +73,8 @@ class Quantity(NamedTuple):
         """Return one of the parts, (m, n) or (1, n)."""
         if part == MAGNITUDE:
             return np.asarray(np.linalg.norm(self.values, axis=2))
-        own = [name for name in self.parts if name != MAGNITUDE]
-        return self.values[:, :, own.index(part)]
+        components = [name for name in self.parts if name != MAGNITUDE]
+        return self.values[:, :, components.index(part)]
 
 
 class Codes(NamedTuple):
@@ -216,38 +216,38 @@ def gather(
     present, status = np.zeros((m, n), dtype=bool), np.full((m, n), UNNAMED, dtype=np.uint8)
     codes = {name: np.full((m, n), UNNAMED, dtype=np.uint8) for name in coded}
     values = {name: np.full((m, n, k), np.nan, dtype=np.float32) for name, k in valued.items()}
-    kept: list[NDArray[Any]] = [x, F, *codes.values(), *values.values()]
+    collected: list[NDArray[Any]] = [x, F, *codes.values(), *values.values()]
     met = np.zeros(n, dtype=bool)
     for t, frame in enumerate(frames):
         cloud = run.cloud(frame, dict.fromkeys((*NEEDED, *names)))
         rows, places = _selected(cloud.arrays["origId"].astype(np.int64), ids)
-        own = {name: array[rows] for name, array in cloud.arrays.items()}
-        points, d = cloud.points[rows], own["d"].astype(np.float64)
+        columns = {name: array[rows] for name, array in cloud.arrays.items()}
+        points, d = cloud.points[rows], columns["d"].astype(np.float64)
         del cloud
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             # glyph holds the columns of R F, one after the other.
-            shape = own["glyph"].reshape(-1, 3, 3).swapaxes(1, 2) / (0.5 * d[:, None, None])
+            shape = columns["glyph"].reshape(-1, 3, 3).swapaxes(1, 2) / (0.5 * d[:, None, None])
             sound = np.isfinite(points).all(axis=1) & (np.abs(shape) <= LARGEST_STRETCH).all(axis=(1, 2))
         sound &= d > 0.0
-        status[t, places] = _known(own["status"], run.names.get("status", ()))
+        status[t, places] = _known(columns["status"], run.names.get("status", ()))
         if t:
-            for array in kept:
+            for array in collected:
                 array[t] = array[t - 1]
         places = places[sound]
         present[t, places] = True
         x[t, places], F[t, places] = points[sound], shape[sound]
         for name, array in codes.items():
-            array[t, places] = _known(own[name][sound], run.names[name])
+            array[t, places] = _known(columns[name][sound], run.names[name])
         for name, array in values.items():
             with np.errstate(over="ignore", invalid="ignore"):
-                numbers = own[name][sound].reshape(-1, valued[name]).astype(np.float32)
+                numbers = columns[name][sound].reshape(-1, valued[name]).astype(np.float32)
             numbers[~np.isfinite(numbers)] = np.nan
             array[t, places] = numbers
         first = places[~met[places]]
         radius[first] = 0.5 * d[sound][~met[places]]
         met[first] = True
         # Before its release a body is where it will be released.
-        for array in kept if t else ():
+        for array in collected if t else ():
             array[:t, first] = array[t, first]
     return Bodies(
         times=run.times[np.array(frames)],
@@ -364,8 +364,8 @@ def _fate(status: str, patch: str) -> str:
 
 def _known(values: NDArray[Any], meanings: Sequence[str]) -> NDArray[np.uint8]:
     """Return codes from numbers; :data:`UNNAMED` without a meaning."""
-    known = (values >= 0) & (values < min(len(meanings), UNNAMED))
-    return np.where(known, values, UNNAMED).astype(np.uint8)
+    valid = (values >= 0) & (values < min(len(meanings), UNNAMED))
+    return np.where(valid, values, UNNAMED).astype(np.uint8)
 
 
 def _once(values: NDArray[Any]) -> NDArray[Any]:

@@ -26,7 +26,7 @@ def dataset_of(times: NDArray[np.float64], read: Callable[[int], PointCloud], so
     Parameters
     ----------
     times
-        Times, s; particles of the last one include those of all others.
+        Times, s; each has at most the particles of the last one.
     read
         Returns the cloud at the time of an index.
     source

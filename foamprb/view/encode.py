@@ -49,24 +49,24 @@ class Column(NamedTuple):
     step: list[float] | None = None
 
 
-def pack(whole: NDArray[Any], low: list[float] | None = None, step: list[float] | None = None) -> Column:
+def pack(integers: NDArray[Any], low: list[float] | None = None, step: list[float] | None = None) -> Column:
     """Pack integers below 2³⁰ in size, of any shape, with the prediction that leaves the smallest numbers."""
     # Differences of order two are up to four times as large.
-    dtype = np.int32 if np.abs(whole).max(initial=0) < 2**28 else np.int64
+    dtype = np.int32 if np.abs(integers).max(initial=0) < 2**28 else np.int64
     order, differences = min(
-        ((k, _differences(whole.astype(dtype), k)) for k in range(_MOST_ORDER + 1)),
+        ((k, _differences(integers.astype(dtype), k)) for k in range(_MOST_ORDER + 1)),
         key=lambda pair: _bits(pair[1]),
     )
     # Zigzag: 0, −1, 1, −2, … → 0, 1, 2, 3, ….
     small = np.where(differences < 0, -2 * differences - 1, 2 * differences).astype(np.uint32)
     # Numbers of consecutive times become neighbours.
-    small = np.ascontiguousarray(small.reshape(len(whole), math.prod(whole.shape[1:])).T)
+    small = np.ascontiguousarray(small.reshape(len(integers), math.prod(integers.shape[1:])).T)
     n_bytes = max(1, (int(small.max(initial=0)).bit_length() + 7) // 8)
     planes = b"".join((small >> (8 * k)).astype(np.uint8).tobytes() for k in range(n_bytes))
     # For such noise this strategy is as dense as the highest level, and six times as fast.
     deflate = zlib.compressobj(6, strategy=zlib.Z_FILTERED)
     data = base64.b64encode(deflate.compress(planes) + deflate.flush()).decode("ascii")
-    return Column(whole.shape, order, n_bytes, data, low, step)
+    return Column(integers.shape, order, n_bytes, data, low, step)
 
 
 def _bits(differences: Integers) -> float:
@@ -74,10 +74,10 @@ def _bits(differences: Integers) -> float:
     return float(sum(np.log2(1.0 + np.abs(part)).sum() for part in differences))
 
 
-def _differences(whole: Integers, order: int) -> Integers:
-    for _ in range(min(order, len(whole))):
-        whole = np.diff(whole, axis=0, prepend=np.zeros_like(whole[:1]))
-    return whole
+def _differences(integers: Integers, order: int) -> Integers:
+    for _ in range(min(order, len(integers))):
+        integers = np.diff(integers, axis=0, prepend=np.zeros_like(integers[:1]))
+    return integers
 
 
 class Grid(NamedTuple):
@@ -122,18 +122,18 @@ def pack_field(field: Quantity) -> Column:
     An integer w is 0 for NaN. With k = w − 2 − 2¹⁴·``OCTAVES`` and ``low`` = l the value is 0 for k = 0,
     else sign(k) 2ᵉ (1 + f) l, where |k| − 1 = 2¹⁴ (e + f) and 0 ≤ f < 1.
     """
-    known = np.isfinite(field.values)
-    most = float(np.abs(field.values).max(initial=0.0, where=known))
+    finite = np.isfinite(field.values)
+    most = float(np.abs(field.values).max(initial=0.0, where=finite))
     low = 2.0 ** (math.floor(math.log2(max(most, 1e-300))) - OCTAVES + 1)
     components = field.values.shape[2]
-    whole = np.zeros(field.values.shape, dtype=np.int32)
+    integers = np.zeros(field.values.shape, dtype=np.int32)
     for k in range(components):
-        values = np.where(known[:, :, k], field.values[:, :, k], 0.0).astype(np.float64)
+        values = np.where(finite[:, :, k], field.values[:, :, k], 0.0).astype(np.float64)
         mantissa, exponent = np.frexp(np.abs(values) / low)
         steps = 1 + np.rint((exponent - 1 + 2.0 * mantissa - 1.0) * 2**MANTISSA_BITS)
         codes = np.where(np.abs(values) < low, 0.0, np.copysign(steps, values))
-        whole[:, :, k] = np.where(known[:, :, k], codes + 2 + OCTAVES * 2**MANTISSA_BITS, 0.0)
-    return pack(whole, [low] * components)
+        integers[:, :, k] = np.where(finite[:, :, k], codes + 2 + OCTAVES * 2**MANTISSA_BITS, 0.0)
+    return pack(integers, [low] * components)
 
 
 def pack_values(values: Floats) -> Column:

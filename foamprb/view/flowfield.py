@@ -94,7 +94,7 @@ class Grid(NamedTuple):
     u: Floats
     """Velocity, (nz, ny, nx, 3), m/s; zero outside the mesh."""
     values: dict[str, Floats]
-    """Quantities of a plane, (nz, ny, nx), by name; outside the mesh those of the nearest point inside."""
+    """Quantities of a plane, (nz, ny, nx), by name; outside the mesh values of the nearest point inside."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ class FlowField:
 
 
 def field_of(flow: MeshFlow, plane: str | None, *, drawn: bool) -> FlowField:
-    """Return what is drawn of a flow, in a picture if ``drawn``, else on a page; ``plane`` is ``-slice``.
+    """Return the field to draw, in a picture if ``drawn``, else on a page; ``plane`` is ``-slice``.
 
     Raises
     ------
@@ -152,15 +152,15 @@ def sample_grid(flow: MeshFlow) -> Grid:
     nearest = np.arange(len(points))
     u, l = np.zeros((len(points), 3)), np.zeros((len(points), 9))
     if len(inside):
-        u[inside], own = flow.sample(points[inside], hosts[inside], 0.0)
-        l[inside] = own.reshape(-1, 9)
+        u[inside], gradient = flow.sample(points[inside], hosts[inside], 0.0)
+        l[inside] = gradient.reshape(-1, 9)
         nearest[outside] = inside[cKDTree(points[inside]).query(points[outside])[1]]
     values = {"speed": np.linalg.norm(u, axis=1), "shearRate": _rate(l)}
     return Grid(
         low,
         high,
         u.reshape(*shape, 3),
-        {name: own[nearest].reshape(shape) for name, own in values.items()},
+        {name: v[nearest].reshape(shape) for name, v in values.items()},
     )
 
 
@@ -199,29 +199,29 @@ def streamlines(flow: MeshFlow, grid: Grid) -> Streamlines:
     for seed, a, b in zip(seeds.tolist(), ends[:-1], ends[1:], strict=True):
         halves.setdefault(seed, []).append(points[places[a:b]])
     # Each half begins at the start; the first one follows the flow.
-    whole = {
+    remaining = {
         seed: np.concatenate([half[1][:0:-1], half[0]]) if len(half) > 1 else half[0]
         for seed, half in halves.items()
     }
-    apart, kept = np.full(len(starts), np.inf), []
-    for _ in range(min(_LINES, len(whole))):
-        seed = max(whole, key=lambda seed: apart[seed])
-        line = whole.pop(seed)
-        kept.append(_simplified(line, _PIECE * sides[1]))
+    apart, lines = np.full(len(starts), np.inf), []
+    for _ in range(min(_LINES, len(remaining))):
+        seed = max(remaining, key=lambda seed: apart[seed])
+        line = remaining.pop(seed)
+        lines.append(_simplified(line, _PIECE * sides[1]))
         apart = np.minimum(apart, cKDTree(line).query(starts)[0])
-    return Streamlines(np.concatenate(kept), np.cumsum([0, *map(len, kept)])) if kept else empty
+    return Streamlines(np.concatenate(lines), np.cumsum([0, *map(len, lines)])) if lines else empty
 
 
 def _simplified(line: Floats, longest: float) -> Floats:
     """Return the points of a line between which it bends little, and its ends."""
     steps = np.diff(line, axis=0)
     steps /= np.linalg.norm(steps, axis=1, keepdims=True)
-    kept = [0]
+    rows = [0]
     for k in range(1, len(line) - 1):
-        from_last = steps[k] @ steps[kept[-1]]
-        if from_last < np.cos(_BEND) or np.linalg.norm(line[k] - line[kept[-1]]) > longest:
-            kept.append(k)
-    return line[[*kept, len(line) - 1]]
+        from_last = steps[k] @ steps[rows[-1]]
+        if from_last < np.cos(_BEND) or np.linalg.norm(line[k] - line[rows[-1]]) > longest:
+            rows.append(k)
+    return line[[*rows, len(line) - 1]]
 
 
 def _numbers(sides: Floats) -> Ints:

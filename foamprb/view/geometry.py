@@ -67,9 +67,9 @@ def boundary(mesh: Mesh) -> Geometry:
     surfaces = []
     share = MOST_TRIANGLES / max(len(triangles), 1)
     for index, patch in enumerate(mesh.patches):
-        own = triangles[mesh.triangle_patch == index]
-        if len(own):
-            surfaces.append(Surface(patch.name, patch.type, *_smooth(nodes, own, share)))
+        of_patch = triangles[mesh.triangle_patch == index]
+        if len(of_patch):
+            surfaces.append(Surface(patch.name, patch.type, *_smooth(nodes, of_patch, share)))
     return Geometry(tuple(surfaces), _edges(nodes, triangles, mesh.triangle_patch), flat_normal(surfaces))
 
 

@@ -51,7 +51,7 @@ class Page:
     version
         Version of foamprb.
     notes
-        Sentences about what is left out, which the page shows.
+        Sentences about omissions, which the page shows.
     """
 
     def __init__(self, scene: Scene, version: str, notes: Sequence[str] = ()) -> None:
@@ -138,8 +138,8 @@ class Page:
         }
 
     def _bodies(self, grid: Grid) -> dict[str, Any]:
-        bodies, chosen = self.scene.bodies, self.scene.colour[0]
-        useful = {name: own for name, own in bodies.codes.items() if _has_names(own) or name == chosen}
+        bodies, colour = self.scene.bodies, self.scene.colour[0]
+        useful = {name: code for name, code in bodies.codes.items() if _has_names(code) or name == colour}
         codes = {"status": bodies.status} | useful | {"fate": self.scene.fate}
         return {
             "bodies": {
@@ -150,9 +150,9 @@ class Page:
                 "radius": self._add(encode.pack_values(bodies.radius)),
             },
             "codes": {
-                name: {"name": own.name, "label": own.label, "meanings": own.meanings}
-                | self._add(encode.pack(own.codes))
-                for name, own in codes.items()
+                name: {"name": code.name, "label": code.label, "meanings": code.meanings}
+                | self._add(encode.pack(code.codes))
+                for name, code in codes.items()
             },
         }
 
@@ -178,7 +178,7 @@ class Page:
     def _flow(self, field: FlowField, grid: Grid) -> dict[str, Any]:
         volume, plane = field.grid, field.plane
         values = []
-        for name, own in volume.values.items():
+        for name, component in volume.values.items():
             label, unit = QUANTITIES[name]
             low, high = field.scales[name].limits
             described = {
@@ -187,7 +187,7 @@ class Page:
                 "range": [low, high],
                 "extremes": field.scales[name].extremes,
             }
-            share = np.clip((own - low) / ((high - low) or 1.0), 0.0, 1.0)
+            share = np.clip((component - low) / ((high - low) or 1.0), 0.0, 1.0)
             values.append(described | self._add(encode.pack(np.rint(255.0 * share))))
         return {
             "lines": {
@@ -221,11 +221,11 @@ class Page:
         field = bodies.fields[name]
         ranges = {}
         for part in field.parts:
-            whole = limits_of(bodies, name, part)
+            largest = limits_of(bodies, name, part)
             limits = {
                 "usual": limits_of(bodies, name, part, PERCENTILES),
-                "whole": whole,
-                "extremes": extremes_of(bodies, name, part) or whole,
+                "whole": largest,
+                "extremes": extremes_of(bodies, name, part) or largest,
             }
             ranges[part] = {key: _rounded(np.array(values)) for key, values in limits.items()}
         described = {"name": name, "label": field.label, "unit": field.unit, "parts": field.parts}

@@ -424,9 +424,9 @@ def trails(scene: Scene, frame: int) -> tuple[Floats, Table]:
             ends[0] += cut * (ends[1] - ends[0])
             share = (np.maximum(times[t - 1 : t + 1], tail) - tail) / span
             alpha = np.broadcast_to(255.0 * _TRAIL_OPACITY * share[:, None] ** 1.5, ends.shape[:2])
-            own = np.stack([body_colours(scene, k, rows) for k in (t - 1, t)])
+            rgb = np.stack([body_colours(scene, k, rows) for k in (t - 1, t)])
             points.append(ends.swapaxes(0, 1))
-            colours.append(np.concatenate([own, alpha[..., None].astype(np.uint8)], axis=2).swapaxes(0, 1))
+            colours.append(np.concatenate([rgb, alpha[..., None].astype(np.uint8)], axis=2).swapaxes(0, 1))
     return np.concatenate(points), np.concatenate(colours)
 
 
@@ -436,10 +436,10 @@ def body_colours(scene: Scene, frame: int, shown: Ints) -> Table:
     if name in scene.bodies.fields:
         values = scene.bodies.fields[name].channel(part)
         low, high = scene.limits
-        own = values[min(frame, len(values) - 1), shown].astype(np.float64)
-        share = (np.nan_to_num(own) - low) / ((high - low) or 1.0)
+        numbers = values[min(frame, len(values) - 1), shown].astype(np.float64)
+        share = (np.nan_to_num(numbers) - low) / ((high - low) or 1.0)
         at = np.clip(255.0 * share + 0.5, 0, 255).astype(np.uint8)
-        colours: Table = np.where(np.isfinite(own)[:, None], colour_map(scene.map_name)[at], _UNKNOWN)
+        colours: Table = np.where(np.isfinite(numbers)[:, None], colour_map(scene.map_name)[at], _UNKNOWN)
         return colours.astype(np.uint8)
     codes = scene.codes(name)
     table = np.full((UNNAMED + 1, 3), _UNKNOWN, dtype=np.uint8)

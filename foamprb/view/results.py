@@ -185,16 +185,16 @@ class Run:
         """
         entry = self.entries[index]
         path = self.folder / entry.file
-        chosen = tuple(self.components) if arrays is None else tuple(arrays)
-        data = _read(path, chosen)
+        names = tuple(self.components) if arrays is None else tuple(arrays)
+        data = _read(path, names)
         arrays_of_file = _arrays(data.GetPointData())
-        if missing := [name for name in chosen if name not in arrays_of_file]:
+        if missing := [name for name in names if name not in arrays_of_file]:
             raise InputError(
                 f"{path}: no array '{missing[0]}', which other times have; are these the files of one run?"
             )
         n = data.GetNumberOfPoints()
         # In a file without bodies VTK does not keep the number of components.
-        shapes = {name: (n,) if self.components[name] == 1 else (n, self.components[name]) for name in chosen}
+        shapes = {name: (n,) if self.components[name] == 1 else (n, self.components[name]) for name in names}
         values = {name: arrays_of_file[name].reshape(shape) for name, shape in shapes.items()}
         return PointCloud(entry.time, _points(data), values, self.units, self.names)
 
@@ -258,8 +258,8 @@ class Run:
             If xarray is not installed; if a file is missing or damaged.
         """
         version = self.record.get("versions", {}).get("foamprb", "")
-        chosen = None if arrays is None else dict.fromkeys(("origId", *arrays))
-        return dataset_of(self.times, partial(self.cloud, arrays=chosen), f"foamprb {version}".rstrip())
+        names = None if arrays is None else dict.fromkeys(("origId", *arrays))
+        return dataset_of(self.times, partial(self.cloud, arrays=names), f"foamprb {version}".rstrip())
 
     @property
     def tracks(self) -> pyvista.PolyData | None:
@@ -347,10 +347,10 @@ def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
     with vtk_messages() as said:
         reader.UpdateInformation()
         if arrays is not None:
-            chosen = reader.GetPointDataArraySelection()
-            chosen.DisableAllArrays()
+            selection = reader.GetPointDataArraySelection()
+            selection.DisableAllArrays()
             for name in arrays:
-                chosen.EnableArray(name)
+                selection.EnableArray(name)
         reader.Update()
     if said.errors:
         raise InputError(f"{path}: damaged ({said.errors[0].rstrip('.')}). {_AGAIN}")

@@ -139,7 +139,7 @@ def _open(path: Path) -> Run:
 
 
 def _is_of_cloud(path: Path) -> bool:
-    """Return whether a folder is that of one cloud, in a folder of results."""
+    """Return whether a folder has the results of one cloud."""
     return ResultsFolder(path, path.name).pvd.is_file()
 
 

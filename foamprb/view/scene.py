@@ -165,8 +165,8 @@ class Scene:
         if field is None:
             return 0.0
         speeds = field.channel(MAGNITUDE)
-        own = speeds[min(self.first, len(speeds) - 1), bodies.shown[self.first]]
-        return trail_time(own, self.camera)
+        speed = speeds[min(self.first, len(speeds) - 1), bodies.shown[self.first]]
+        return trail_time(speed, self.camera)
 
     @property
     def directions(self) -> dict[str, Floats]:
@@ -260,12 +260,12 @@ def automatic_enlargement(bodies: Bodies, sides: Floats) -> float:
         Sides of the box around them, (3,), m.
     """
     sides = np.sort(sides)
-    known = bodies.radius[bodies.radius > 0.0]
-    if len(known) == 0 or not sides[1] > 0.0:
+    positive = bodies.radius[bodies.radius > 0.0]
+    if len(positive) == 0 or not sides[1] > 0.0:
         return 1.0
     most = max(1, int(bodies.shown.sum(axis=1).max(initial=0)))
     spacing = (sides[2] * sides[1] * max(sides[0], sides[1] * BODY_SIZE) / most) ** (1 / 3)
-    wanted = min(BODY_SIZE * sides[1], 0.5 * spacing) / float(2.0 * np.median(known))
+    wanted = min(BODY_SIZE * sides[1], 0.5 * spacing) / float(2.0 * np.median(positive))
     return round_down(wanted) if wanted > 1.0 else 1.0
 
 
@@ -371,15 +371,15 @@ def anchor(surface: Surface, camera: Camera) -> NDArray[np.float64]:
     size = np.linalg.norm(areas, axis=1)
     middle = (surface.centres * size[:, None]).sum(axis=0) / max(float(size.sum()), 1e-300)
     if np.linalg.norm(areas.sum(axis=0)) > 0.5 * size.sum():
-        chosen = np.linalg.norm(surface.centres - middle, axis=1).argmin()
+        nearest = np.linalg.norm(surface.centres - middle, axis=1).argmin()
     else:
         right = np.cross(camera.up, camera.towards)
         right /= max(float(np.linalg.norm(right)), 1e-300)
         off = np.abs((surface.centres - camera.focus) @ right)
         near = off <= max(0.3 * float(np.abs(camera.corners[:, 0]).max()), float(off.min()) * 1.01)
         height = surface.centres @ camera.up
-        chosen = np.where(near, height, -np.inf).argmax()
-    return np.asarray(surface.centres[chosen])
+        nearest = np.where(near, height, -np.inf).argmax()
+    return np.asarray(surface.centres[nearest])
 
 
 def principal_axes(points: Floats, low: Floats, high: Floats) -> Floats:
@@ -387,9 +387,9 @@ def principal_axes(points: Floats, low: Floats, high: Floats) -> Floats:
     spread = points - points.mean(axis=0)
     axes = np.linalg.eigh(spread.T @ spread)[1][:, ::-1]
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
-    own, tilted = high - low, np.ptp(points @ axes, axis=0)
-    floor = 1e-3 * own.max()
-    if np.maximum(own, floor).prod() <= _TILTED * np.maximum(tilted, floor).prod():
+    extents, tilted = high - low, np.ptp(points @ axes, axis=0)
+    floor = 1e-3 * extents.max()
+    if np.maximum(extents, floor).prod() <= _TILTED * np.maximum(tilted, floor).prod():
         return np.eye(3)
     return np.asarray(axes)
 

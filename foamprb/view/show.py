@@ -130,19 +130,19 @@ def _packed(request: Request, megabytes: float, version: str) -> tuple[Page, Run
     run = _run_of(request)
     background = _background(request, run, drawn=False)
     written, released = len(run.entries), len(run.cloud(-1, ("origId",)).points)
-    known = min(released, request.bodies or MOST_DRAWN)
+    n_bodies = min(released, request.bodies or MOST_DRAWN)
 
     def pack(m: int) -> Page:
-        scene = background.scene(gather(run, spread(written, m), known))
-        notes = [f"{len(scene.bodies.ids)} of {released} bodies are shown."] if known < released else []
+        scene = background.scene(gather(run, spread(written, m), n_bodies))
+        notes = [f"{len(scene.bodies.ids)} of {released} bodies are shown."] if n_bodies < released else []
         notes += [f"{m} of {written} times are shown."] if m < written else []
         return Page(scene, version, notes)
 
-    m = max(1, min(written, most // max(1, known * _BYTES_PER_STATE)))
+    m = max(1, min(written, most // max(1, n_bodies * _BYTES_PER_STATE)))
     while (page := pack(m)).size > most and m > 1:
         m = max(1, min(m - 1, int(0.98 * m * most / page.size)))
-    if known < released and request.bodies is None:
-        log.warning("%d of %d bodies, evenly spread. -bodies N takes another number.", known, released)
+    if n_bodies < released and request.bodies is None:
+        log.warning("%d of %d bodies, evenly spread. -bodies N takes another number.", n_bodies, released)
     if page.size > most:
         log.warning("-maxSize %g: even one time takes %.1f MB. -bodies N takes fewer bodies.", megabytes,
                     page.size / 1e6)  # fmt: skip
@@ -231,7 +231,7 @@ def make_scene(request: Request, run: Run, frames: Sequence[int], *, drawn: bool
 
 
 def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
-    """Return the scene of one time, by default that with most bodies; its colours are those of all times.
+    """Return the scene of one time, by default with most bodies; its colours span all times.
 
     Without ``request.bodies`` it has at most ``most`` bodies, evenly spread over their numbers.
 
@@ -312,7 +312,7 @@ def groups_of(record: dict[str, Any]) -> str:
     parts = []
     with suppress(AttributeError, TypeError, ValueError):
         for label, key in (("Ca", "capillary"), ("Re", "reynolds")):
-            values = [float(v) for own in record.get("injections", ()) for v in own.get(key, ())]
+            values = [float(v) for injection in record.get("injections", ()) for v in injection.get(key, ())]
             ends = (
                 sorted({_short(value) for value in (min(values), max(values))}, key=float) if values else ()
             )
@@ -352,8 +352,8 @@ def _surroundings(request: Request, run: Run, *, drawn: bool) -> tuple[Geometry 
             flow = read()
             mesh = flow.mesh
     except InputError as error:
-        given = request.source not in (None, FlowSource())
-        if given or request.slice is not None or request.flow_time != LATEST:
+        has_source = request.source not in (None, FlowSource())
+        if has_source or request.slice is not None or request.flow_time != LATEST:
             raise
         hint = " -case names the case." if request.case == request.results else ""
         log.warning("No geometry is shown: %s%s", error, hint)

@@ -44,8 +44,8 @@ def write_stress(target: Path, run: Run, case: Path, mesh: Mesh, fraction: float
     run, case, mesh
         The run, its case, and the mesh of its flow.
     fraction
-        Mean volume fraction of the particles in the mesh to which the stress is scaled; that of the run if
-        None.
+        Mean volume fraction of the particles in the mesh to which the stress is scaled; None for the
+        fraction of the run.
 
     Raises
     ------

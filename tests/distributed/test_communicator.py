@@ -64,13 +64,13 @@ class Processes(Ranks):
         self.workers = thread_mpi.together([partial(Worker, module) for module in modules])
         super().__init__(self.workers[0], 1)
 
-    def call(self, function: Any, *arguments: Any, own: tuple[Any, ...] = ()) -> list[Any]:
+    def call(self, function: Any, *arguments: Any, here: tuple[Any, ...] = ()) -> list[Any]:
         # Each process unpickles arguments of its own.
         message = pickle.dumps((function, arguments))
 
         def work(worker: Worker) -> Any:
             name, given = (function, arguments) if worker.number == 0 else pickle.loads(message)
-            return name(worker, *given, *(own if worker.number == 0 else ()))
+            return name(worker, *given, *(here if worker.number == 0 else ()))
 
         return thread_mpi.together([partial(work, w) for w in self.workers])
 
@@ -360,9 +360,7 @@ def test_a_process_that_cannot_write_still_sends_what_the_others_need(tmp_path, 
     with pytest.raises(OSError, match="No space left"):
         ranks.write_parts(file, 1.0)
     for first, n in ((0, 14), (27, 13)):
-        assert StoredCheckpoint(part_file(file, first), verify=True).whole().arrays["particles/R"].shape == (
-            n,
-        )
+        assert StoredCheckpoint(part_file(file, first), verify=True).read("particles/R").shape == (n,)
 
 
 def test_regrouped_parts_have_the_size_that_is_asked_for():

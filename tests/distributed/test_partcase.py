@@ -81,8 +81,8 @@ def test_nodes_take_folders_by_their_cells(written, tmp_path):
     for k, n in enumerate((1, 1, 1, 9)):
         path = case / f"processor{k}/constant/polyMesh/cellProcAddressing"
         path.write_text(f"{header('labelList', path.name)}{n}\n(\n")
-    chosen = together(2, lambda team: PartCase(case, "", team, 1).processors.chosen)
-    assert chosen == [range(3), range(3, 4)]
+    selected = together(2, lambda team: PartCase(case, "", team, 1).processors.selected)
+    assert selected == [range(3), range(3, 4)]
 
 
 def without(name):

@@ -72,10 +72,10 @@ def triangles_in(mesh, sub):
     """Numbers in the whole mesh of the boundary triangles of a part; those where its cells end count on."""
     firsts = [np.searchsorted(m.triangle_face, np.arange(len(m.boundary_centres))) for m in (mesh, sub.mesh)]
     inside = np.flatnonzero(sub.mesh.triangle_face < sub.mesh.patch_start[-2])
-    own = sub.mesh.triangle_face[inside]
+    owned = sub.mesh.triangle_face[inside]
     numbers = np.arange(len(sub.mesh.triangles)) + len(mesh.triangles)
-    faces = sub.faces[sub.mesh.n_internal + own] - sub.n_internal
-    numbers[inside] = firsts[0][faces] + inside - firsts[1][own]
+    faces = sub.faces[sub.mesh.n_internal + owned] - sub.n_internal
+    numbers[inside] = firsts[0][faces] + inside - firsts[1][owned]
     return numbers
 
 
@@ -131,7 +131,7 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
     def work(team):
         sub = part_of(poly, parts == team.rank, team, layers=2 + RINGS)
         halo = Halo(sub, team)
-        own_cells = np.where(sub.own[:, None], cells[sub.cells], np.nan)
+        own_cells = np.where(sub.owned[:, None], cells[sub.cells], np.nan)
         halo.fill("cells", own_cells)
         faces = sub.faces[sub.mesh.n_internal :][: sub.mesh.patch_start[-2]] - sub.n_internal
         on_faces = np.zeros((len(sub.mesh.boundary_centres), 3))
@@ -150,8 +150,8 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         everything = np.arange(len(mesh.triangles))
         assert beyond(arrays, rows, names) == beyond(flow.arrays(), names[rows], everything)
         found, numbers, _ = part.locate_own(points)
-        own, local = part.own_hosts(numbers)
-        np.testing.assert_array_equal(own, np.arange(len(found)))
+        owned, local = part.own_hosts(numbers)
+        np.testing.assert_array_equal(owned, np.arange(len(found)))
         np.testing.assert_array_equal(gaps_at(arrays, points[found], local, 0.1 * reach), gaps[found])
         there = planes_at(arrays, points[found], local, 2.0 * reach)
         np.testing.assert_array_equal(there, planes[place[found]])
@@ -169,12 +169,12 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         of_inner = sub.mesh.cell_points[np.repeat(inner, np.diff(sub.mesh.cell_point_start))]
         some = np.concatenate([np.unique(of_inner), n + np.flatnonzero(inner)])
         np.testing.assert_array_equal(sub.mesh.nodes[some], mesh.nodes[nodes][some])
-        for own, whole in zip(parts_of, (u, l, scalars, linear), strict=True):
-            np.testing.assert_array_equal(own[some], whole[nodes][some])
+        for owned, whole in zip(parts_of, (u, l, scalars, linear), strict=True):
+            np.testing.assert_array_equal(owned[some], whole[nodes][some])
         tets = np.concatenate([np.arange(*mesh.cell_start[c : c + 2]) for c in sub.cells[inner]])
-        own = np.concatenate([np.arange(*sub.mesh.cell_start[c : c + 2]) for c in np.flatnonzero(inner)])
-        np.testing.assert_array_equal(nodes[sub.mesh.tets[own]], mesh.tets[tets])
-        np.testing.assert_array_equal(c_part[own], correction[tets])
+        owned = np.concatenate([np.arange(*sub.mesh.cell_start[c : c + 2]) for c in np.flatnonzero(inner)])
+        np.testing.assert_array_equal(nodes[sub.mesh.tets[owned]], mesh.tets[tets])
+        np.testing.assert_array_equal(c_part[owned], correction[tets])
 
 
 def test_a_path_out_of_the_layers_of_a_node_is_noted():
@@ -239,9 +239,9 @@ def test_all_nodes_refuse_meshes_that_they_cannot_share(poly, reason):
     x = assemble(poly, "mesh").centres[:, 0] if reason == "folded cells" else np.arange(4**3)
 
     def work(team):
-        own = (x > np.median(x)) == team.rank
+        owned = (x > np.median(x)) == team.rank
         with pytest.raises(IndivisibleMeshError, match=reason):
-            part_of(poly, own, team, layers=1 + RINGS)
+            part_of(poly, owned, team, layers=1 + RINGS)
         return True
 
     assert together(2, work) == [True, True]

@@ -141,7 +141,7 @@ def content(file: Path) -> tuple[dict[str, Any], dict[str, bytes]] | bytes:
     """Content of a file; of a checkpoint without checksums of files, as each process has its own."""
     if file.suffix != ".checkpoint":
         return file.read_bytes()
-    checkpoint = StoredCheckpoint(file, verify=True).whole()
+    checkpoint = StoredCheckpoint(file, verify=True).read_all()
     # Sums over parts of a mesh have other round-off.
     others = "sums", "parts", "fingerprint", "around"
     header = {name: value for name, value in checkpoint.header.items() if name not in others}
@@ -662,7 +662,7 @@ Worker.migrate = hooked
         name = file.relative_to(folder_of(alone))
         assert (folder_of(case) / name).read_bytes() == file.read_bytes(), name
     ends = [
-        StoredCheckpoint(folder_of(c) / "checkpoint/0.015.checkpoint", verify=True).whole().arrays
+        StoredCheckpoint(folder_of(c) / "checkpoint/0.015.checkpoint", verify=True).read_all().arrays
         for c in (case, alone)
     ]
     for name, array in ends[1].items():

@@ -44,10 +44,10 @@ def test_one_piece_of_work_at_a_time_in_order() -> None:
         done.append(1)
 
     with Writer() as writer:
-        writer.begin(first)
+        writer.submit(first)
         writer.check()
         # It takes no second piece before the first is done.
-        second = threading.Thread(target=writer.begin, args=(lambda: done.append(2),))
+        second = threading.Thread(target=writer.submit, args=(lambda: done.append(2),))
         second.start()
         second.join(0.1)
         assert second.is_alive()
@@ -56,23 +56,23 @@ def test_one_piece_of_work_at_a_time_in_order() -> None:
         second.join(PATIENCE)
         writer.finish()
         assert done == [1, 2]
-        writer.begin(lambda: done.append(3))
+        writer.submit(lambda: done.append(3))
     assert done == [1, 2, 3]
 
 
-@pytest.mark.parametrize("word", ["check", "finish", "begin"])
+@pytest.mark.parametrize("word", ["check", "finish", "submit"])
 def test_error_is_reported_once(word: str) -> None:
     with Writer() as writer:
-        writer.begin(fail)
+        writer.submit(fail)
         wait_for(lambda: writer._unfinished is not None and writer._unfinished.done())
         with pytest.raises(OSError, match="no space"):
-            getattr(writer, word)(*([fail] if word == "begin" else []))
+            getattr(writer, word)(*([fail] if word == "submit" else []))
         writer.finish()
 
 
 def test_leaving_raises_the_last_error() -> None:
     with pytest.raises(OSError, match="no space"), Writer() as writer:
-        writer.begin(fail)
+        writer.submit(fail)
 
 
 def test_leaving_with_an_error_waits_and_keeps_the_error() -> None:
@@ -85,7 +85,7 @@ def test_leaving_with_an_error_waits_and_keeps_the_error() -> None:
 
     def interrupted() -> None:
         with Writer() as writer:
-            writer.begin(slow)
+            writer.submit(slow)
             raise KeyError("mine")
 
     with pytest.raises(KeyError, match="mine"):
@@ -121,13 +121,13 @@ def test_particles_go_on_while_a_cloud_is_written_but_not_beyond_the_next(case, 
 def test_results_do_not_depend_on_when_they_are_written(case, tmp_path, monkeypatch):
     assert main(["run", "-case", str(case)]) == 0
     expected = results(case)
-    begin = Writer.begin
+    submit = Writer.submit
 
     def at_once(writer, work):
-        begin(writer, work)
+        submit(writer, work)
         writer.finish()
 
-    monkeypatch.setattr(Writer, "begin", at_once)
+    monkeypatch.setattr(Writer, "submit", at_once)
     assert main(["run", "-case", str(case), "-overwrite"]) == 0
     assert results(case) == expected
 
@@ -161,7 +161,7 @@ def test_checkpoints_hold_what_cloud_functions_had_observed_at_their_time(case, 
 def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
     job = prepare(case, threads=1)
     write, begun, writers = pvd.write_snapshot, [], []
-    begin, advance = Writer.begin, Stepper.advance
+    submit, advance = Writer.submit, Stepper.advance
 
     def full(path, cloud):
         begun.append(path.name)
@@ -170,7 +170,7 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
         return write(path, cloud)
 
     def known(writer, work):
-        begin(writer, work)
+        submit(writer, work)
         writers.append(writer)
 
     def slow(stepper, steps, stop):
@@ -180,7 +180,7 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
             wait_for(lambda: writers[-1]._unfinished.done())
 
     monkeypatch.setattr(pvd, "write_snapshot", full)
-    monkeypatch.setattr(Writer, "begin", known)
+    monkeypatch.setattr(Writer, "submit", known)
     monkeypatch.setattr(Stepper, "advance", slow)
     with pytest.raises(RunStopped, match=r"No space .*softCloud_000002\.vtp'\. To continue .*-resume"):
         execute(job)

@@ -41,7 +41,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 def test_round_trip_is_exact(tmp_path: Path) -> None:
     written = checkpoint(0.1 + 0.2)
     write_checkpoint(tmp_path / "a", written)
-    read = StoredCheckpoint(tmp_path / "a", verify=True).whole()
+    read = StoredCheckpoint(tmp_path / "a", verify=True).read_all()
     assert read.time == written.time
     assert read.header == written.header
     assert read.arrays.keys() == written.arrays.keys()
@@ -66,7 +66,7 @@ def test_round_trip_is_exact(tmp_path: Path) -> None:
 def test_alike_rows_are_one_row_in_the_file(tmp_path: Path, array: np.ndarray) -> None:
     write_checkpoint(tmp_path / "a", Checkpoint(0.0, {}, {"a": array}))
     assert (tmp_path / "a").stat().st_size < 1000
-    read = StoredCheckpoint(tmp_path / "a", verify=True).whole().arrays["a"]
+    read = StoredCheckpoint(tmp_path / "a", verify=True).read_all().arrays["a"]
     assert (read.dtype, read.shape, read.tobytes()) == (array.dtype, array.shape, array.tobytes())
     assert read.flags.writeable
 
@@ -76,7 +76,7 @@ def test_rows_that_differ_in_one_bit_are_all_in_the_file(tmp_path: Path, row: in
     array = np.zeros((4000, 3))
     array[row, 2] = -0.0
     write_checkpoint(tmp_path / "a", Checkpoint(0.0, {}, {"a": array}))
-    assert StoredCheckpoint(tmp_path / "a", verify=True).whole().arrays["a"].tobytes() == array.tobytes()
+    assert StoredCheckpoint(tmp_path / "a", verify=True).read_all().arrays["a"].tobytes() == array.tobytes()
 
 
 @given(data=st.data())
@@ -90,7 +90,7 @@ def test_every_changed_byte_and_every_cut_shows(
     for damaged in (bytes(changed), whole[:at], whole + b"\0"):
         path.write_bytes(damaged)
         with pytest.raises(DamagedError):
-            StoredCheckpoint(path, verify=True).whole()
+            StoredCheckpoint(path, verify=True).read_all()
 
 
 def test_another_version_is_refused_by_its_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -107,7 +107,7 @@ def test_a_version_with_another_checksum_is_named(tmp_path: Path, whole: bytes) 
         changed = whole.replace(b"checkpoint %d" % VERSION, b"checkpoint %d" % number)[:-4] + b"\0" * 32
         (tmp_path / "a").write_bytes(changed)
         with pytest.raises(DamagedError, match=message):
-            StoredCheckpoint(tmp_path / "a", verify=True).whole()
+            StoredCheckpoint(tmp_path / "a", verify=True).read_all()
 
 
 def in_parts(folder: Path, time: float = 0.1) -> tuple[Checkpoints, Path, Checkpoint]:
@@ -123,7 +123,7 @@ def in_parts(folder: Path, time: float = 0.1) -> tuple[Checkpoints, Path, Checkp
 
 def test_parts_are_put_together(tmp_path: Path) -> None:
     _, file, whole = in_parts(tmp_path)
-    found = StoredCheckpoint(file, verify=True).whole().arrays
+    found = StoredCheckpoint(file, verify=True).read_all().arrays
     assert list(found) == list(whole.arrays)
     for name, array in whole.arrays.items():
         assert found[name].tobytes() == array.tobytes()
@@ -141,7 +141,7 @@ def test_a_damaged_missing_or_foreign_part_damages_the_whole(tmp_path: Path) -> 
     ):
         change()
         with pytest.raises(DamagedError, match=why):
-            StoredCheckpoint(file, verify=True).whole()
+            StoredCheckpoint(file, verify=True).read_all()
 
 
 def test_parts_go_with_their_checkpoint(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.run import log
-from foamprb.run.checks import doubts, extension_rates, groups
+from foamprb.run.checks import dimensionless_groups, extension_rates, validity_warnings
 
 OIL = Medium(1.0, 1000.0, (0.0, 0.0, 0.0))
 
@@ -33,7 +33,7 @@ def flow_of(gradient):
     return MeshFlow(mesh, mesh.nodes @ l.T, np.broadcast_to(l, (len(mesh.nodes), 3, 3)))
 
 
-def doubts_in(gradient, Ca, ratio=None):
+def warnings_in(gradient, Ca, ratio=None):
     """Warnings of a solid, or of a drop of this ratio of the viscosities."""
     flow, x = flow_of(gradient), np.full((1, 3), 0.5)
     if ratio is None:
@@ -42,11 +42,13 @@ def doubts_in(gradient, Ca, ratio=None):
         p, material = drops(x, d=1e-4, rho=1000.0, gamma=5e-5 / Ca, eta=ratio), "drop"
     models = Models(integrator="stokes", material=material)
     cloud = Cloud(p, flow, OIL, [Stick()] * len(flow.patches), 1e-3, models)
-    return doubts_about(cloud, liquid=ratio is not None)
+    return warnings_about(cloud, liquid=ratio is not None)
 
 
-def doubts_about(cloud, liquid=False):
-    return doubts(groups(cloud, 0, extension_rates(cloud.flow)), "stokes", "it", liquid)
+def warnings_about(cloud, liquid=False):
+    return validity_warnings(
+        dimensionless_groups(cloud, 0, extension_rates(cloud.flow)), "stokes", "it", liquid
+    )
 
 
 def test_progress_lines_give_the_time_left(caplog, monkeypatch):
@@ -65,21 +67,21 @@ def test_progress_lines_give_the_time_left(caplog, monkeypatch):
 def test_extension_beyond_steady_shapes_is_a_doubt_and_shear_is_none():
     rate = 1.0 / np.sqrt(3.0)
     extension = np.diag([rate, -rate / 2, -rate / 2])
-    (text,) = doubts_in(extension, 0.4)
+    (text,) = warnings_in(extension, 0.4)
     assert "in 100 % of the flow" in text
     assert "no steady shape" in text
-    assert doubts_in(extension, 0.25) == []
-    assert doubts_in([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], 10.0) == []
+    assert warnings_in(extension, 0.25) == []
+    assert warnings_in([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], 10.0) == []
 
 
 @pytest.mark.parametrize(("ratio", "critical"), [(0.1, 0.51909), (1.0, 0.59795), (2.0, 0.87803)])
 def test_shear_beyond_breakup_is_a_doubt_for_drops(ratio, critical):
     """Critical numbers of the equation of Maffettone and Minale; from a ratio of 4 on drops never break."""
     shear = [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
-    (text,) = doubts_in(shear, 1.001 * critical, ratio)
+    (text,) = warnings_in(shear, 1.001 * critical, ratio)
     assert "in 100 % of the flow a drop has no steady shape" in text
-    assert doubts_in(shear, 0.999 * critical, ratio) == []
-    assert doubts_in(shear, 10.0, 4.0) == []
+    assert warnings_in(shear, 0.999 * critical, ratio) == []
+    assert warnings_in(shear, 10.0, 4.0) == []
 
 
 def test_steps_of_the_last_tracking_step_are_counted(caplog):
@@ -137,11 +139,11 @@ def test_bodies_that_glide_far_keep_their_inertia():
     # With 1 m/s they stop within 3 m.
     assert falling(1.0, v=(1.0, 0.0, 0.0), g=0.0).models.integrator == "rosenbrock"
     assert falling(1000.0, v=(1.0, 0.0, 0.0), g=0.0).models.integrator == "stokes"
-    (text,) = doubts_about(cloud)
+    (text,) = warnings_about(cloud)
     assert "drag stops the particles within 93.3 times the width of the flow" in text
 
 
 def test_a_modulus_that_round_off_limits_is_a_doubt():
-    (text,) = doubts_about(falling(1.0, g=0.0, G=1e7))
+    (text,) = warnings_about(falling(1.0, g=0.0, G=1e7))
     assert "the shear modulus is 5.6e+08 times mu/deltaT" in text
-    assert doubts_about(falling(1.0, g=0.0, G=1e5)) == []
+    assert warnings_about(falling(1.0, g=0.0, G=1e5)) == []

@@ -30,6 +30,6 @@ def test_the_writers_thread_ends_a_run_with_a_message(tmp_path):
 
     job = prepare(short_case(tmp_path), threads=1)
     with pytest.raises(RunStopped, match="not enough memory; "), open_results(job) as results:
-        results._writer.begin(fail)
+        results._writer.submit(fail)
     with pytest.raises(InputError, match="as it is"), open_results(job):
         raise InputError("as it is")

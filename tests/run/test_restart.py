@@ -249,16 +249,16 @@ def test_an_unfinished_table_of_fates_is_removed(stopped, truth):
 )
 def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case, truth, capsys, monkeypatch):
     before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGHUP, signal.SIGXCPU)}
-    begin = Writer.begin
+    submit = Writer.submit
 
     writes = itertools.count(1)
 
     def interrupted(writer: Writer, write: Callable[[], object]) -> None:
         if next(writes) == 2:
             signal.raise_signal(number)
-        begin(writer, write)
+        submit(writer, write)
 
-    monkeypatch.setattr(Writer, "begin", interrupted)
+    monkeypatch.setattr(Writer, "submit", interrupted)
     assert main(["run", "-case", str(case)]) == status
     err = capsys.readouterr().err
     assert err == "--> foamprb stopped at t = 0.002 s. To continue from the last checkpoint, add -resume.\n"

@@ -69,7 +69,7 @@ class Processors:
             path for _, (_, path) in sorted(several.items())
         ]
         self.n = len(single) or expected
-        self.chosen = range(self.n)
+        self.selected = range(self.n)
         """The processors whose files are read."""
         ends = [(k, k) for k in sorted(single)] or [(k, last) for k, (last, _) in sorted(several.items())]
         self._held = [range(first, last + 1) for first, last in ends]
@@ -77,7 +77,7 @@ class Processors:
     @property
     def held(self) -> list[int]:
         """Return the folders of the chosen processors, by their indices."""
-        return [k for k, numbers in enumerate(self._held) if any(n in self.chosen for n in numbers)]
+        return [k for k, numbers in enumerate(self._held) if any(n in self.selected for n in numbers)]
 
     def files(self, relative: Path, most: int = -1) -> list[FoamFile] | None:
         """Return the file of each chosen processor; None if all are missing, InputError if some are.
@@ -97,8 +97,8 @@ class Processors:
         files: list[FoamFile] = []
         for k, path in zip(held, found, strict=True):
             numbers = self._held[k]
-            chosen = [i for i, number in enumerate(numbers) if number in self.chosen]
-            blocks, count = read_blocks(path, chosen, most)
+            selected = [i for i, number in enumerate(numbers) if number in self.selected]
+            blocks, count = read_blocks(path, selected, most)
             if count != len(numbers):
                 raise InputError(
                     f"{path}: parts of {count} processors, not {len(numbers)}; the file is cut short."

@@ -50,17 +50,17 @@ def write_comparison(runs: Runs, target: Path) -> Path:
     if not ended:
         raise InputError(f"none of the runs {', '.join(runs)} has ended. To continue: foamprb run -resume.")
     missing = [name for name in runs if name not in ended]
-    own = {name: _released(fates) for name, fates in ended.items()}
-    labels = _labels(runs, own)
+    released = {name: _released(fates) for name, fates in ended.items()}
+    labels = _labels(runs, released)
     sections = [
-        PageSection("runs", "Runs", _rows(runs, own)),
-        PageSection("fates", "Places", _places(labels, own)),
-        PageSection("distributions", "Distributions", _distributions(labels, own)),
+        PageSection("runs", "Runs", _rows(runs, released)),
+        PageSection("fates", "Places", _places(labels, released)),
+        PageSection("distributions", "Distributions", _distributions(labels, released)),
     ]
     text = page(
         "Comparison",
-        f"{len(own)} runs that have ended",
-        [(f"{sum(len(fates['id']) for fates in own.values())}", "particles in all")],
+        f"{len(released)} runs that have ended",
+        [(f"{sum(len(fates['id']) for fates in released.values())}", "particles in all")],
         [f"{name} has not ended and is left out." for name in missing],
         sections,
     )
@@ -74,21 +74,22 @@ def _released(fates: Table) -> Table:
     return {name: column[here] for name, column in fates.items()}
 
 
-def _labels(runs: Runs, own: Iterable[str]) -> dict[str, str]:
+def _labels(runs: Runs, names: Iterable[str]) -> dict[str, str]:
     """Return a short text for each run: the values of the replaced entries, or its name."""
     entries = runs.entries
     return {
         name: ", ".join(f"{path.split('/')[-1]} {text}" for path, text in entries[name].items()) or name
-        for name in own
+        for name in names
     }
 
 
-def _rows(runs: Runs, own: dict[str, Table]) -> str:
+def _rows(runs: Runs, released: dict[str, Table]) -> str:
     entries = runs.entries
-    paths = list(dict.fromkeys(path for name in own for path in entries[name]))
-    fates_of = [name for name in plots.FATES if any((fates["fate"] == name).any() for fates in own.values())]
+    paths = list(dict.fromkeys(path for name in released for path in entries[name]))
+    tables = released.values()
+    fates_of = [name for name in plots.FATES if any((fates["fate"] == name).any() for fates in tables)]
     rows = []
-    for name, fates in own.items():
+    for name, fates in released.items():
         counts = [int((fates["fate"] == fate).sum()) for fate in fates_of]
         rows.append(
             (
@@ -115,20 +116,20 @@ def _quantile(values: Floats, share: float, unit: str = "") -> str:
     return written(quantile, unit, quantile) if unit else f"{quantile:.4g}"
 
 
-def _places(labels: dict[str, str], own: dict[str, Table]) -> str:
+def _places(labels: dict[str, str], released: dict[str, Table]) -> str:
     """Return the shares of the particles by fate and patch."""
     counts = {
         name: dict(zip(*np.unique(_where(fates), return_counts=True), strict=True))
-        for name, fates in own.items()
+        for name, fates in released.items()
     }
     places = sorted({str(place) for by_place in counts.values() for place in by_place})
     rows = [
         (
             labels[name],
-            *(f"{100.0 * counts[name].get(place, 0) / len(own[name]['id']):.1f} %" for place in places),
+            *(f"{100.0 * counts[name].get(place, 0) / len(released[name]['id']):.1f} %" for place in places),
         )
-        for name in own
-        if len(own[name]["id"])
+        for name in released
+        if len(released[name]["id"])
     ]
     return table("Share of the particles by fate and patch", ("run", *places), rows)
 
@@ -138,11 +139,11 @@ def _where(fates: Table) -> NDArray[np.str_]:
     return np.array([f"{fate}: {patch}" if patch else fate for fate, patch in pairs])
 
 
-def _distributions(labels: dict[str, str], own: dict[str, Table]) -> str:
-    chosen = [list(own)[k] for k in spread(len(own), _MOST_CURVES)]
-    few = f"<p>{len(chosen)} of {len(own)} runs, evenly spread.</p>" if len(chosen) < len(own) else ""
-    D = [(labels[name], own[name]["D"]) for name in chosen if "D" in own[name]]
-    times = [(labels[name], own[name]["t1"] - own[name]["t0"]) for name in chosen]
+def _distributions(labels: dict[str, str], released: dict[str, Table]) -> str:
+    shown = [list(released)[k] for k in spread(len(released), _MOST_CURVES)]
+    few = f"<p>{len(shown)} of {len(released)} runs, evenly spread.</p>" if len(shown) < len(released) else ""
+    D = [(labels[name], released[name]["D"]) for name in shown if "D" in released[name]]
+    times = [(labels[name], released[name]["t1"] - released[name]["t0"]) for name in shown]
     return few + grid(
         _distribution(D, ("D", "1"), "Taylor's deformation at the end of each particle"),
         _distribution(times, ("t", "s"), "residence time"),

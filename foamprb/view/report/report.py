@@ -47,7 +47,7 @@ _MOST_WALLS = 6
 
 
 @dataclass(frozen=True)
-class _Given:
+class _Report:
     """Input of all sections, and the plots that they have made."""
 
     run: Run
@@ -105,21 +105,21 @@ def write_report(
         geometry = scene.geometry
     except InputError as error:
         scene, geometry = error, _geometry(case, source)
-    given = _Given(run, fates, geometry, tuple(paths) if paths else None, {})
+    report = _Report(run, fates, geometry, tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
     try:
         sections = [
-            _scene(given, scene, target),
-            _fates(given),
-            _deposition(given),
-            _residence(given),
-            _deformation(given),
-            _exposure(given),
-            _along_paths(given),
-            _record(given),
+            _scene(report, scene, target),
+            _fates(report),
+            _deposition(report),
+            _residence(report),
+            _deformation(report),
+            _exposure(report),
+            _along_paths(report),
+            _record(report),
         ]
         # The list of files includes the plots of all other sections.
-        sections.append(_files(given, target, beside))
+        sections.append(_files(report, target, beside))
         text = page(
             f"{title_of(case)}: {run.name}",
             _subtitle(run),
@@ -132,13 +132,13 @@ def write_report(
             f"{run.folder}: run.json or a table is not as foamprb run wrote it "
             f"({type(error).__name__}: {error}). Run the particles again: foamprb run."
         ) from error
-    for name, plot in given.made.items():
+    for name, plot in report.made.items():
         for ending, data in ((".svg", plot.svg_file), (".png", plot.png)):
             with atomic_write(beside / f"{name}{ending}") as temporary:
                 temporary.write_bytes(data)
     with atomic_write(target) as temporary:
         temporary.write_text(text, encoding="utf-8")
-    log.info("%d particles, %d plots, %.1f MB: %s", len(fates["id"]), len(given.made),
+    log.info("%d particles, %d plots, %.1f MB: %s", len(fates["id"]), len(report.made),
              len(text.encode()) / 1e6, target)  # fmt: skip
     return target
 
@@ -169,8 +169,8 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
     return cards
 
 
-def _scene(given: _Given, scene: Scene | InputError, target: Path) -> PageSection:
-    live = given.run.results.page
+def _scene(report: _Report, scene: Scene | InputError, target: Path) -> PageSection:
+    live = report.run.results.page
     try:
         if isinstance(scene, InputError):
             raise scene
@@ -199,42 +199,42 @@ _ALWAYS = 4
 """Fates that the table shows if no particle has them, too."""
 
 
-def _fates(given: _Given) -> PageSection:
+def _fates(report: _Report) -> PageSection:
     counts: dict[str, dict[str, int]] = {}
-    for patch, fate in zip(given.fates["patch"].tolist(), given.fates["fate"].tolist(), strict=True):
+    for patch, fate in zip(report.fates["patch"].tolist(), report.fates["fate"].tolist(), strict=True):
         if fate != "pending":
             place = counts.setdefault(patch or "in the flow", {})
             place[fate] = place.get(fate, 0) + 1
-    sums = {place: sum(own.values()) for place, own in counts.items()}
+    sums = {place: sum(by_fate.values()) for place, by_fate in counts.items()}
     counts = {place: counts[place] for place in sorted(counts, key=lambda place: -sums[place])}
     total = sum(sums.values())
-    met = {fate for own in counts.values() for fate in own}
+    met = {fate for by_fate in counts.values() for fate in by_fate}
     shown = [fate for k, fate in enumerate(plots.FATES) if k < _ALWAYS or fate in met]
     rows = [
-        (place, *(own.get(fate, 0) for fate in shown), f"{100 * sums[place] / total:.1f} %")
-        for place, own in counts.items()
+        (place, *(by_fate.get(fate, 0) for fate in shown), f"{100 * sums[place] / total:.1f} %")
+        for place, by_fate in counts.items()
     ]
     listed = table("Particles by place and fate", ("where", *shown, "share"), rows)
-    drawn = given.figure("fates", plots.shares(counts), "Particles by patch and fate.") if counts else ""
-    drawn += _origins(given)
+    drawn = report.figure("fates", plots.shares(counts), "Particles by patch and fate.") if counts else ""
+    drawn += _origins(report)
     return PageSection("fates", "Fates", grid(drawn, listed))
 
 
-def _origins(given: _Given) -> str:
-    fates = given.fates
+def _origins(report: _Report) -> str:
+    fates = report.fates
     here = fates["fate"] != "pending"
     if "x0" not in fates or not here.any():
         return ""
     x = np.stack([fates[key][here] for key in ("x0", "y0", "z0")], axis=1)
     if not np.ptp(x, axis=0).any():
         return ""
-    return given.figure(
+    return report.figure(
         "fatesByOrigin", plots.by_origin(x, fates["fate"][here]), "Places of release, coloured by fate."
     )
 
 
-def _deposition(given: _Given) -> PageSection | None:
-    fates, geometry = given.fates, given.geometry
+def _deposition(report: _Report) -> PageSection | None:
+    fates, geometry = report.fates, report.geometry
     stuck = fates["fate"] == "stuck"
     if geometry is None or "x1" not in fates:
         return None
@@ -246,20 +246,20 @@ def _deposition(given: _Given) -> PageSection | None:
     }
     if not walls:
         return None
-    densities = {name: (own.number / own.area, np.nanmax(own.density)) for name, own in walls.items()}
+    densities = {name: (wall.number / wall.area, np.nanmax(wall.density)) for name, wall in walls.items()}
     listed = table(
         "Deposits",
         ("wall", "particles", "area [m²]", "mean density [1/m²]", "largest density [1/m²]"),
         [
-            (name, own.number, *(f"{value:.4g}" for value in (own.area, *densities[name])))
-            for name, own in walls.items()
+            (name, wall.number, *(f"{value:.4g}" for value in (wall.area, *densities[name])))
+            for name, wall in walls.items()
         ],
     )
     drawn = ""
-    for name, own in sorted(walls.items(), key=lambda item: -item[1].number)[:_MOST_WALLS]:
-        how = "unrolled about its axis" if own.across[1] == "around" else "in its plane"
+    for name, wall in sorted(walls.items(), key=lambda item: -item[1].number)[:_MOST_WALLS]:
+        how = "unrolled about its axis" if wall.across[1] == "around" else "in its plane"
         caption = f"{name}, {how}: particles per area; dots are particles."
-        drawn += given.figure(f"deposits-{name}", plots.unrolled(own), caption)
+        drawn += report.figure(f"deposits-{name}", plots.unrolled(wall), caption)
     return PageSection("deposition", "Deposition on walls", listed + grid(drawn))
 
 
@@ -267,18 +267,18 @@ def _by_fate(fates: NDArray[np.str_], values: Floats) -> dict[str, Floats]:
     return {fate: values[fates == fate] for fate in plots.FATES if (fates == fate).any()}
 
 
-def _residence(given: _Given) -> PageSection:
-    fates = given.fates
+def _residence(report: _Report) -> PageSection:
+    fates = report.fates
     ended = _by_fate(fates["fate"], fates["t1"] - fates["t0"])
     rows = [
         (
             fate,
-            len(own),
-            *(written(float(q), "s", float(own.max())) for q in np.quantile(own, (0.1, 0.5, 0.9))),
+            len(times),
+            *(written(float(q), "s", float(times.max())) for q in np.quantile(times, (0.1, 0.5, 0.9))),
         )
-        for fate, own in ended.items()
+        for fate, times in ended.items()
     ]
-    drawn = given.figure(
+    drawn = report.figure(
         "residenceTime",
         plots.histogram(ended, "residence time t", "s"),
         "Time from release to the end of each particle, or of the run.",
@@ -287,24 +287,24 @@ def _residence(given: _Given) -> PageSection:
     return PageSection("residence", "Residence time", grid(drawn, listed))
 
 
-def _deformation(given: _Given) -> PageSection | None:
-    run, fates = given.run, given.fates
+def _deformation(report: _Report) -> PageSection | None:
+    run, fates = report.run, report.fates
     drawn = ""
     if "D" in fates:
-        drawn += given.figure(
+        drawn += report.figure(
             "deformation",
             plots.histogram(_by_fate(fates["fate"], fates["D"]), "D = (a − c)/(a + c)", "1"),
             "Taylor's deformation D of the longest and the shortest semi-axis, at the end of each particle.",
         )
-    chosen = spread(len(run.times), _MOST_TIMES)
+    indices = spread(len(run.times), _MOST_TIMES)
     quantiles = []
-    for index in chosen:
+    for index in indices:
         arrays = run.cloud(index, ("taylorDeformation", "status")).arrays
         D = arrays["taylorDeformation"][arrays["status"] == Status.ACTIVE]
         quantiles.append(np.quantile(D, (0.05, 0.5, 0.95)) if len(D) else np.full(3, np.nan))
-    if len(chosen) > 1 and np.isfinite(quantiles).any():
-        t, (low, middle, high) = run.times[chosen], np.transpose(quantiles)
-        drawn += given.figure(
+    if len(indices) > 1 and np.isfinite(quantiles).any():
+        t, (low, middle, high) = run.times[indices], np.transpose(quantiles)
+        drawn += report.figure(
             "deformationOverTime",
             plots.curves([("median", t, middle)], ("time t", "s"), ("D", "1"), (t, low, high)),
             "D of the moving particles over time: the median, and the range of nine in ten.",
@@ -312,27 +312,27 @@ def _deformation(given: _Given) -> PageSection | None:
     return PageSection("deformation", "Deformation", grid(drawn)) if drawn else None
 
 
-def _exposure(given: _Given) -> PageSection:
-    tables = [name for name in given.run.tables if name.endswith("/exposure")]
+def _exposure(report: _Report) -> PageSection:
+    tables = [name for name in report.run.tables if name.endswith("/exposure")]
     if not tables:
         text = "<p>The run did not have the cloud function particleHistogram, which integrates γ̇.</p>"
         return PageSection("shear", "Shear exposure", text)
-    own = given.run.table(tables[0])
-    shear = given.figure(
+    exposure = report.run.table(tables[0])
+    shear = report.figure(
         "shearExposure",
-        plots.histogram(_by_fate(own["fate"], own["shearExposure"]), "shear exposure ∫γ̇ dt", "1"),
+        plots.histogram(_by_fate(exposure["fate"], exposure["shearExposure"]), "shear exposure ∫γ̇ dt", "1"),
         "The fluid's shear rate at each particle, integrated over time.",
     )
-    deformation = given.figure(
+    deformation = report.figure(
         "maxDeformation",
-        plots.histogram(_by_fate(own["fate"], own["maxDeformation"]), "largest D", "1"),
+        plots.histogram(_by_fate(exposure["fate"], exposure["maxDeformation"]), "largest D", "1"),
         "The largest deformation of each particle on its path.",
     )
     return PageSection("shear", "Shear exposure", grid(shear, deformation))
 
 
-def _along_paths(given: _Given) -> PageSection:
-    paths = given.run.paths(("taylorDeformation", "shearRate"))
+def _along_paths(report: _Report) -> PageSection:
+    paths = report.run.paths(("taylorDeformation", "shearRate"))
     title = "Deformation along paths"
     if paths is None:
         text = "<p>The run did not have the cloud function particleTracks, which records paths.</p>"
@@ -340,28 +340,28 @@ def _along_paths(given: _Given) -> PageSection:
     ids = paths.tracks["origId"]
     # A path through a coupled patch has several parts.
     tracked = np.unique(ids)
-    chosen = given.paths or [int(tracked[k]) for k in spread(len(tracked), _PATHS)]
-    if missing := [number for number in chosen if number not in ids]:
+    numbers = report.paths or [int(tracked[k]) for k in spread(len(tracked), _PATHS)]
+    if missing := [number for number in numbers if number not in ids]:
         raise InputError(
             f"-paths: particleTracks has no path of particle {missing[0]}; it has {len(tracked)} paths, "
             f"among them of {', '.join(map(str, tracked[:5]))}."
         )
     lines, rates = [], []
-    for number in chosen:
-        own = np.repeat(ids == number, np.diff(paths.start))
-        t, D, rate = (values[own] for values in paths.values.values())
+    for number in numbers:
+        rows = np.repeat(ids == number, np.diff(paths.start))
+        t, D, rate = (values[rows] for values in paths.values.values())
         lines.append((f"particle {number}", t - t[0], D))
         rates.append((f"particle {number}", t - t[0], rate))
-    which = "chosen by -paths" if given.paths else "evenly spread over their numbers; -paths chooses others"
+    which = "chosen by -paths" if report.paths else "evenly spread over their numbers; -paths chooses others"
     x = ("time since release t", "s")
     D_plot, rate_plot = plots.curves(lines, x, ("D", "1")), plots.curves(rates, x, ("γ̇", "1/s"))
-    drawn = given.figure("deformationAlongPaths", D_plot, f"D of single particles, {which}.")
-    drawn += given.figure("shearAlongPaths", rate_plot, "The fluid's shear rate at the same particles.")
+    drawn = report.figure("deformationAlongPaths", D_plot, f"D of single particles, {which}.")
+    drawn += report.figure("shearAlongPaths", rate_plot, "The fluid's shear rate at the same particles.")
     return PageSection("paths", title, grid(drawn))
 
 
-def _record(given: _Given) -> PageSection:
-    record = given.run.record
+def _record(report: _Report) -> PageSection:
+    record = report.run.record
     if record.get("format") != RECORD_FORMAT:
         text = "<p>The run has no run.json, or one of another version of foamprb.</p>"
         return PageSection("run", "Record", text)
@@ -386,8 +386,8 @@ def _record(given: _Given) -> PageSection:
     groups = {"shear_rate": "γ̇ [1/s]", "capillary": "Ca", "reynolds": "Re", "stokes": "shape Stokes number",
               "size": "size/cell"}  # fmt: skip
     rows = [
-        (own["name"], own["type"], own["particles"], *(_range(own.get(key, ())) for key in groups))
-        for own in record["injections"]
+        (model["name"], model["type"], model["particles"], *(_range(model.get(key, ())) for key in groups))
+        for model in record["injections"]
     ]
     body += table("Injection models, at release", ("name", "type", "particles", *groups.values()), rows)
     if text := record["settings"]["text"]:
@@ -404,12 +404,12 @@ def _range(ends: Sequence[float | None]) -> str:
     return "–".join("?" if end is None else f"{end:.3g}" for end in ends)
 
 
-def _files(given: _Given, target: Path, beside: Path) -> PageSection:
-    results = given.run.results
-    shown = [results.pvd, *map(given.run.file, given.run.tables)]
+def _files(report: _Report, target: Path, beside: Path) -> PageSection:
+    results = report.run.results
+    shown = [results.pvd, *map(report.run.file, report.run.tables)]
     shown += [path for path in (results.record, results.page, results.tracks) if path and path.exists()]
     items = [_anchor(path, target, path.relative_to(results.path).as_posix()) for path in shown]
-    for name in given.made:
+    for name in report.made:
         links = [_anchor(beside / f"{name}.{kind}", target, kind.upper()) for kind in ("svg", "png")]
         items.append(f"{html.escape(name)}: {', '.join(links)}")
     return PageSection("files", "Files", f"<ul>{''.join(f'<li>{item}</li>' for item in items)}</ul>")

@@ -104,7 +104,7 @@ def test_collated_files_are_read(written, tmp_path):
         assert main(["info", "-case", str(case)]) == 0
         processors = DecomposedCase(case).processors
         assert processors.cells(MESH).tolist() == DecomposedCase(written).processors.cells(MESH).tolist()
-        processors.chosen = range(1, 3)
+        processors.selected = range(1, 3)
         for file, k in zip(processors.files(MESH / "owner"), (1, 2), strict=True):
             path = written / f"processor{k}" / MESH / "owner"
             np.testing.assert_array_equal(file.labels(), FoamFile(path).labels())
