@@ -28,13 +28,15 @@ _REGISTRIES: dict[str, dict[str, Any]] = {
     "force": FORCES,
     "surroundings": SURROUNDINGS,
 }
-_loaded: dict[Path, tuple[str, tuple[tuple[str, str], ...]]] = {}
-"""Checksum of each file, empty if it failed, and its registries and names."""
+_loaded: dict[Path, tuple[str, dict[tuple[str, str], Any]]] = {}
+"""Checksum of each file, empty if it failed, and the models that it has added, by registry and name."""
+_of_case: list[Path] = []
+"""Files of the case whose settings were read last."""
 
 
 def loaded_libs() -> tuple[Path, ...]:
-    """Return the files whose models are loaded."""
-    return tuple(path for path, (digest, _) in _loaded.items() if digest)
+    """Return the files of the case whose settings were read last."""
+    return tuple(_of_case)
 
 
 def require_inside(files: Iterable[Path], case: Path) -> None:
@@ -57,34 +59,56 @@ def load_libs(files: Iterable[Path]) -> None:
     """Run Python files, which add solids, forces and surroundings, and compile the solids and forces.
 
     They call :func:`foamprb.add_material`, :func:`foamprb.add_force` and :func:`foamprb.add_surrounding`. An
-    unchanged file is not run again; the earlier models of a changed file are removed.
+    unchanged file is not run again; the earlier models of a changed file are removed. Models of files of
+    other cases stay, but for those that have the name of a model of these files.
 
     Raises
     ------
     InputError
         If a file fails, or adds a model that is unsound or cannot be compiled; with place and reason.
     """
-    for file in files:
-        path = file.resolve()
-        digest = hashlib.sha256(path.read_bytes()).hexdigest()
-        before, names = _loaded.get(path, ("", ()))
-        if before == digest:
-            continue
-        for kind, name in names:
-            _REGISTRIES[kind].pop(name, None)
-        names_before = _names()
-        log.info("Running the Python file %s of libs", path)
-        try:
-            _run(path, digest)
-        finally:
-            _loaded[path] = ("", tuple(_names() - names_before))
-        for kind, name in sorted(_loaded[path][1]):
-            _check(file, kind, name)
-        _loaded[path] = (digest, _loaded[path][1])
+    paths = [file.resolve() for file in files]
+    before = _registered()
+    for path, (_, models) in _loaded.items():
+        for (kind, name), model in models.items():
+            if _REGISTRIES[kind].get(name) is model:
+                del _REGISTRIES[kind][name]
+            if path in paths:
+                before.pop((kind, name), None)
+    _of_case.clear()
+    try:
+        for path in paths:
+            _load(path)
+            _of_case.append(path)
+    finally:
+        for (kind, name), model in before.items():
+            _REGISTRIES[kind].setdefault(name, model)
 
 
-def _names() -> set[tuple[str, str]]:
-    return {(kind, name) for kind, registry in _REGISTRIES.items() for name in registry}
+def _load(path: Path) -> None:
+    """Add the models of a file."""
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    before, models = _loaded.get(path, ("", {}))
+    if before == digest:
+        for (kind, name), model in models.items():
+            if _REGISTRIES[kind].setdefault(name, model) is not model:
+                raise InputError(f"{path}: the {kind} {name} exists already.")
+        return
+    earlier = _registered()
+    log.info("Running the Python file %s of libs", path)
+    try:
+        _run(path, digest)
+    finally:
+        added = {key: model for key, model in _registered().items() if key not in earlier}
+        _loaded[path] = ("", added)
+    for kind, name in sorted(added):
+        _check(path, kind, name)
+    _loaded[path] = (digest, added)
+
+
+def _registered() -> dict[tuple[str, str], Any]:
+    """Return all models, by registry and name."""
+    return {(kind, name): model for kind, models in _REGISTRIES.items() for name, model in models.items()}
 
 
 def _run(path: Path, digest: str) -> None:

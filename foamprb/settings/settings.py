@@ -199,12 +199,11 @@ def read_settings(
         )
     root = read_dictionary(file, case)
     texts = override(root, overrides or {})
-    if "libs" in root.entries:
-        # Other entries may name solids from these files.
-        files = read_entry(root, "libs", Files)
-        if not outside_libs:
-            require_inside(files, case)
-        load_libs(files)
+    # Other entries may name solids from these files.
+    files = read_entry(root, "libs", Files) if "libs" in root.entries else ()
+    if not outside_libs:
+        require_inside(files, case)
+    load_libs(files)
     mistakes = Mistakes()
     with mistakes:
         read_entries(CloudProperties, root)

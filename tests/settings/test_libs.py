@@ -29,7 +29,7 @@ from foamprb.cli import main
 from foamprb.cloud.forces import FORCES, add_force
 from foamprb.cloud.surroundings.registry import SURROUNDINGS, add_surrounding
 from foamprb.flow.read.openfoam import Case
-from foamprb.settings.libs import load_libs
+from foamprb.settings.libs import load_libs, loaded_libs
 
 FUNG = """
 import numpy as np
@@ -187,6 +187,18 @@ def test_file_is_run_again_only_when_it_has_changed(tmp_path):
     assert MATERIALS["fung"].parameter == Parameter("stiffening", 0.0, 5.0)
 
 
+def test_files_of_two_cases_may_add_the_same_name(tmp_path):
+    files = [tmp_path / "one.py", tmp_path / "two.py"]
+    for file, value in zip(files, "ab", strict=True):
+        file.write_text(FORCE.replace("a)", f"{value})") + f"    return ({value}, 0.0, 0.0), 0.0\n" + ADD)
+    for file, value in zip([*files, files[0]], "aba", strict=True):
+        load_libs([file])
+        assert FORCES["push"](**{value: 2.0}).coefficients == (2.0,)
+        assert loaded_libs() == (file,)
+    with pytest.raises(InputError, match="push exists already"):
+        load_libs(files)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -271,7 +283,7 @@ def test_compiled_solid_is_found_again_by_the_next_process(tmp_path):
     """What the first process compiled and kept on disk, the second one reads."""
     (tmp_path / "rubber.py").write_text(FUNG)
     text = (
-        "import sys, pathlib; from foamprb.settings.libs import load_libs; "
+        "import sys, pathlib; from foamprb.settings.libs import load_libs, loaded_libs; "
         "from foamprb.compile.link import link; "
         "from foamprb.body.material import MATERIALS; load_libs([pathlib.Path(sys.argv[1])]); "
         "f = link(MATERIALS['fung'].derivatives); f(3.0, 3.0, 1.0, 1.0, 1.0, 1.0); "
