@@ -9,7 +9,7 @@ import numpy as np
 
 from foamprb.distributed.fragment import Fragment, Pairs, Team
 from foamprb.flow.base import Floats, Patch
-from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.boundary import PatchSurface, patches_of
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.faces import Faces
 from foamprb.flow.mesh.geometry import measured
@@ -48,9 +48,10 @@ def couple_parts(
         The nodes; the name of the mesh for messages.
     """
     counts = np.where([patch.type == "cyclic" for patch in patches], np.diff(patch_start), 0)
-    named = [Patch(patch.name, patch.type, patch.neighbour, patch.groups) for patch in patches]
+    named = patches_of(patches, patch_start)
     if not counts.any():
-        return Joints(tuple(named), (), np.empty((2, 0), dtype=np.int64))
+        alone = tuple(patch._replace(neighbour="") for patch in named)
+        return Joints(alone, (), np.empty((2, 0), dtype=np.int64))
     numbers = n_internal + ragged(patch_start[:-1], counts)
     faces, points = _gathered(owned, numbers, team)
     joined, coupled = couple(named, starts(counts), *measured(points, faces), patches, source)

@@ -13,13 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Vector
 from foamprb.flow.nodes import Ends, Function, NodeValues
+from foamprb.flow.patches import PatchKind, kind_of_type
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
 
-WALLS = frozenset({"wall", "mappedWall"})
-"""Types of patches that are walls, including walls that another region shares."""
 NEAR = 3.0
 """Gap between body and wall, in radii of the undeformed ball, beyond which the wall is ignored."""
 
@@ -33,6 +32,14 @@ class Patch(NamedTuple):
     """Patch on which a particle continues, if the two are coupled."""
     groups: frozenset[str] = frozenset()
     """Groups of the case to which it belongs."""
+    faceless: bool = False
+
+    @property
+    def kind(self) -> PatchKind:
+        """Return the kind of the patch."""
+        if self.faceless:
+            return PatchKind.FACELESS
+        return PatchKind.PASSABLE if self.neighbour else kind_of_type(self.type)
 
 
 def patches_named(patches: Sequence[Patch], word: str) -> list[int]:

@@ -17,7 +17,6 @@ the middle of a face times the area, which exceeds the integral by the curvature
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -27,14 +26,13 @@ from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.balance import BALANCED, CONSTANT, Balance, Mass
-from foamprb.flow.base import WALLS, Floats, Ints
+from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.lists import Mask, share
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.patches import PatchKind
 
-_CLOSED = frozenset({"empty", "symmetry", "symmetryPlane"})
-"""Types of patches, beside walls, through which nothing flows."""
 _LEAST_ALONG = 0.02
 """Least cosine between a face's normal and the line of the cell centres that counts in its weight."""
 _LARGEST_CHANGE = 2.0
@@ -97,14 +95,14 @@ class Work(NamedTuple):
 def free_nodes(mesh: Mesh) -> Floats:
     """Return 0 for nodes on walls, else 1, (n_nodes,)."""
     free = np.ones(mesh.n_points + mesh.n_cells)
-    free[mesh.triangles[_types(mesh, WALLS)[mesh.triangle_face]]] = 0.0
+    free[mesh.triangles[_of_kind(mesh, PatchKind.WALL)[mesh.triangle_face]]] = 0.0
     return free
 
 
-def _types(mesh: Mesh, types: Collection[str]) -> Mask:
-    """Return True for boundary faces of patches of some types, (n_boundary,)."""
-    chosen = np.array([patch.type in types for patch in mesh.patches], dtype=bool)
-    return np.repeat(chosen, np.diff(mesh.patch_start))
+def _of_kind(mesh: Mesh, kind: PatchKind) -> Mask:
+    """Return True for boundary faces of patches of a kind, (n_boundary,)."""
+    of_patches = np.array([patch.kind is kind for patch in mesh.patches], dtype=bool)
+    return np.repeat(of_patches, np.diff(mesh.patch_start))
 
 
 class Conservation:
@@ -124,11 +122,11 @@ class Conservation:
     def __init__(self, mesh: Mesh, valued: Mask | None = None, comm: MeshCommunicator = SINGLE_NODE) -> None:
         self._comm = comm
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
-        self._closed = _types(mesh, _CLOSED)
+        self._closed, walls = _of_kind(mesh, PatchKind.MIRROR), _of_kind(mesh, PatchKind.WALL)
         # The flux through an open face may change.
-        self._open = ~_types(mesh, _CLOSED | WALLS)
+        self._open = ~(self._closed | walls)
         if valued is not None:
-            self._open |= _types(mesh, WALLS) & ~valued
+            self._open |= walls & ~valued
         for coupling in mesh.couplings:
             self._open[coupling.faces] = False
 

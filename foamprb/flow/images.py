@@ -10,8 +10,7 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.coupling import Coupling
 from foamprb.flow.mesh.lists import Index, take_lists
 from foamprb.flow.mesh.mesh import Mesh
-
-_MIRRORS = frozenset({"symmetry", "symmetryPlane", "empty", "wedge"})
+from foamprb.flow.patches import PatchKind
 
 
 def _unchanged(values: Floats) -> Floats:
@@ -25,12 +24,11 @@ class Images:
         owner = mesh.owner[mesh.n_internal :].astype(np.intp)
         areas = mesh.boundary_areas
         normals = areas / np.maximum(np.linalg.norm(areas, axis=1), 1e-300)[:, None]
-        coupled = {coupling.patch for coupling in mesh.couplings}
         faces, cells, places, turns = [], [], [], []
         self._planes, self._seams = [], []
         for index, patch in enumerate(mesh.patches):
             own = np.arange(mesh.patch_start[index], mesh.patch_start[index + 1])
-            if patch.type not in _MIRRORS or index in coupled or len(own) == 0:
+            if patch.kind is not PatchKind.MIRROR or len(own) == 0:
                 continue
             n = normals[own]
             away = np.einsum("fi,fi->f", mesh.boundary_centres[own] - mesh.centres[owner[own]], n)

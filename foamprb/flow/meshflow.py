@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.base import WALLS, Caveat, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.base import Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, no_mesh
@@ -23,6 +23,7 @@ from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.nodes import Ends, Function, NodeValues, ends_over, stride_over
+from foamprb.flow.patches import PatchKind
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.flow.traits import of_pairs, of_rows
@@ -57,15 +58,15 @@ LONG: tuple[Callable[..., Any], ...] = (
 """Long kernels that few steps need; they are compiled separately, as inlining them would swell the loop."""
 
 
-_NO_END = frozenset({"empty", "wedge", "symmetry", "symmetryPlane"})
-"""Types of patches beyond which the flow continues, as it does beyond coupled ones."""
+_NO_END = frozenset({PatchKind.MIRROR, PatchKind.PASSABLE})
+"""Kinds of patches beyond which the flow continues."""
 _FACING = 0.01
 """Fraction of the boundary area that must face along an axis for the flow to end there."""
 
 
 def end_triangles(mesh: Mesh) -> NDArray[np.intp]:
     """Return the boundary triangles at which the flow ends: walls and openings."""
-    ends = [not (patch.neighbour or patch.type in _NO_END) for patch in mesh.patches]
+    ends = [patch.kind not in _NO_END for patch in mesh.patches]
     return np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
 
 
@@ -277,7 +278,7 @@ class MeshFlow:
         these are the walls. Patches that are ``seen`` are found as planes up to a distance of ``sight`` (m).
         """
         if touchable is None:
-            touchable = [index for index, patch in enumerate(self.patches) if patch.type in WALLS]
+            touchable = [k for k, patch in enumerate(self.patches) if patch.kind is PatchKind.WALL]
         touched = tuple(touchable) if reach > 0.0 else ()
         known = tuple(seen) if sight > 0.0 else ()
         if not (touched or known):

@@ -21,7 +21,7 @@ from functools import cached_property
 import numpy as np
 
 from foamprb.compile.link import link
-from foamprb.flow.base import WALLS, Floats, Ints
+from foamprb.flow.base import Floats, Ints
 from foamprb.flow.gradient import (
     PAIR_OF,
     PAIRS,
@@ -34,21 +34,8 @@ from foamprb.flow.images import Images, points_of_faces
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.patches import VALUELESS, PatchKind
 
-VALUELESS = frozenset(
-    {
-        "symmetry",
-        "symmetryPlane",
-        "wedge",
-        "empty",
-        "cyclic",
-        "cyclicAMI",
-        "cyclicACMI",
-        "cyclicSlip",
-        "processor",
-    }
-)
-"""Types of patches whose boundary values add nothing to the values of the cells."""
 _MOST_PASSES = 5
 _CHANGE = 1e-3
 """Change of the gradients in a pass, over the gradients, after which no other one follows; norms."""
@@ -62,7 +49,8 @@ class Reconstruction:
     mesh
         The mesh.
     valued
-        (n_boundary,) mask of boundary faces with a value; by default all except :data:`VALUELESS` patches.
+        (n_boundary,) mask of boundary faces with a value; by default all except of
+        :data:`~foamprb.flow.patches.VALUELESS` types.
     comm
         The nodes that hold the mesh.
     """
@@ -72,7 +60,7 @@ class Reconstruction:
         patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
         if valued is None:
             valued = np.array([p.type not in VALUELESS for p in mesh.patches], dtype=bool)[patch_of_face]
-        walls = np.array([p.type in WALLS for p in mesh.patches], dtype=bool)[patch_of_face] & valued
+        walls = np.array([p.kind is PatchKind.WALL for p in mesh.patches], dtype=bool)[patch_of_face] & valued
         self.mesh = mesh
         self._valued, self._walls = np.flatnonzero(valued), np.flatnonzero(walls)
         self._open = ~walls[self._valued]

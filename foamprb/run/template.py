@@ -17,8 +17,9 @@ from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.dictionary.constraints import Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
-from foamprb.flow.base import WALLS, Caveat, Patch
+from foamprb.flow.base import Caveat, Patch
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.case import available_times, is_only_decomposed
 from foamprb.flow.read.caveats import is_steady, turbulence_fields
 from foamprb.flow.read.flows import check_region, read_flow
@@ -41,7 +42,6 @@ from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.help import meaning, plain
-from foamprb.settings.patches import needs_entry
 from foamprb.settings.solution import STRIDE
 
 __all__ = ["FlowScales", "scales_of", "template", "write_template"]
@@ -263,7 +263,7 @@ def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
     """Return the patch through which most fluid enters, and the inflow through all patches, m³/s."""
     rates = {}
     for patch in flow.patches:
-        if not needs_entry(patch) or patch.type in WALLS or patch.type.startswith("cyclic"):
+        if patch.kind is not PatchKind.OPENING:
             continue
         try:
             faces = flow.patch_faces(patch.name, 0.0)
@@ -560,18 +560,18 @@ def _interaction(patches: Sequence[Patch]) -> list[str]:
 def _patches(patches: Sequence[Patch]) -> list[str]:
     """Return the rules of patches."""
     choice = "or rebound, escape"
-    lines, walls = [], [patch for patch in patches if patch.type in WALLS]
-    named = [patch for patch in patches if needs_entry(patch) and patch not in walls]
+    lines, walls = [], [patch for patch in patches if patch.kind is PatchKind.WALL]
+    named = [patch for patch in patches if patch.kind in (PatchKind.OPENING, PatchKind.COUPLED)]
     for patch in named:
         start, why = "", "" if patch.type == "patch" else f" // {patch.type}"
-        if patch.type.startswith("cyclic"):
+        if patch.kind is PatchKind.COUPLED:
             start, why = "// ", f" // particles cannot pass a {patch.type}"
         lines.append(f"{start}{_word(patch.name):20s}{{ type escape; }}{why}")
     if len(walls) > 6:
         lines.append(f"{'wall':20s}{{ type stick; }} // all {len(walls)} walls; {choice}")
     else:
         lines += [f"{_word(patch.name):20s}{{ type stick; }} // wall; {choice}" for patch in walls]
-    others = [f"{patch.name} ({patch.type})" for patch in patches if not needs_entry(patch)]
+    others = [f"{patch.name} ({patch.type})" for patch in patches if patch not in (*walls, *named)]
     if others:
         more = ", …" if len(others) > 4 else ""
         lines.append(f"// without entry: {', '.join(others[:4])}{more}")

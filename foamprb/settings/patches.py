@@ -18,7 +18,8 @@ from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import read_entries, read_entry, read_model
 from foamprb.dictionary.tree import Dictionary, DictionaryList, unquoted
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.base import WALLS, Flow, Patch
+from foamprb.flow.base import Flow, Patch
+from foamprb.flow.patches import PatchKind
 
 __all__ = [
     "INTERACTION_MODELS",
@@ -28,7 +29,6 @@ __all__ = [
     "Touching",
     "applies",
     "match_patches",
-    "needs_entry",
     "patch_interactions",
     "patch_rule",
     "read_patch_interaction",
@@ -99,7 +99,7 @@ class LocalInteraction:
         DictionaryList,
         Meaning(
             "`( pattern { type …; } … )`: a name, a group (`wall`) or a quoted regular expression; the first "
-            "match counts. Symmetry planes, wedges and empty patches need no entry"
+            "match counts. Symmetry planes, wedges, empty patches and patches without faces need no entry"
         ),
     ]
 
@@ -134,7 +134,7 @@ class StandardWallInteraction:
     type: Annotated[
         str,
         Choice(INTERACTIONS),
-        Meaning("with the entries of that type, for every patch of type `wall`"),
+        Meaning("with the entries of that type, for every wall"),
     ]
 
 
@@ -180,11 +180,6 @@ INTERACTION_MODELS: dict[str, Callable[[Dictionary], tuple[Rule, ...]]] = {
 
 # ---------------------------------------------------------------------------------------------------------
 # Rules and patches
-
-
-_MIRRORS = frozenset({"empty", "symmetry", "symmetryPlane", "wedge"})
-_FACELESS = "nonConformal"
-_COUPLED = ("cyclic", "processor")
 
 
 def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | str) -> list[Interaction]:
@@ -249,25 +244,19 @@ def patch_interactions(
     return match_patches([KindRule("wall", wall), KindRule("open", other)], flow.patches, "interactions")
 
 
-def needs_entry(patch: Patch) -> bool:
-    """Return whether a patch needs an entry in the settings, because its type implies no interaction."""
-    if patch.type in _MIRRORS or patch.type.startswith(_FACELESS):
-        return False
-    return not (patch.neighbour and patch.type in ("cyclic", "cyclicAMI"))
-
-
 def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
+    kind = patch.kind
     for rule in rules:
         is_named = rule == PatchRule(patch.name, rule.interaction)
-        if is_named or (applies(rule, patch) and not _continues(patch)):
+        if is_named or (applies(rule, patch) and kind is not PatchKind.PASSABLE):
             return rule.interaction
-    if _continues(patch):
+    if kind is PatchKind.PASSABLE:
         return Cyclic()
-    if patch.type in _MIRRORS or patch.type.startswith(_FACELESS):
+    if kind in (PatchKind.MIRROR, PatchKind.FACELESS):
         return Mirror()
     if patch.type == "cyclic":
         raise InputError(f"{where}: the cyclic patch '{patch.name}' has no neighbourPatch.")
-    if patch.type.startswith(_COUPLED):
+    if kind is PatchKind.COUPLED:
         raise InputError(
             f"{file}: particles cannot pass through '{patch.name}', a patch of type {patch.type}. They "
             "only pass cyclic and cyclicAMI patches that coincide with their neighbours. "
@@ -276,17 +265,13 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
 
 
-def _continues(patch: Patch) -> bool:
-    """Return whether particles continue at the neighbour of a patch."""
-    return bool(patch.neighbour) and patch.type in ("cyclic", "cyclicAMI", "wedge")
-
-
 def applies(rule: Rule, patch: Patch) -> bool:
-    """Return whether a rule matches a patch."""
-    group = "wall" if patch.type in WALLS else patch.type
-    constrained = group in _MIRRORS or group.startswith(_COUPLED)
+    """Return whether a rule matches a patch; ``.*`` does not name a coupled one."""
+    kind = patch.kind
+    plain = kind in (PatchKind.WALL, PatchKind.OPENING)
     if isinstance(rule, KindRule):
-        kind = "wall" if group == "wall" else "constrained" if constrained else "open"
-        return rule.kind in (kind, "any")
-    groups = {*patch.groups, group} if group == "wall" or constrained else patch.groups
-    return any(map(rule.matches, (patch.name, *groups)))
+        return rule.kind in ("any", "wall" if kind is PatchKind.WALL else "open" if plain else "constrained")
+    if kind is PatchKind.COUPLED and rule.matches(""):
+        return False
+    group = {"wall"} if kind is PatchKind.WALL else set() if plain else {patch.type}
+    return any(map(rule.matches, (patch.name, *patch.groups, *group)))

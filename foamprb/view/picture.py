@@ -17,7 +17,7 @@ from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkLight, vtk
 
 from foamprb import optional
 from foamprb.errors import InputError
-from foamprb.flow.base import WALLS
+from foamprb.flow.patches import PatchKind, kind_of_type
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
@@ -390,7 +390,7 @@ def draw_geometry(plotter: Any, geometry: Geometry, style: Style) -> None:
             continue
         mesh = pyvista.PolyData.from_regular_faces(surface.points, surface.triangles)
         more = {"smooth_shading": True} | _LATER
-        if surface.type in WALLS:
+        if kind_of_type(surface.type) is PatchKind.WALL:
             more["color"] = style.glass
             plotter.add_mesh(mesh, culling="back", opacity=0.1, ambient=0.6, diffuse=0.4, **more)
             plotter.add_mesh(mesh, culling="front", ambient=0.8, diffuse=0.22, specular=0.0, **more)

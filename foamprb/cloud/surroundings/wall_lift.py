@@ -85,7 +85,8 @@ from foamprb.compile.link import link, read_by
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.analytic import walls_free as walls
-from foamprb.flow.base import WALLS, Floats, Flow, Ints, Patch
+from foamprb.flow.base import Floats, Flow, Ints, Patch
+from foamprb.flow.patches import PatchKind
 
 __all__ = ["CLOSE", "WallLift"]
 
@@ -535,7 +536,7 @@ class WallLift(Surrounding):
     def chosen(self, patches: Sequence[Patch]) -> NDArray[np.int8]:
         """Return 1 for each patch that counts, else 0."""
         if self.patches is None:
-            return np.array([patch.type in WALLS for patch in patches], dtype=np.int8)
+            return np.array([patch.kind is PatchKind.WALL for patch in patches], dtype=np.int8)
         named = [any(re.fullmatch(p, patch.name) for p in self.patches) for patch in patches]
         return np.array(named, dtype=np.int8)
 

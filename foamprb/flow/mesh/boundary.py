@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints
+from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.faces import Faces
 from foamprb.flow.mesh.lists import Index, Labels, Mask, cell_array, points_of, starts, take_lists
 
@@ -55,6 +55,12 @@ class PolyMesh(NamedTuple):
     patches: Sequence[PatchSurface]
     patch_start: Index
     """(n_patches + 1,): boundary faces of patch p are ``patch_start[p]`` to ``patch_start[p + 1]``."""
+
+
+def patches_of(surfaces: Sequence[PatchSurface], patch_start: Index) -> list[Patch]:
+    """Return the patches of a mesh, before they are coupled."""
+    faceless = (np.diff(patch_start) == 0).tolist()
+    return [Patch(s.name, s.type, s.neighbour, s.groups, f) for s, f in zip(surfaces, faceless, strict=True)]
 
 
 def sort_boundary(faces: Faces, order: Index) -> None:

@@ -89,12 +89,12 @@ def couple(
     InputError
         A cyclic patch names no neighbour, or the two do not match.
     """
-    named = list(patches)
+    named = [patch._replace(neighbour="") for patch in patches]
     names = [patch.name for patch in patches]
     faces = [np.arange(*patch_start[i : i + 2]) for i in range(len(patches))]
     found: list[Coupling] = []
     for i, patch in enumerate(patches):
-        if patch.type not in ("cyclic", "cyclicAMI") or not patch.neighbour:
+        if patch.type not in ("cyclic", "cyclicAMI") or not patch.neighbour or patch.faceless:
             continue
         if patch.neighbour not in names:
             raise InputError(
@@ -108,10 +108,7 @@ def couple(
                 f"of type {patches[j].type} with the neighbour {patches[j].neighbour or '(none)'}."
             )
         if i < j and patch.type == "cyclicAMI":
-            pair = _interface((i, j), (faces[i], faces[j]), centres, areas, surfaces)
-            found += pair
-            if not pair:
-                named[i], named[j] = patch._replace(neighbour=""), patches[j]._replace(neighbour="")
+            found += _interface((i, j), (faces[i], faces[j]), centres, areas, surfaces)
         elif i < j:
             coupling = _cyclic(i, j, faces[i], faces[j], centres, areas)
             if coupling is None:
@@ -127,10 +124,10 @@ def couple(
             coupling = _wedge(i, j, faces[i], faces[j], centres, areas)
             if coupling is not None:
                 found += [coupling, coupling.reverse()]
-                named[i] = patches[i]._replace(neighbour=names[j])
-                named[j] = patches[j]._replace(neighbour=names[i])
                 wedges.remove(j)
                 break
+    for coupling in found:
+        named[coupling.patch] = patches[coupling.patch]._replace(neighbour=names[coupling.other])
     areas_of = np.linalg.norm(areas, axis=1)
     sized = [c._replace(size=float(np.sqrt(areas_of[c.faces].min(initial=np.inf)))) for c in found]
     return tuple(named), tuple(sized)

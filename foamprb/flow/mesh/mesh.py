@@ -18,7 +18,7 @@ from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.baffles import part_points
-from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, with_surface
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, patches_of, with_surface
 from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.faces import OPEN, TWISTED, Faces, Fans, Numbering, number_tetrahedra, split_cells
@@ -184,7 +184,7 @@ def _assemble(
         for patch, first, end in zip(surfaces, patch_start[:-1], patch_start[1:], strict=True)
     ]
     patches, couplings = coupled(
-        [Patch(patch.name, patch.type, patch.neighbour, patch.groups) for patch in surfaces],
+        patches_of(surfaces, patch_start),
         *(patch_start, boundary_centres, boundary_areas, surfaces, source),
     )
     _, centres, volumes = cell_geometry(faces, face_centres, face_areas)

@@ -18,44 +18,9 @@ from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh.boundary import PatchSurface, Transform
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.patches import CONSTRAINTS, KINDS
 from foamprb.flow.read.foamfile import FoamFile
 
-CONSTRAINTS = frozenset(
-    {
-        "cyclic",
-        "cyclicACMI",
-        "cyclicAMI",
-        "cyclicPeriodicAMI",
-        "cyclicRepeatAMI",
-        "cyclicSlip",
-        "empty",
-        "nonConformalCyclic",
-        "nonConformalProcessorCyclic",
-        "nonuniformTransformCyclic",
-        "overset",
-        "processor",
-        "processorCyclic",
-        "symmetry",
-        "symmetryPlane",
-        "wedge",
-    }
-)
-"""Types of patches on which every field has the same type as the patch."""
-TYPES = CONSTRAINTS | {
-    "internal",
-    "mapped",
-    "mappedExtrudedWall",
-    "mappedInternal",
-    "mappedPatch",
-    "mappedVariableThicknessWall",
-    "mappedWall",
-    "nonConformalError",
-    "patch",
-    "regionCoupledAMI",
-    "regionCoupledWall",
-    "wall",
-}
-"""Types of patches of OpenFOAM, which treats any other type as a plain ``patch``."""
 _SIMILAR = 0.84
 
 
@@ -137,8 +102,8 @@ def _patches(path: Path, case: Path, file: FoamFile | None) -> tuple[PatchInfo, 
         name = unquoted(dictionary.key)
         if _NO_WORD.search(name) or name in (".", ".."):
             raise dictionary.mistake("is no name for a patch: a word without blanks, / ; { } and quotes is.")
-        if read.type not in TYPES and get_close_matches(read.type.lower(), TYPES, n=1, cutoff=_SIMILAR):
-            raise dictionary.at("type").mistake(f"is '{read.type}'. {suggestion(read.type, TYPES)}")
+        if read.type not in KINDS and get_close_matches(read.type.lower(), KINDS, n=1, cutoff=_SIMILAR):
+            raise dictionary.at("type").mistake(f"is '{read.type}'. {suggestion(read.type, KINDS)}")
         if any(name == patch.name for patch in patches):
             raise dictionary.mistake("occurs twice.")
         if patches and read.startFace != patches[-1].start + patches[-1].faces:

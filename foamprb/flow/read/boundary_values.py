@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -16,10 +17,12 @@ from foamprb.dictionary.dimensions import RATE, VELOCITY, VOLUME_FLUX, Dimension
 from foamprb.dictionary.values import factor_of, unit_of
 from foamprb.errors import InputError, closest, suggestion
 from foamprb.flow.base import Floats
+from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo
+from foamprb.flow.patches import CONSTRAINTS, VALUELESS, WALL_CONDITIONS, ZERO_CONDITIONS, PatchKind
+from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.field import FoamField, PatchField
-from foamprb.flow.reconstruct import VALUELESS
+from foamprb.flow.read.times import listed
 
 
 class PatchGeometry(NamedTuple):
@@ -37,6 +40,7 @@ class PatchGeometry(NamedTuple):
     """(n, 1), distances of the cell centres behind them along the normals, m."""
 
 
+_MAY_BE_WALLS = PatchKind.OPENING, PatchKind.COUPLED
 FLOW_RATE = "flowRateInletVelocity"
 """Condition whose values depend on the area of the whole patch."""
 AREA = "(area)"
@@ -44,6 +48,23 @@ AREA = "(area)"
 _LENGTH: Dimensions = (0, 1, 0, 0, 0, 0, 0)
 Rule = Callable[[PatchField, PatchGeometry], Floats | None]
 """Returns the values (n, 3), m/s, of a boundary condition; None if it lacks an entry."""
+
+
+def with_walls(whole: CaseMesh, field: FoamField, comm: MeshCommunicator = SINGLE_NODE) -> CaseMesh:
+    """Return the mesh with the patches as walls that are none by their type, but by the velocity on them."""
+    patches, names = list(whole.mesh.patches), []
+    for index, patch in enumerate(whole.patches[: len(patches)]):
+        entry = field.of(patch)
+        if entry is None or patch.type in CONSTRAINTS or patches[index].kind not in _MAY_BE_WALLS:
+            continue
+        values = entry.fields.get("value") if entry.type in ZERO_CONDITIONS else None
+        if entry.type in WALL_CONDITIONS or (values is not None and not comm.any(bool(values.any()))):
+            patches[index] = patches[index]._replace(type="wall", groups=patch.groups | {"wall"})
+            names.append(f"{patch.name} ({patch.type}, {entry.type})")
+    if not names:
+        return whole
+    note = f"Walls by the velocity on them, not by their type: {listed(names)}."
+    return whole._replace(mesh=replace(whole.mesh, patches=tuple(patches)), notes=(*whole.notes, note))
 
 
 def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, cells: Floats) -> Floats:

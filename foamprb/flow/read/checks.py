@@ -10,7 +10,8 @@ import numpy as np
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.read.boundary import TYPES, PatchInfo
+from foamprb.flow.patches import KINDS
+from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.field import FoamField
 
 LARGEST = 1e30
@@ -58,10 +59,15 @@ def require_volumes(mesh: Mesh, source: Path) -> None:
 
 
 def require_patch_shapes(mesh: Mesh, source: Path) -> None:
-    """Raise InputError for curved symmetry planes and wedges, and for ``empty`` patches of a 3-D mesh."""
+    """Raise InputError for overset, curved symmetry planes and wedges, and ``empty`` patches in 3-D."""
     normals, doubt = _normals(mesh)
     faces = [slice(*mesh.patch_start[i : i + 2]) for i in range(len(mesh.patches))]
     for patch, part in zip(mesh.patches, faces, strict=True):
+        if patch.type == "overset" and not patch.faceless:
+            raise InputError(
+                f"{source}: patch {patch.name} is of type overset: the meshes of several parts overlap, and "
+                "particles cannot go from one to another. Allowed: the flow on one mesh, as by mapFields."
+            )
         if patch.type in _PLANAR and part.stop > part.start:
             turned = np.linalg.norm(normals[part] - normals[part][0], axis=1)
             if np.any(turned > doubt[part] + doubt[part][0]):
@@ -103,7 +109,7 @@ def notes_of_types(patches: Sequence[PatchInfo]) -> list[str]:
     notes = [
         f"Patch {patch.name} is of type {patch.type}, which is taken for a plain patch, as by OpenFOAM."
         for patch in patches
-        if patch.type not in TYPES
+        if patch.type not in KINDS
     ]
     return notes + [
         f"Patch {patch.name} couples patch {patch.entries['originalPatch']}, which needs no interaction."

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.base import WALLS, Floats
+from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import require_cells
+from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.rotating import RotatingZone
 
@@ -86,7 +87,8 @@ def with_rotating_walls(
     patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
     for rotation, zone in zip(rotations, zones, strict=True):
         turning = [
-            patch.type in WALLS and not any(re.fullmatch(word, patch.name) for word in rotation.still)
+            patch.kind is PatchKind.WALL
+            and not any(re.fullmatch(word, patch.name) for word in rotation.still)
             for patch in mesh.patches
         ]
         inside = np.zeros(mesh.n_cells, dtype=bool)

@@ -21,7 +21,7 @@ from foamprb.flow.mesh.communicator import SINGLE_NODE
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
-from foamprb.flow.read.boundary_values import boundary_values
+from foamprb.flow.read.boundary_values import boundary_values, with_walls
 from foamprb.flow.read.case import (
     available_times,
     cell_zones,
@@ -226,6 +226,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     rotations = read_rotations(case.root, case.region) if source.relative else ()
     field = case.field(name, source.velocity, VELOCITY_FIELD)
     whole = case.mesh(name)
+    whole = with_walls(whole, field, case.comm)
     cells, boundary = velocities(field, whole)
     flux = caveat_of_flux(whole, cells, boundary, partial(case.field, name), source.velocity, case.comm)
     rotating: list[RotatingZone] = []
@@ -278,8 +279,10 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     for name in names[1:]:
         _refuse_moving(case, name)
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
+    field = case.field(names[0], source.velocity, VELOCITY_FIELD)
     whole = case.mesh(names[0])
-    first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
+    whole = with_walls(whole, field, case.comm)
+    first = velocities(field, whole)
     flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity, case.comm)
     reconstruct = Reconstruction(whole.mesh, comm=case.comm)
     conserve = Conservation(whole.mesh, comm=case.comm)

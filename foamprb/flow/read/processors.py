@@ -19,7 +19,8 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
-from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo, read_boundary
+from foamprb.flow.patches import CONSTRAINTS
+from foamprb.flow.read.boundary import PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
 from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.field import FoamField, PatchField

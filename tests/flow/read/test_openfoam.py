@@ -18,12 +18,13 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 from foamprb.flow.mesh.boundary import Transform
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.boundary import read_boundary
 from foamprb.flow.read.case import available_times
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.meshfile import read_mesh_file
 from foamprb.flow.read.openfoam import Case, read_case
-from foamprb.settings.patches import KindRule, match_patches, needs_entry
+from foamprb.settings.patches import KindRule, match_patches
 
 POLY = "constant/polyMesh/"
 
@@ -583,7 +584,8 @@ def test_a_couple_without_faces_couples_the_patches_that_have_them(tmp_path):
     assert all(patch.groups == {"some"} for patch in flow.patches[:2])
     assert flow.mesh.couplings[0].shift == pytest.approx([0.0, 0.0, 1.0])
     assert "Patch on_floor couples patch floor, which needs no interaction." in flow.notes
-    assert [needs_entry(patch) for patch in flow.patches] == [False, False, True, False, False]
+    kinds = [PatchKind.PASSABLE] * 2 + [PatchKind.WALL] + [PatchKind.FACELESS] * 2
+    assert [patch.kind for patch in flow.patches] == kinds
 
 
 def test_a_couple_without_faces_that_does_not_fit_is_left_to_the_settings(tmp_path):
