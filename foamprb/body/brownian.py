@@ -45,10 +45,10 @@ def deviates(particle: Word, step: Word, key: tuple[Word, Word]) -> tuple[Vector
         Two numbers below 2³²: the seed and the purpose of the deviates.
     """
     low, high = particle & _LOW, particle >> _HALF
-    n, rest = step & _LOW, (step >> _HALF) << _TWO
-    a = normals(philox((low, high, n, rest | _FIRST), key))
-    b = normals(philox((low, high, n, rest | _SECOND), key))
-    c = normals(philox((low, high, n, rest | _THIRD), key))
+    low_step, high_step = step & _LOW, (step >> _HALF) << _TWO
+    a = normals(philox((low, high, low_step, high_step | _FIRST), key))
+    b = normals(philox((low, high, low_step, high_step | _SECOND), key))
+    c = normals(philox((low, high, low_step, high_step | _THIRD), key))
     return (a[0], a[1], a[2]), (a[3], b[0], b[1], b[2], b[3], c[0], c[1], c[2], c[3])
 
 
@@ -88,7 +88,7 @@ def shape_resistance(semi_axes: Vector, g: Integrals, eta: Scalar) -> ShapeResis
     the solid over that of the fluid.
     """
     a, b, c = semi_axes
-    own = 2.0 - 2.0 * eta
+    viscous = 2.0 - 2.0 * eta
     alpha, beta, gamma = g.alpha
     x, y, z = a * a, b * b, c * c
     s = g.star
@@ -97,11 +97,11 @@ def shape_resistance(semi_axes: Vector, g: Integrals, eta: Scalar) -> ShapeResis
     p, q, r = reciprocals((y * beta + z * gamma, z * gamma + x * alpha, x * alpha + y * beta))
     p, q, r = 2.0 * k * p, 2.0 * k * q, 2.0 * k * r
     return ShapeResistance(
-        (n * s[0] - own, n * s[1] - own, n * s[2] - own),
+        (n * s[0] - viscous, n * s[1] - viscous, n * s[2] - viscous),
         (
-            p * (beta + gamma) / g.ring[0] - own,
-            q * (gamma + alpha) / g.ring[1] - own,
-            r * (alpha + beta) / g.ring[2] - own,
+            p * (beta + gamma) / g.ring[0] - viscous,
+            q * (gamma + alpha) / g.ring[1] - viscous,
+            r * (alpha + beta) / g.ring[2] - viscous,
         ),
         (p * (y - z), q * (x - z), r * (x - y)),
         (p * (y + z), q * (x + z), r * (x + y)),

@@ -85,10 +85,10 @@ def is_stable(
     J = x * y * z
     ratio = eta / mu_f
     f, h = dt * c * J * mu_f, 0.5 * dt * dt * c
-    own = scale(f, traction_slopes(stretches, g, ratio))
+    traction = scale(f, traction_slopes(stretches, g, ratio))
     u, v, w = tau
     elastic = scale(h, subtract(e.slopes, (u, u, u, v, v, v, w, w, w)))
-    normal = _is_stable(add_identity(scale_columns(add(own, elastic), (rx, ry, rz)), 2.0))
+    normal = _is_stable(add_identity(scale_columns(add(traction, elastic), (rx, ry, rz)), 2.0))
     (e1, e2, e3), (s23, s13, s12) = e.squares, e.shear
     p, q, r = shears(stretches, g, ratio)
     return (

@@ -123,16 +123,16 @@ def slope(n: Relaxation, Omega: Tensor, g: Tensor, l_s: Tensor, change: Tensor, 
 
 
 def second_order(
-    n: Relaxation, whole: Response, h: Scalar, l_s: Tensor, change: Tensor, slope: Tensor
+    n: Relaxation, full: Response, h: Scalar, l_s: Tensor, change: Tensor, slope: Tensor
 ) -> tuple[Tensor, Tensor, Tensor]:
     """Return Ω of order 2 at the end of the step, and the contributions of the fluid's gradient and of N'."""
-    fluid, own = respond_to_slope(n, whole, h, change), respond_to_slope(n, whole, h, slope)
-    return add(respond_to_constant(n, whole, h, l_s), add(fluid, own)), fluid, own
+    by_fluid, by_slope = respond_to_slope(n, full, h, change), respond_to_slope(n, full, h, slope)
+    return add(respond_to_constant(n, full, h, l_s), add(by_fluid, by_slope)), by_fluid, by_slope
 
 
 def last_argument(
     n: Relaxation,
-    whole: Response,
+    full: Response,
     h: Scalar,
     l_s: Tensor,
     change: Tensor,
@@ -141,14 +141,14 @@ def last_argument(
     turning: Tensor,
 ) -> Tensor:
     """Return Ω at the end of the step, for the last evaluation of g."""
-    known = add_scaled(scale(OVERSHOOT, slope), (1.0 - OVERSHOOT) * h, turning)
-    rate = add(subtract(change, bend), known)
-    return respond(n, whole, h, l_s, rate, scale(2.0, bend))
+    drift = add_scaled(scale(OVERSHOOT, slope), (1.0 - OVERSHOOT) * h, turning)
+    rate = add(subtract(change, bend), drift)
+    return respond(n, full, h, l_s, rate, scale(2.0, bend))
 
 
 def third_order(
     n: Relaxation,
-    whole: Response,
+    full: Response,
     h: Scalar,
     l_s: Tensor,
     change: Tensor,
@@ -159,4 +159,4 @@ def third_order(
     """Return Ω of order 3 at the end of the step, with N a parabola through its three values."""
     curve = scale(1.0 / (1.0 - NODE), subtract(last, slope))
     rate = add(subtract(change, bend), subtract(last, curve))
-    return respond(n, whole, h, l_s, rate, scale(2.0, add(bend, curve)))
+    return respond(n, full, h, l_s, rate, scale(2.0, add(bend, curve)))

@@ -195,7 +195,7 @@ def fluid_change(n: Stiffness, dl_f: Tensor) -> Tensor:
 
 def _fluid_stress(n: Stiffness, dl_f: Tensor) -> Tensor:
     """Return the change of Ȧ Fᵀ by a change of l_f, 1/s²."""
-    T, k = _traction_response(n, dl_f), n.weight * n.own
+    T, k = _traction_response(n, dl_f), n.weight * n.deficit
     third = (1.0 / 3.0) * trace(dl_f)
     twice, dilation = 2.0 * k, (2.0 * k + 4.0 * n.weight) * third
     p, q, r = k * (dl_f[5] + dl_f[7]), k * (dl_f[2] + dl_f[6]), k * (dl_f[1] + dl_f[3])
@@ -217,10 +217,10 @@ def turning_acceleration(
     ``n`` is the stiffness of the shape with the stretches λ_a, ``c`` is 5/(ρ_s R²), m/kg, ``rate`` dl_s/dt,
     1/s², ``tau`` the Kirchhoff stress, Pa.
     """
-    W, own = shape_spin(stretches, l_s), skew(l_s)
-    stress = scale(-c, turned(subtract(own, W), tau))
+    W, spin = shape_spin(stretches, l_s), skew(l_s)
+    stress = scale(-c, turned(subtract(spin, W), tau))
     traction = add(_traction_response(n, turned(W, l_s)), _fluid_stress(n, turned(W, l_f)))
-    stress = add(stress, subtract(elastic_response_to_spin(n, own), traction))
+    stress = add(stress, subtract(elastic_response_to_spin(n, spin), traction))
     return add(turned(W, rate), over_b(n.b, stress))
 
 
@@ -252,7 +252,7 @@ def slope(n: Stiffness, v: Pair, at: Pair, rate: Pair, change: Tensor, per_step:
 
 def second_order(
     n: Stiffness,
-    whole: Resolvent,
+    full: Resolvent,
     h: Scalar,
     rate: Pair,
     change: Tensor,
@@ -263,15 +263,15 @@ def second_order(
 
     ½ h times the second result is about the contribution of these shares to the first (:func:`resolve`).
     """
-    two = respond_to_line(n, whole, h, rate, (slope[0], add(slope[1], change)))
+    two = respond_to_line(n, full, h, rate, (slope[0], add(slope[1], change)))
     p, q = shares
     judged = (scale(p, slope[0]), add(scale(p, slope[1]), scale(q, change)))
-    return two, resolve(n, whole, judged)
+    return two, resolve(n, full, judged)
 
 
 def last_argument(
     n: Stiffness,
-    whole: Resolvent,
+    full: Resolvent,
     h: Scalar,
     rate: Pair,
     change: Tensor,
@@ -280,13 +280,13 @@ def last_argument(
     turning: Tensor,
 ) -> Pair:
     """Return Ω and change of l_s at the end of the step, for the last evaluation."""
-    known = add(subtract(change, bend), scale((1.0 - OVERSHOOT) * h, turning))
-    return respond(n, whole, h, rate, combine(OVERSHOOT, slope, 1.0, (ZERO, known)), (ZERO, scale(2.0, bend)))
+    drift = add(subtract(change, bend), scale((1.0 - OVERSHOOT) * h, turning))
+    return respond(n, full, h, rate, combine(OVERSHOOT, slope, 1.0, (ZERO, drift)), (ZERO, scale(2.0, bend)))
 
 
 def third_order(
     n: Stiffness,
-    whole: Resolvent,
+    full: Resolvent,
     h: Scalar,
     rate: Pair,
     change: Tensor,
@@ -298,4 +298,4 @@ def third_order(
     f = 1.0 / (1.0 - NODE)
     curve = combine(f, last, -f, slope)
     linear = combine(1.0, combine(1.0, last, -1.0, curve), 1.0, (ZERO, subtract(change, bend)))
-    return respond(n, whole, h, rate, linear, combine(2.0, curve, 2.0, (ZERO, bend)))
+    return respond(n, full, h, rate, linear, combine(2.0, curve, 2.0, (ZERO, bend)))

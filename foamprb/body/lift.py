@@ -89,11 +89,11 @@ def lifted_slip(
     ))  # fmt: skip
     turn = dot(mobility, (0.0 * x, -z, y, z, 0.0 * x, -x, -y, x, 0.0 * x))
     size = norm(omega)
-    found = w
+    slip = w
     for _ in range(_REPEATS):
-        L = lift_coefficient(norm(found), size, R, rho, mu)
-        found = dot_vector(inverse(add_identity(scale(-L, turn), 1.0)), w)
-    return found
+        L = lift_coefficient(norm(slip), size, R, rho, mu)
+        slip = dot_vector(inverse(add_identity(scale(-L, turn), 1.0)), w)
+    return slip
 
 
 _CHANNEL = (

@@ -268,15 +268,15 @@ def _check_material(name: str, material: Material) -> None:
         raise ValueError(f"solid {name}: its shear modulus at rest is {2.0 * (w1 + w2):.9g} mu, not mu")
     h = 1e-5
     for at in ((3.0, 3.0, 1.0), (3.3, 3.2, 1.02), (4.0, 4.5, 0.97)):
-        found = material.derivatives(*at, mu, lame, k)
+        derivatives = material.derivatives(*at, mu, lame, k)
         for i in range(3):
             ends = [[x + s * h * (j == i) for j, x in enumerate(at)] for s in (1, -1)]
             up, down = (material.energy(I1, I2, J, mu, lame, k) for I1, I2, J in ends)
             slope = (up - down) / (2.0 * h)
-            if not abs(found[i] - slope) < 1e-6 * (1.0 + abs(slope)):
+            if not abs(derivatives[i] - slope) < 1e-6 * (1.0 + abs(slope)):
                 raise ValueError(
                     f"solid {name}: at (I1, I2, J) = {at} derivative {i + 1} of its energy is {slope:.9g}, "
-                    f"not {found[i]:.9g}"
+                    f"not {derivatives[i]:.9g}"
                 )
 
 

@@ -240,8 +240,8 @@ def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:
     r = k * z * (3.0 * g.alpha[2] - total) + w
     shift = -(1.0 / 3.0) * (p + q + r) - 4.0 / 3.0
     p, q, r = p + shift, q + shift, r + shift
-    own = 2.0 / 3.0 - 2.0 / 3.0 * eta
-    u, v, w = own - u, own - v, own - w
+    deficit = 2.0 / 3.0 - 2.0 / 3.0 * eta
+    u, v, w = deficit - u, deficit - v, deficit - w
     return (
         p + 2.0 * u, q - u, r - u,
         p - v, q + 2.0 * v, r - v,
@@ -263,9 +263,9 @@ def shear_coefficients(
     """
     a2, b2 = a * a, b * b
     # d = (Y_ab + Y_ba)/2 and w_ba = (Y_ba − Y_ab)/2 in H and H° (B.8), with d and w of the fluid zero.
-    own = 1.0 - eta
-    d1, w1 = own - 0.5 * f * alpha, 0.5 * f * b2 * ring
-    d2, w2 = own - 0.5 * f * beta, -0.5 * f * a2 * ring
+    deficit = 1.0 - eta
+    d1, w1 = deficit - 0.5 * f * alpha, 0.5 * f * b2 * ring
+    d2, w2 = deficit - 0.5 * f * beta, -0.5 * f * a2 * ring
     return d1 - w1, d1 + w1, d2 - w2, d2 + w2
 
 
@@ -296,7 +296,7 @@ class Stiffness(NamedTuple):
     """c times the change of the shear stresses 23, 13 and 12, 1/s²."""
     weight: Scalar
     """c J μ_f, 1/s."""
-    own: Scalar
+    deficit: Scalar
     """1 − η_s/μ_f."""
 
 

@@ -22,7 +22,7 @@ class Mobility(NamedTuple):
     """1/(2/(abc α₀°(b² + c²)) − 1 + η_s/μ_f) and its cyclic companions, for 23, 13 and 12."""
     slip: Vector
     """(b² − c²)/(b² + c²), (a² − c²)/(a² + c²), (a² − b²)/(a² + b²)."""
-    own: Scalar
+    deficit: Scalar
     """1 − η_s/μ_f."""
 
 
@@ -38,8 +38,8 @@ def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
     # s̃_aa of unit d_cc; −2 times the first for a = c, as s̃ is traceless.
     p, q, r = f * s[0], f * s[1], f * s[2]
     # The sum of d_s,aa vanishes, so 1 may be added to every entry; this keeps the matrix regular.
-    own = 1.0 - eta
-    n = 1.0 + 2.0 * own
+    deficit = 1.0 - eta
+    n = 1.0 + 2.0 * deficit
     T = (
         n - 2.0 * p, q + 1.0, r + 1.0,
         p + 1.0, n - 2.0 * q, r + 1.0,
@@ -57,10 +57,10 @@ def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
     x, y, z = a * a, b * b, c * c
     k = 2.0 / (a * b * c)
     p1, p2, p3 = g.ring[0] * (y + z), g.ring[1] * (x + z), g.ring[2] * (x + y)
-    t = reciprocals((k - own * p1, k - own * p2, k - own * p3))
+    t = reciprocals((k - deficit * p1, k - deficit * p2, k - deficit * p3))
     u = reciprocals((y + z, x + z, x + y))
     slip = ((y - z) * u[0], (x - z) * u[1], (x - y) * u[2])
-    return Mobility(normal, (p1 * t[0], p2 * t[1], p3 * t[2]), slip, own)
+    return Mobility(normal, (p1 * t[0], p2 * t[1], p3 * t[2]), slip, deficit)
 
 
 def velocity_gradient(m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
@@ -74,20 +74,20 @@ def velocity_gradient(m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
     """
     third = (l_f[0] + l_f[4] + l_f[8]) * (1.0 / 3.0)
     x, y, z = l_f[0] - third, l_f[4] - third, l_f[8] - third
-    n = 2.0 * m.own
+    n = 2.0 * m.deficit
     d = dot_vector(m.normal, (sigma[0] - n * x, sigma[4] - n * y, sigma[8] - n * z))
-    l23, l32 = _off_diagonal(m.compliance[0], m.slip[0], m.own, sigma[5], l_f[5], l_f[7])
-    l13, l31 = _off_diagonal(m.compliance[1], m.slip[1], m.own, sigma[2], l_f[2], l_f[6])
-    l12, l21 = _off_diagonal(m.compliance[2], m.slip[2], m.own, sigma[1], l_f[1], l_f[3])
+    l23, l32 = _off_diagonal(m.compliance[0], m.slip[0], m.deficit, sigma[5], l_f[5], l_f[7])
+    l13, l31 = _off_diagonal(m.compliance[1], m.slip[1], m.deficit, sigma[2], l_f[2], l_f[6])
+    l12, l21 = _off_diagonal(m.compliance[2], m.slip[2], m.deficit, sigma[1], l_f[1], l_f[3])
     return (x + d[0], l12, l13, l21, y + d[1], l23, l31, l32, z + d[2])
 
 
 def _off_diagonal(
-    compliance: Scalar, slip: Scalar, own: Scalar, sigma: Scalar, lf_ij: Scalar, lf_ji: Scalar
+    compliance: Scalar, slip: Scalar, deficit: Scalar, sigma: Scalar, lf_ij: Scalar, lf_ji: Scalar
 ) -> tuple[Scalar, Scalar]:
     """Return l_s,ij and l_s,ji: free of torque, with σ̃_ij − 2 η_s d_s,ij = σ_ij."""
     d_f, w_ji = 0.5 * (lf_ij + lf_ji), 0.5 * (lf_ji - lf_ij)
-    delta = (0.5 * sigma - own * d_f) * compliance
+    delta = (0.5 * sigma - deficit * d_f) * compliance
     d_s, ws_ji = d_f - delta, w_ji + slip * delta
     return d_s - ws_ji, d_s + ws_ji
 

@@ -29,8 +29,8 @@ def laplace_stress(stretches: Vector, tension: Scalar) -> Vector:
     """
     x, y, z = _pulls(stretches)
     k = 0.75 * tension
-    rest = 2.0 * tension
-    return k * (y + z) - rest, k * (z + x) - rest, k * (x + y) - rest
+    pressure = 2.0 * tension
+    return k * (y + z) - pressure, k * (z + x) - pressure, k * (x + y) - pressure
 
 
 def no_stress(_stretches: Vector, tension: Scalar) -> Vector:

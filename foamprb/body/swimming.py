@@ -38,8 +38,8 @@ def random_directions(numbers: NDArray[np.uint64], key: tuple[Word, Word]) -> Fl
     """Return random unit vectors of particles with these numbers, (n, 3)."""
     none = np.zeros_like(numbers)
     words = philox((numbers & _LOW, numbers >> _HALF, none, none), key)
-    found = np.stack(normals(words)[:3], axis=1)
-    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True))
+    directions = np.stack(normals(words)[:3], axis=1)
+    return np.asarray(directions / np.linalg.norm(directions, axis=1, keepdims=True))
 
 
 def along_axes(F: Floats, p: Floats) -> Floats:
@@ -51,6 +51,6 @@ def along_axes(F: Floats, p: Floats) -> Floats:
     axes, stretches, _ = np.linalg.svd(F.reshape(-1, 3, 3))
     logs = np.log(stretches)
     longest = logs[:, 0] - logs[:, 1] >= logs[:, 1] - logs[:, 2]
-    own = np.where(longest[:, None], axes[:, :, 0], axes[:, :, 2])
-    own = own * np.where(np.einsum("ni,ni->n", own, p) < 0.0, -1.0, 1.0)[:, None]
-    return np.where((logs[:, 0] - logs[:, 2] < _ROUND)[:, None], p, own)
+    axis = np.where(longest[:, None], axes[:, :, 0], axes[:, :, 2])
+    axis = axis * np.where(np.einsum("ni,ni->n", axis, p) < 0.0, -1.0, 1.0)[:, None]
+    return np.where((logs[:, 0] - logs[:, 2] < _ROUND)[:, None], p, axis)

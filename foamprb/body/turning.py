@@ -91,7 +91,7 @@ def turning_gradient(
     ``m`` and ``e`` are mobility and elasticity of the shape, ``mu_f`` the viscosity of the fluid, Pa s,
     ``l_s`` and ``l_f`` the velocity gradients of body and fluid, ``sigma`` the elastic stress over μ_f, 1/s.
     """
-    W, own = shape_spin(stretches, l_s), skew(l_s)
-    stress = turned(subtract(W, own), sigma)
-    stress = add(stress, scale(1.0 / mu_f, _stress_of_spin(e, own)))
+    W, spin = shape_spin(stretches, l_s), skew(l_s)
+    stress = turned(subtract(W, spin), sigma)
+    stress = add(stress, scale(1.0 / mu_f, _stress_of_spin(e, spin)))
     return subtract(turned(W, l_s), velocity_gradient(m, stress, turned(W, l_f)))

@@ -92,23 +92,23 @@ def hold(flow: Any, patches: PatchTable, s: Scratch, i: int, last: int, dt: floa
     block = s.block
     if s.status[i] != STUCK:
         return
-    own = patches.bonds[s.patch[i]]
-    if own[BOND_LOOSENS] == 0.0 and own[BOND_LIMIT] == math.inf:
+    bond = patches.bonds[s.patch[i]]
+    if bond[BOND_LOOSENS] == 0.0 and bond[BOND_LIMIT] == math.inf:
         return
     while s.step[i] < last:
         end = start + (s.step[i] + 1) * dt
-        begin = max(block[at.t * LANES + i], block[bonds.held * LANES + i])
-        if end - begin > SHORTEST_STEP * dt:
-            gamma = rate_of_shear(flow, s, i, 0.5 * (begin + end))
+        since = max(block[at.t * LANES + i], block[bonds.held * LANES + i])
+        if end - since > SHORTEST_STEP * dt:
+            gamma = rate_of_shear(flow, s, i, 0.5 * (since + end))
             force = force_on_held_sphere(block[at.R * LANES + i], gamma, 1.0)
-            rate = off_rate(own[BOND_LOOSENS], force, own[BOND_FORCE])
-            rest = missing(patches, s, i, s.patch[i])
-            if gamma > own[BOND_LIMIT]:
-                rest = 0.0
-            if rate * (end - begin) >= rest:
-                let_go(flow, s, i, begin + rest / rate if rest > 0.0 else begin, dt)
+            rate = off_rate(bond[BOND_LOOSENS], force, bond[BOND_FORCE])
+            hazard_left = missing(patches, s, i, s.patch[i])
+            if gamma > bond[BOND_LIMIT]:
+                hazard_left = 0.0
+            if rate * (end - since) >= hazard_left:
+                let_go(flow, s, i, since + hazard_left / rate if hazard_left > 0.0 else since, dt)
                 return
-            block[bonds.hazard * LANES + i] += rate * (end - begin)
+            block[bonds.hazard * LANES + i] += rate * (end - since)
             block[bonds.held * LANES + i] = end
         s.step[i] += 1
 

@@ -169,12 +169,12 @@ class Scratch(NamedTuple):
     """(LANES,) index of each particle in the cloud's arrays, −1 for none."""
     mended: Any
     """(LANES,) number of walks that needed the tree."""
-    kept: Any
+    lasting: Any
     """As in :class:`~foamprb.cloud.layout.Layout`."""
     fresh: Any
     """As in :class:`~foamprb.cloud.layout.Layout`."""
     shelf: Any
-    """Rows ``kept`` of the particles that are set aside, (:data:`SHELF`, n)."""
+    """Rows ``lasting`` of the particles that are set aside, (:data:`SHELF`, n)."""
     labels: Any
     """Their integers, (:data:`SHELF`, :data:`LABELS`)."""
     counts: Any
@@ -196,7 +196,7 @@ def new_scratch(
     stop: Any = None,
     bounds: LoopLimits = LoopLimits(),  # noqa: B008
     room: int = 0,
-    kept: tuple[NDArray[np.int64], NDArray[np.float64]] = (np.empty(0, dtype=np.int64), np.empty(0)),
+    lasting: tuple[NDArray[np.int64], NDArray[np.float64]] = (np.empty(0, dtype=np.int64), np.empty(0)),
 ) -> Scratch:
     """Return working memory for a block of ``rows`` rows.
 
@@ -206,10 +206,10 @@ def new_scratch(
         As in :class:`Scratch`.
     room
         Length of the buffer for rebounds.
-    kept
-        ``kept`` and ``fresh`` of the layout, if particles are set aside.
+    lasting
+        ``lasting`` and ``fresh`` of the layout, if particles are set aside.
     """
-    rows_kept, fresh = kept
+    lasting_rows, fresh = lasting
     # One array, so that no other thread writes to the same lines of memory.
     lanes = iter(np.zeros((10, LANES), dtype=np.int64))
 
@@ -230,9 +230,9 @@ def new_scratch(
         bounds=bounds,
         member=next(lanes),
         mended=next(lanes),
-        kept=rows_kept,
+        lasting=lasting_rows,
         fresh=fresh,
-        shelf=np.empty((SHELF, len(rows_kept))),
+        shelf=np.empty((SHELF, len(lasting_rows))),
         labels=np.empty((SHELF, LABELS), dtype=np.int64),
         counts=np.zeros(COUNTS, dtype=np.int64),
         prefetched=np.empty(1),
@@ -334,14 +334,14 @@ def resume_frames(block: Any) -> None:
 
 def renew_frames(block: Any) -> None:
     """Restore frames and stretches of the lanes whose state was loaded or turned since the last step."""
-    found = 0
+    renewed = 0
     for i in range(LANES):
         if block[at.renewed * LANES + i] > 0.0:
             block[at.renewed * LANES + i] = 0.0
-            found += 1
+            renewed += 1
             store9(block, at.Q, i, load9(block, at.frame, i))
             store9(block, at.new_F, i, load9(block, at.F, i))
-    if found:
+    if renewed:
         stretch_stage(block)
         straighten(block, _STORED_SKEWNESS)
         new_integrals(block)
@@ -366,11 +366,11 @@ def stretch_stage(block: Any) -> None:
 def straighten(block: Any, allowed: float) -> None:
     """Repeat the refinement of frames that turned too far for one pass."""
     for _ in range(_MOST_REPEATS):
-        found = 0
+        skewed = 0
         for i in range(LANES):
             if block[at.skewness * LANES + i] > allowed:
-                found += 1
-        if found == 0:
+                skewed += 1
+        if skewed == 0:
             break
         straighten_stage(block, allowed)
         stretch_stage(block)
@@ -468,11 +468,11 @@ def compact_stage(block: Any) -> None:
 def elongated_stage(block: Any) -> None:
     """Replace the integrals of elongated bodies."""
     for i in range(LANES):
-        stretches, known = load3(block, at.stretch, i), load_integrals(block, i)
+        stretches, compact = load3(block, at.stretch, i), load_integrals(block, i)
         g, elongated = integrals(stretches), is_elongated(stretches)
-        alpha = choose3(elongated, g.alpha, known.alpha)
-        ring, star = choose3(elongated, g.ring, known.ring), choose3(elongated, g.star, known.star)
-        chi = select(elongated, g.chi, known.chi)
+        alpha = choose3(elongated, g.alpha, compact.alpha)
+        ring, star = choose3(elongated, g.ring, compact.ring), choose3(elongated, g.star, compact.star)
+        chi = select(elongated, g.chi, compact.chi)
         store_integrals(block, i, Integrals(alpha=alpha, ring=ring, star=star, chi=chi))
 
 

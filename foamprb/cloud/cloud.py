@@ -18,9 +18,9 @@ from foamprb.cloud.communicator import (
     Communicator,
     Value,
     applied,
-    chosen,
     in_flow,
     normals_at,
+    particles_of,
     same,
     take_rebounds,
     values_of,
@@ -145,8 +145,8 @@ class Cloud:
         """Largest of the shape and of the path, if the integrator follows from them."""
         if self.models.integrator == "auto":
             self.stokes_numbers = self._find_stokes_numbers()
-            chosen = automatic(max(self.stokes_numbers), self.models.material)
-            self.models = replace(self.models, integrator=chosen)
+            integrator = automatic(max(self.stokes_numbers), self.models.material)
+            self.models = replace(self.models, integrator=integrator)
         check(self.models, tense)
         check_needs(self.models.forces, columns_of(self.flow))
         around = (*model_of(self.medium.mu), *self.models.surroundings)
@@ -204,20 +204,20 @@ class Cloud:
     def of(self, numbers: NDArray[np.int64]) -> Particles:
         """Return particles by their numbers, in this order."""
         sought, order = np.unique(numbers, return_inverse=True)
-        found = concatenate(self.comm.call(chosen, sought))
-        return found.take(np.argsort(found.number)[order])
+        particles = concatenate(self.comm.call(particles_of, sought))
+        return particles.take(np.argsort(particles.number)[order])
 
     def values_of(self, numbers: NDArray[np.int64], name: str) -> NDArray[Any]:
         """Return one array of particles by their numbers, in this order."""
         return self._joined(numbers, self.comm.call(values_of, np.unique(numbers), name))
 
-    def _joined(self, numbers: NDArray[np.int64], found: Sequence[Any]) -> NDArray[Any]:
+    def _joined(self, numbers: NDArray[np.int64], by_rank: Sequence[Any]) -> NDArray[Any]:
         """Return the values of particles by their numbers, from those of each rank with their numbers."""
-        known, values = (np.concatenate(parts) for parts in zip(*found, strict=True))
-        order = np.argsort(known)
-        return np.asarray(values[order[np.searchsorted(known, numbers, sorter=order)]])
+        owned, values = (np.concatenate(parts) for parts in zip(*by_rank, strict=True))
+        order = np.argsort(owned)
+        return np.asarray(values[order[np.searchsorted(owned, numbers, sorter=order)]])
 
-    def whole(self) -> Particles:
+    def all_particles(self) -> Particles:
         """Return all particles, which takes the memory of the whole cloud if there are several ranks."""
         return self.particles if self.comm.size == 1 else concatenate(self.map_by_id(same))
 
@@ -261,8 +261,8 @@ class Cloud:
             if checks and self.step >= self._next_check:
                 # A shape beyond the limit oscillates, and is at times within it.
                 self._next_check = self.step + max(self.step, _FIRST_CHECK)
-                found = unstable(p, self.medium_there.mu, self.dt, self.models.material)
-                self._warn_once(PAPER.name, warning_of(*found, self.dt))
+                unstable_steps = unstable(p, self.medium_there.mu, self.dt, self.models.material)
+                self._warn_once(PAPER.name, warning_of(*unstable_steps, self.dt))
         failed = p.counts()[Status.FAILED] - before
         if failed:
             k = int(np.flatnonzero(p.status == Status.FAILED)[-1])
@@ -362,9 +362,9 @@ class Cloud:
     @property
     def _sight(self) -> tuple[float, list[int]]:
         """Range within which models need walls, m, and the indices of their patches."""
-        found = [model.walls(self.flow.patches) for model in self.models.surroundings]
-        seen = {index for _, patches in found for index in patches}
-        radii = max((radii for radii, _ in found), default=0.0)
+        ranges = [model.walls(self.flow.patches) for model in self.models.surroundings]
+        seen = {index for _, patches in ranges for index in patches}
+        radii = max((radii for radii, _ in ranges), default=0.0)
         return radii * self._largest, [i for i in self._solid if i in seen]
 
     def make_ready(self) -> Any:
@@ -408,12 +408,12 @@ class Cloud:
 
     def _find_stokes_numbers(self) -> tuple[float, float]:
         """Return the largest Stokes numbers of shape and path of the particles that have not ended."""
-        found = [(0.0, 0.0)]
+        pairs = [(0.0, 0.0)]
         for moving in self.map_by_id(_moving):
             medium = medium_at(self.medium, self.flow, moving, self.time)
             shape = shape_stokes_number(moving, self.flow, medium.mu, self.time)
-            found.append((shape, path_stokes_number(moving, self.flow, medium, self.time)))
-        shapes, paths = zip(*found, strict=True)
+            pairs.append((shape, path_stokes_number(moving, self.flow, medium, self.time)))
+        shapes, paths = zip(*pairs, strict=True)
         return max(shapes), max(paths)
 
 
@@ -451,7 +451,7 @@ class Stepper:
 
     def __init__(self, cloud: Cloud) -> None:
         self.cloud = cloud
-        cloud.comm.begin(cloud)
+        cloud.comm.prepare_steps(cloud)
 
     def advance(self, steps: int, stop: Callable[[], bool] = never) -> None:
         """Advance by ``steps`` time steps, without warnings about failed particles.
@@ -487,14 +487,14 @@ class Stepper:
 
 def regrouped(parts: Iterable[Particles], n: int) -> Iterator[Particles]:
     """Yield the same particles in parts of n, the last of which may be smaller; at least one part."""
-    kept: list[Particles] = []
+    held: list[Particles] = []
     for part in parts:
-        kept.append(part)
-        while sum(p.size for p in kept) > n:
-            whole = concatenate(kept)
-            yield whole.take(slice(n))
-            kept = [whole.take(slice(n, None))]
-    yield concatenate(kept)
+        held.append(part)
+        while sum(p.size for p in held) > n:
+            joined = concatenate(held)
+            yield joined.take(slice(n))
+            held = [joined.take(slice(n, None))]
+    yield concatenate(held)
 
 
 def explain(reason: Reason | int, models: Models, limits: Limits) -> str:

@@ -55,8 +55,8 @@ class Share(NamedTuple):
         """
         if of is None:
             return function(self.particles, *arguments)
-        own = f"{of}/" if of else ""
-        memory = {k.removeprefix(own): array for k, array in self.memory.items() if k.startswith(own)}
+        prefix = f"{of}/" if of else ""
+        memory = {k.removeprefix(prefix): array for k, array in self.memory.items() if k.startswith(prefix)}
         return function(self.particles, memory, *arguments)
 
 
@@ -111,8 +111,8 @@ class Rank:
         start, until = (tracker.start + n * tracker.dt for n in (step, step + steps))
         if self.sampling is not None:
             self.sampling.before_steps(self, start, until)
-        given = self.flow, self.particles, step, steps, self.threads, bounds, stop, self.sampled
-        outcome = tracker.advance(*given)
+        arguments = self.flow, self.particles, step, steps, self.threads, bounds, stop, self.sampled
+        outcome = tracker.advance(*arguments)
         if self.sampling is not None:
             self.sampling.after_steps(self, until)
         return outcome
@@ -183,16 +183,16 @@ class Communicator:
 
     def put(self, numbers: NDArray[np.int64], arrays: Arrays) -> None:
         """Store rows of arrays of particles of consecutive numbers."""
-        own = self.rank.share.arrays()
+        stored = self.rank.share.arrays()
         for name, array in arrays.items():
-            own[name][numbers] = array
+            stored[name][numbers] = array
 
     def arrays_here(self) -> Arrays:
         """Return the arrays of cloud functions that the first rank writes to checkpoints."""
         sums = {} if self.rank.sampling is None else self.rank.sampling.sums
         return {**self.rank.share.memory, **{name: array for name, (_, array) in sums.items()}}
 
-    def begin(self, cloud: Any) -> None:
+    def prepare_steps(self, cloud: Any) -> None:
         """Prepare the ranks for the steps of a :class:`~foamprb.cloud.cloud.Cloud`."""
         self.rank.tracker, self.rank.threads = cloud.tracker, cloud.threads
         self.rank.share = self.rank.share._replace(particles=cloud.particles)
@@ -241,7 +241,7 @@ def applied(rank: Rank, function: Callable[..., Value], of: str | None, *argumen
     return rank.complete().apply(function, of, *arguments)
 
 
-def chosen(rank: Rank, numbers: NDArray[np.int64]) -> Particles:
+def particles_of(rank: Rank, numbers: NDArray[np.int64]) -> Particles:
     """Return the requested particles that a rank holds."""
     return rank.complete().particles.take(rank.find(numbers)[1])
 

@@ -25,10 +25,10 @@ __all__ = [
     "contact_normals",
     "first_contact",
     "in_order",
-    "note",
     "on_cubic",
     "passages",
     "rebounds_of",
+    "record_contact",
     "slope_on_cubic",
 ]
 
@@ -91,7 +91,7 @@ class Rebounds(NamedTuple):
     """Deformation gradients, (n, 9); of integrator ``paper`` at the end of the step."""
 
 
-def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None:
+def record_contact(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None:
     """Record the state of the particle in lane i at a patch; no-op without a buffer.
 
     A rebound is recorded before the velocity changes, a passage of a coupled patch before and after it.
@@ -121,21 +121,21 @@ def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None
 
 
 def in_order(rows: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Return rows of :func:`note`, (n, 21), in the order of their times, then of particle numbers."""
-    found = np.concatenate([np.empty((0, REBOUND_NUMBERS)), *rows])
-    return found[np.lexsort((found[:, 0], found[:, 2]))]
+    """Return rows of :func:`record_contact`, (n, 21), sorted by time, then by particle number."""
+    joined = np.concatenate([np.empty((0, REBOUND_NUMBERS)), *rows])
+    return joined[np.lexsort((joined[:, 0], joined[:, 2]))]
 
 
 def rebounds_of(rows: NDArray[np.float64]) -> Rebounds:
-    """Return the records in rows of :func:`note`."""
-    whole = rows[:, :2].astype(np.int64)
+    """Return the records in rows of :func:`record_contact`."""
+    integers = rows[:, :2].astype(np.int64)
     return Rebounds(
-        whole[:, 0], whole[:, 1], rows[:, 2], rows[:, 3:6], rows[:, 6:9], rows[:, 9:12], rows[:, 12:]
+        integers[:, 0], integers[:, 1], rows[:, 2], rows[:, 3:6], rows[:, 6:9], rows[:, 9:12], rows[:, 12:]
     )
 
 
 def passages(rows: NDArray[np.float64], patches: Collection[int]) -> Iterator[tuple[Rebounds, Rebounds]]:
-    """Yield the passages of coupled patches in rows of :func:`note`: the states before, and those after.
+    """Yield passages of coupled patches among contacts: the states before and the states after.
 
     Each part has at most one passage of a particle; the parts of a particle follow in time.
     """

@@ -31,9 +31,9 @@ def body_mobility(block: Any, i: int, medium: Medium, _stretches: Vector) -> Mob
 
 
 def own_viscosity(block: Any, i: int, medium: Medium) -> Scalar:
-    """Return the ``own`` of that mobility."""
+    """Return the ``deficit`` of that mobility."""
     ratio, Ca = _numbers(block, i, medium)
-    return drop_mobility(ratio, Ca).own
+    return drop_mobility(ratio, Ca).deficit
 
 
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:

@@ -189,10 +189,10 @@ class DuctLift(Force):
         length = math.hypot(*self.direction)
         e = tuple(component / length for component in self.direction)
         weights = (1.0, 0.0) if self.shape == "channel" else (-1.0, 1.0)
-        found = hinges(self._table)
-        unused = (0.0,) * (1 + 2 * _POINTS - len(found))
+        corners = hinges(self._table)
+        unused = (0.0,) * (1 + 2 * _POINTS - len(corners))
         origin = tuple(map(float, self.origin))
-        return origin, e, weights, float(self.size), float(self.shearRate), *found, *unused
+        return origin, e, weights, float(self.size), float(self.shearRate), *corners, *unused
 
     def __str__(self) -> str:
         """Return the entries for the log."""
@@ -322,8 +322,8 @@ def add_force(
         hint = hints.get(p.name, float)
         if getattr(hint, "__origin__", hint) is not float:
             raise ValueError(f"force {name}: the entry {p.name} is no float")
-        own: Any = field() if p.default is p.empty else field(default=float(p.default))
-        entries.append((p.name, hint, own))
+        default: Any = field() if p.default is p.empty else field(default=float(p.default))
+        entries.append((p.name, hint, default))
     kind: type[Force] = make_dataclass(
         name, entries, bases=(UserForce,), frozen=True, kw_only=True,
         namespace={"evaluate": staticmethod(evaluate), "name": name, "needs": tuple(needs)},
@@ -337,12 +337,12 @@ def add_force(
 def _try(name: str, force: Force) -> None:
     """Evaluate a force without fields; raise ValueError if it fails or returns something else."""
     try:
-        given = SAMPLE, *(STATE[need] for need in force.needs), *force.coefficients
-        (x, y, z), inertia = found = type(force).evaluate(*given)
+        arguments = SAMPLE, *(STATE[need] for need in force.needs), *force.coefficients
+        (x, y, z), inertia = result = type(force).evaluate(*arguments)
     except Exception as error:
         raise ValueError(f"force {name}: {type(error).__name__}: {error}") from error
     if not all(isinstance(number, Real) and math.isfinite(number) for number in (x, y, z, inertia)):
-        raise ValueError(f"force {name}: it returns {found}, not ((x, y, z), inertia) of finite numbers")
+        raise ValueError(f"force {name}: it returns {result}, not ((x, y, z), inertia) of finite numbers")
 
 
 T = TypeVar("T")

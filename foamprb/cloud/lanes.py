@@ -88,9 +88,9 @@ def fetch(p: Particles, members: NDArray[np.int64], s: Scratch, i: int, step: in
         take_back(s, i, READY)
     elif k < len(members):
         s.counts[_NEXT] = k + 1
-        loaded = len(s.kept) - len(s.fresh)
+        loaded = len(s.lasting) - len(s.fresh)
         for n in range(len(s.fresh)):
-            s.block[s.kept[loaded + n] * LANES + i] = s.fresh[n]
+            s.block[s.lasting[loaded + n] * LANES + i] = s.fresh[n]
         load_particle(p, members[k], s, i)
         s.member[i], s.step[i], s.mended[i] = members[k], step, 0
         return NEW
@@ -143,13 +143,13 @@ def fill_lanes(
                 if not must_move(s, i, last):
                     finish(p, s, i, len(members))
         prefetch_next(p, members, s)
-        found, new = 0, 0
+        loaded, new = 0, 0
         for i in range(LANES):
             if s.member[i] < 0:
                 kind = fetch(p, members, s, i, step)
-                found += kind != NOTHING
+                loaded += kind != NOTHING
                 new |= (kind == NEW) << i
-        if found == 0:
+        if loaded == 0:
             break
         for i in range(LANES):
             if new >> i & 1:
@@ -190,8 +190,8 @@ def set_aside(s: Scratch, i: int, kind: int) -> None:
     """Set the particle in lane i aside as READY, WAITING or ENDED."""
     place = kind * _PLACES + s.counts[kind]
     s.counts[kind] += 1
-    for n in range(len(s.kept)):
-        s.shelf[place, n] = s.block[s.kept[n] * LANES + i]
+    for n in range(len(s.lasting)):
+        s.shelf[place, n] = s.block[s.lasting[n] * LANES + i]
     s.labels[place, _MEMBER], s.labels[place, _NUMBER] = s.member[i], s.number[i]
     s.labels[place, _STATUS], s.labels[place, _REASON] = s.status[i], s.reason[i]
     s.labels[place, _PATCH], s.labels[place, _HOST] = s.patch[i], s.host[i]
@@ -203,8 +203,8 @@ def take_back(s: Scratch, i: int, kind: int) -> None:
     """Load lane i with the particle of a kind that was set aside last."""
     s.counts[kind] -= 1
     place = kind * _PLACES + s.counts[kind]
-    for n in range(len(s.kept)):
-        s.block[s.kept[n] * LANES + i] = s.shelf[place, n]
+    for n in range(len(s.lasting)):
+        s.block[s.lasting[n] * LANES + i] = s.shelf[place, n]
     s.member[i], s.number[i] = s.labels[place, _MEMBER], s.labels[place, _NUMBER]
     s.status[i], s.reason[i] = s.labels[place, _STATUS], s.labels[place, _REASON]
     s.patch[i], s.host[i] = s.labels[place, _PATCH], s.labels[place, _HOST]
@@ -227,13 +227,13 @@ def walks_relocated(s: Scratch) -> int:
 
 def drop_unfinished(s: Scratch) -> None:
     """Drop the rebounds of particles that are not finished."""
-    kept = s.noted[1]
+    end = s.noted[1]
     for k in range(s.noted[1], s.noted[0]):
         if not _is_unfinished(s, s.rebounds[k, 0]):
             for c in range(s.rebounds.shape[1]):
-                s.rebounds[kept, c] = s.rebounds[k, c]
-            kept += 1
-    s.noted[0] = s.noted[1] = kept
+                s.rebounds[end, c] = s.rebounds[k, c]
+            end += 1
+    s.noted[0] = s.noted[1] = end
 
 
 def _is_unfinished(s: Scratch, number: float) -> bool:

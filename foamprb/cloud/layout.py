@@ -57,10 +57,10 @@ class Layout(NamedTuple):
     removing the reads."""
     parts: tuple[tuple[int, ...], ...]
     """:func:`offsets` of the block's declarations, in order."""
-    kept: NDArray[np.int64]
+    lasting: NDArray[np.int64]
     """Indices of the rows that keep their values between steps; those not loaded come last."""
     fresh: NDArray[np.float64]
-    """Initial values of the kept rows that are not loaded."""
+    """Initial values of the lasting rows that are not loaded."""
 
 
 Declared = TypeVar("Declared", bound=tuple[int, ...])
@@ -84,8 +84,8 @@ def offsets(declaration: type[Declared], first: int = 0) -> Declared:
     """
     components = [row.components for row in rows_of(declaration).values()]
     make: Any = declaration
-    found: Declared = make(*accumulate(components[:-1], initial=first))
-    return found
+    rows: Declared = make(*accumulate(components[:-1], initial=first))
+    return rows
 
 
 def end(at: tuple[int, ...]) -> int:
@@ -117,27 +117,29 @@ def layout(*parts: tuple[int, ...]) -> Layout:
     scope: dict[str, Any] = {"__name__": __name__, "LANES": LANES}
     exec("\n".join([*_idle(rows), *_load(rows), *_save(rows), *_prefetch(rows)]), scope)
     loaded = _numbers(placed for placed in rows.values() if placed[1].of)
-    lasting = _numbers(placed for placed in rows.values() if placed[1].lasting and not placed[1].of)
-    found = Layout(
+    unloaded = _numbers(placed for placed in rows.values() if placed[1].lasting and not placed[1].of)
+    loaded_only = Layout(
         rows=end(parts[-1]),
         idle=scope["idle"],
         load=scope["load_rows"],
         save=scope["save_rows"],
         prefetch=scope["prefetch_rows"],
         parts=parts,
-        kept=np.array(loaded, dtype=np.int64),
+        lasting=np.array(loaded, dtype=np.int64),
         fresh=np.empty(0),
     )
-    return keep(found, lasting)
+    return keep(loaded_only, unloaded)
 
 
-def keep(own: Layout, rows: Sequence[int]) -> Layout:
+def keep(base: Layout, rows: Sequence[int]) -> Layout:
     """Return a layout that keeps these rows too, which are not loaded."""
-    block = np.empty(own.rows * LANES)
-    own.idle(block)
+    block = np.empty(base.rows * LANES)
+    base.idle(block)
     numbers = np.array(rows, dtype=np.int64)
     values = block[numbers * LANES]
-    return own._replace(kept=np.concatenate([own.kept, numbers]), fresh=np.concatenate([own.fresh, values]))
+    return base._replace(
+        lasting=np.concatenate([base.lasting, numbers]), fresh=np.concatenate([base.fresh, values])
+    )
 
 
 Placed = dict[str, tuple[int, Row]]
@@ -175,9 +177,9 @@ def _save(rows: Placed) -> Iterator[str]:
     for saved in kinds:
         if isinstance(saved, str):
             yield f"    if block[{rows[saved][0]} * LANES + i] > 0.0:"
-        chosen = (placed for placed in rows.values() if placed[1].saved == saved)
+        quantities = (placed for placed in rows.values() if placed[1].saved == saved)
         margin = "    " if isinstance(saved, str) else ""
-        yield from (margin + line for line in _copies(chosen, "{array} = {lane}"))
+        yield from (margin + line for line in _copies(quantities, "{array} = {lane}"))
 
 
 def _prefetch(rows: Placed) -> Iterator[str]:

@@ -69,7 +69,7 @@ PER_CONTEXT = 1 << 14
 """Most particles of one of :func:`contexts`; their arrays stay in the processor's cache."""
 
 
-class FoundRows(NamedTuple):
+class MeasureRows(NamedTuple):
     """Rows of computed values below the rows of a block."""
 
     gradient: Annotated[int, Row(9, "1", "F·F₀⁻¹, the deformation gradient from the shape at rest")]
@@ -83,7 +83,7 @@ class FoundRows(NamedTuple):
     viscosity: Annotated[int, Row(1, "Pa s", "viscosity of the fluid")]
 
 
-result = offsets(FoundRows, ROWS)
+result = offsets(MeasureRows, ROWS)
 ALL_ROWS = end(result)
 _FIRST = tuple(result)
 _SIZES = dict(zip(result._fields, np.diff((*result, ALL_ROWS)).tolist(), strict=True))
@@ -102,8 +102,8 @@ class Context(NamedTuple):
     """(n, 3), velocity of the fluid at the centres, m/s; NaN where the fluid is unknown."""
     l_f: Tensor
     """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
-    found: Mapping[str, Floats]
-    """Values of :class:`FoundRows` of all particles by name, (n, k)."""
+    values: Mapping[str, Floats]
+    """Values of :class:`MeasureRows` of all particles by name, (n, k)."""
     rows: NDArray[np.int64]
     """Row numbers in the whole cloud."""
     time: float
@@ -209,7 +209,7 @@ def drop_stage(block: Any) -> None:
         store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))
 
 
-def find_out(
+def measure_block(
     F: Floats,
     A: Floats,
     Q: Floats,
@@ -222,9 +222,9 @@ def find_out(
     mu: Floats,
     block: Floats,
     frames: Floats,
-    found: tuple[Floats, ...],
+    tables: tuple[Floats, ...],
 ) -> None:
-    """Compute the frames, the stretches and the :class:`FoundRows` of n particles.
+    """Compute the frames, the stretches and the :class:`MeasureRows` of n particles.
 
     Parameters
     ----------
@@ -238,8 +238,8 @@ def find_out(
         Working memory, (ALL_ROWS · LANES,).
     frames
         Takes 9 rows of the frame and 3 of the stretches, (12, n).
-    found
-        Take the :class:`FoundRows`, each (n, k).
+    tables
+        Take the :class:`MeasureRows`, each (n, k).
     """
     n = F.shape[0]
     for start in range(0, n, LANES):
@@ -269,8 +269,8 @@ def find_out(
         for c in range(3):
             for i in range(m):
                 frames[9 + c, start + i] = block[(at.stretch + c) * LANES + i]
-        for q in range(len(found)):
-            values, first = found[q], _FIRST[q]
+        for q in range(len(tables)):
+            values, first = tables[q], _FIRST[q]
             for i in range(m):
                 for c in range(values.shape[1]):
                     values[start + i, c] = block[(first + c) * LANES + i]
@@ -325,9 +325,9 @@ def path_stokes_number(p: Particles, flow: Flow, medium: Medium, time: float) ->
         return 0.0
     tau = 2.0 * p.rho * p.R**2 / (9.0 * medium.mu)
     slip = tau * np.abs(1.0 - medium.rho / p.rho) * np.linalg.norm(medium.gravity)
-    given = np.flatnonzero(np.isfinite(p.v[:, 0]) & (p.host >= 0))
-    for start in range(0, len(given), PER_CONTEXT):
-        rows = given[start : start + PER_CONTEXT]
+    launched = np.flatnonzero(np.isfinite(p.v[:, 0]) & (p.host >= 0))
+    for start in range(0, len(launched), PER_CONTEXT):
+        rows = launched[start : start + PER_CONTEXT]
         u = carrier_velocity(p.take(rows), flow.sample(p.x[rows], p.host[rows], time)[0])
         slip[rows] = np.maximum(slip[rows], np.linalg.norm(p.v[rows] - u, axis=1))
     return float((tau * slip).max() / flow.width)
@@ -346,9 +346,9 @@ def largest_slip(p: Particles, medium: Medium) -> float:
     return float(initial.max() + 2.0 * settling.max())
 
 
-def _found(name: str) -> Callable[[Context], Floats]:
-    """Return a function that reads a value of :class:`FoundRows` by its name."""
-    return lambda c: c.found[name] if _SIZES[name] > 1 else c.found[name][:, 0]
+def _value(name: str) -> Callable[[Context], Floats]:
+    """Return a function that reads a value of :class:`MeasureRows` by its name."""
+    return lambda c: c.values[name] if _SIZES[name] > 1 else c.values[name][:, 0]
 
 
 MEASURES: dict[str, Measure] = {
@@ -358,23 +358,23 @@ MEASURES: dict[str, Measure] = {
     "age": Measure("s", lambda c: c.particles.t - c.particles.t0),
     "origId": Measure("", lambda c: c.rows),
     "active": Measure("", lambda c: c.particles.status == Status.ACTIVE),
-    "deformationGradient": Measure("1", _found("gradient")),
-    "glyph": Measure("m", _found("glyph")),
-    "semiAxes": Measure("m", _found("axes")),
-    "orientation": Measure("1", _found("orientation")),
+    "deformationGradient": Measure("1", _value("gradient")),
+    "glyph": Measure("m", _value("glyph")),
+    "semiAxes": Measure("m", _value("axes")),
+    "orientation": Measure("1", _value("orientation")),
     "taylorDeformation": Measure("1", lambda c: taylor_deformation(c.stretches[0], c.stretches[2])),
-    "stresslet": Measure("N m", _found("stresslet")),
-    "J": Measure("1", _found("volume_ratio")),
-    "angularVelocity": Measure("1/s", _found("spin")),
-    "shearRate": Measure("1/s", _found("rate")),
-    "capillaryNumber": Measure("1", lambda c: c.mu * c.found["rate"][:, 0] / c.particles.mu),
+    "stresslet": Measure("N m", _value("stresslet")),
+    "J": Measure("1", _value("volume_ratio")),
+    "angularVelocity": Measure("1/s", _value("spin")),
+    "shearRate": Measure("1/s", _value("rate")),
+    "capillaryNumber": Measure("1", lambda c: c.mu * c.values["rate"][:, 0] / c.particles.mu),
     "status": Measure("", lambda c: c.particles.status),
     "reason": Measure("", lambda c: c.particles.reason),
     "patch": Measure("", lambda c: c.particles.patch),
     "injector": Measure("", lambda c: c.particles.injector),
     "Uc": Measure("m/s", lambda c: carrier_velocity(c.particles, c.u), optional=True),
     "Ur": Measure("m/s", lambda c: c.particles.v - carrier_velocity(c.particles, c.u), optional=True),
-    "muc": Measure("Pa s", _found("viscosity"), optional=True),
+    "muc": Measure("Pa s", _value("viscosity"), optional=True),
     "swimmingDirection": Measure("1", lambda c: swimming_direction(c.particles), optional=True),
 }
 """Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
@@ -409,10 +409,10 @@ def fields_at(flow: Sampled, x: Floats, hosts: NDArray[np.int32], t: Any) -> dic
         return {}
     if len(x) == 0:
         return {name_of_field(c.name): FieldValues(np.empty((0, c.components)), c.unit) for c in columns}
-    given: Any = flow
-    fields: Fields = given.fields(float(np.min(t)), float(np.max(t)))
-    found = fields.at(x, hosts, t)
-    return {name_of_field(c.name): found[c.name] for c in columns}
+    source: Any = flow
+    fields: Fields = source.fields(float(np.min(t)), float(np.max(t)))
+    values = fields.at(x, hosts, t)
+    return {name_of_field(c.name): values[c.name] for c in columns}
 
 
 OPTIONAL = tuple(name for name, measure in MEASURES.items() if measure.optional)
@@ -496,11 +496,11 @@ def shapes(particles: Particles) -> tuple[Floats, Floats]:
     """Return semi-axes (n, 3), m, and D (n,) of particles of any status."""
     p = particles._replace(status=np.full_like(particles.status, Status.ACTIVE))
     unknown = FlowSamples(np.full((p.size, 3), np.nan), np.full((p.size, 9), np.nan), None, {})
-    found = [
+    pairs = [
         (MEASURES["semiAxes"].value(c), MEASURES["taylorDeformation"].value(c))
         for c in contexts(p, unknown, math.nan, math.nan)
     ]
-    axes, D = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    axes, D = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
     return axes, D
 
 
@@ -513,11 +513,11 @@ def flow_samples(
     rows = injected(particles)
     fields = fields_at(flow, particles.x, particles.host, time)
     for start in range(0, len(rows), PER_CONTEXT):
-        chosen = as_slice(rows[start : start + PER_CONTEXT])
-        x, hosts = particles.x[chosen], particles.host[chosen]
-        u[chosen], l_f[chosen] = _sampled(x, hosts, flow, time)
+        part = as_slice(rows[start : start + PER_CONTEXT])
+        x, hosts = particles.x[part], particles.host[part]
+        u[part], l_f[part] = _sampled(x, hosts, flow, time)
         if mu_f is not None:
-            mu_f[chosen] = viscosity_of(mu, flow, x, hosts, l_f[chosen], time)
+            mu_f[part] = viscosity_of(mu, flow, x, hosts, l_f[part], time)
     return FlowSamples(u, l_f, mu_f, fields)
 
 
@@ -529,32 +529,36 @@ def _prepare(
     time: float,
     ids: NDArray[np.int64] | None,
 ) -> Context:
-    chosen = as_slice(rows)
-    p = particles.take(chosen)
+    index = as_slice(rows)
+    p = particles.take(index)
     if isinstance(flow, FlowSamples):
-        u, l, sampled = flow.u[chosen], flow.l_f[chosen], flow.mu
-        given = {name: FieldValues(f.values[chosen], f.unit) for name, f in flow.fields.items()}
+        u, l, sampled = flow.u[index], flow.l_f[index], flow.mu
+        sampled_fields = {name: FieldValues(f.values[index], f.unit) for name, f in flow.fields.items()}
     else:
         u, l = _sampled(p.x, p.host, flow, time)
         sampled = None
-    mu_f = viscosity_of(mu, flow, p.x, p.host, l, time) if sampled is None else sampled[chosen]
+    mu_f = viscosity_of(mu, flow, p.x, p.host, l, time) if sampled is None else sampled[index]
     mu_f = np.full(len(rows), mu_f)
     frames, block = np.empty((12, len(rows))), new_block(ALL_ROWS)
-    found = {name: np.empty((len(rows), size)) for name, size in _SIZES.items()}
-    _finder()(
-        p.F, p.A, p.Q, p.F0, p.R, p.mu, p.eta, p.drop, l, mu_f, block, frames, tuple(found.values())
+    values = {name: np.empty((len(rows), size)) for name, size in _SIZES.items()}
+    _kernel()(
+        p.F, p.A, p.Q, p.F0, p.R, p.mu, p.eta, p.drop, l, mu_f, block, frames, tuple(values.values())
     )  # fmt: skip
     F, frame, l_f = tuple(p.F.T), tuple(frames[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
-    fields = (lambda: given) if isinstance(flow, FlowSamples) else partial(fields_at, flow, p.x, p.host, time)
+    fields = (
+        (lambda: sampled_fields)
+        if isinstance(flow, FlowSamples)
+        else partial(fields_at, flow, p.x, p.host, time)
+    )
     return Context(
-        p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, found, numbers, time, mu_f, fields
+        p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, values, numbers, time, mu_f, fields
     )
 
 
 @cache
-def _finder() -> Any:
-    return link(find_out, separate=_STAGES)
+def _kernel() -> Any:
+    return link(measure_block, separate=_STAGES)
 
 
 def as_slice(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:
@@ -566,9 +570,9 @@ def as_slice(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:
 
 def _sampled(x: Floats, hosts: NDArray[np.int32], flow: Sampled, time: float) -> tuple[Floats, Floats]:
     """Return u, (n, 3), and ∂u_i/∂x_j, (n, 9), at points; NaN outside the flow."""
-    known = (hosts >= 0) & np.isfinite(x).all(axis=1)
+    inside = (hosts >= 0) & np.isfinite(x).all(axis=1)
     velocity, gradient = np.full((len(x), 3), np.nan), np.full((len(x), 9), np.nan)
-    if known.any():
-        u, l = flow.sample(x, hosts, time) if known.all() else flow.sample(x[known], hosts[known], time)
-        velocity[known], gradient[known] = u, l.reshape(-1, 9)
+    if inside.any():
+        u, l = flow.sample(x, hosts, time) if inside.all() else flow.sample(x[inside], hosts[inside], time)
+        velocity[inside], gradient[inside] = u, l.reshape(-1, 9)
     return velocity, gradient

@@ -41,7 +41,7 @@ from foamprb.cloud.block import (
     store3,
     store9,
 )
-from foamprb.cloud.contact import first_contact, note, on_cubic, slope_on_cubic
+from foamprb.cloud.contact import first_contact, on_cubic, record_contact, slope_on_cubic
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Reason, Status
@@ -103,8 +103,8 @@ def fail(s: Scratch, i: int, reason: int) -> None:
     s.reason[i] = reason
     if not (are_finite(s.block, i, at.u, at.u + 3) and are_finite(s.block, i, at.l, at.l + 9)):
         # Distinguish a failure of the particle from one of the flow.
-        own = are_finite(s.block, i, at.x, at.x + 24)
-        s.reason[i] = FLOW_NOT_FINITE if own else NOT_FINITE
+        by_flow = are_finite(s.block, i, at.x, at.x + 24)
+        s.reason[i] = FLOW_NOT_FINITE if by_flow else NOT_FINITE
 
 
 _CODE = 16
@@ -169,12 +169,12 @@ def end_tracking_steps(s: Scratch, i: int) -> None:
     s.step[i] += s.stride[i]
 
 
-def overspent(s: Scratch, i: int, rest: float) -> bool:
+def overspent(s: Scratch, i: int, remaining: float) -> bool:
     """Let lane i fail, and return True, if it has taken more steps than allowed for a tracking step.
 
-    ``rest`` is what was left of its stretch before the last step, in tracking steps.
+    ``remaining`` is the part of its stretch left before the last step, in tracking steps.
     """
-    begun = s.stride[i] - math.ceil(rest) + 1
+    begun = s.stride[i] - math.ceil(remaining) + 1
     if s.block[at.taken * LANES + i] <= s.bounds.maxSubSteps * max(1, begun):
         return False
     fail(s, i, SUB_STEPS)
@@ -202,26 +202,26 @@ def reach_end(
     The number of walks that needed the tree.
     """
     block, recovered = s.block, 0
-    spent, rest = 0.0, h
+    spent, remaining = 0.0, h
     for _ in range(_MAX_BOUNCES):
-        begin = load3(block, at.x, i)
+        origin = load3(block, at.x, i)
         end, start, goal, time, patch, triangle, walks = move_centre(
-            flow, patches, s, i, goal, ahead, held, rest
+            flow, patches, s, i, goal, ahead, held, remaining
         )
         recovered += walks
         store3(block, at.x, i, end)
         fraction = 1.0
         if s.status[i] == ACTIVE or s.status[i] == STUCK:
-            way, met, turned = (start, goal), (patch, triangle), start != begin
+            way, met, turned = (start, goal), (patch, triangle), start != origin
             fraction = touch(flow, patches, s, i, way, turned, met, t_end - h + spent, time)
         spent += fraction * time
         if bouncing == 0 or fraction == 1.0 or s.status[i] != ACTIVE:
             break
-        whole = bouncing == STOPS_AT_CONTACT and h - spent < SHORTEST_STEP * h
-        block[at.t * LANES + i] = t_end if whole else t_end - h + spent
+        reaches_end = bouncing == STOPS_AT_CONTACT and h - spent < SHORTEST_STEP * h
+        block[at.t * LANES + i] = t_end if reaches_end else t_end - h + spent
         if bouncing == STOPS_AT_CONTACT:
             return recovered
-        goal, ahead, held, rest = load3(block, at.new_x, i), s.host[i], False, h - spent
+        goal, ahead, held, remaining = load3(block, at.new_x, i), s.host[i], False, h - spent
     if s.bounds.maxCells < math.inf and s.status[i] == ACTIVE:
         fail_in_small_cell(flow, s, i)
     block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
@@ -241,17 +241,19 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
     s.patch[i] = patch
 
 
-def meets(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool) -> bool:
+def would_touch(
+    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool
+) -> bool:
     """Return True if the body in lane i would reach a patch that ends its path, or come close to a wall.
 
     ``goal``, ``ahead`` and ``held`` are as of :func:`reach_end`; close is a gap below :data:`CLOSE` radii.
     """
     block = s.block
     if not held:
-        found, _, patch, _ = walk_on(flow, s.host[i], ahead, load3(block, at.x, i), goal)
+        reached, _, patch, _ = walk_on(flow, s.host[i], ahead, load3(block, at.x, i), goal)
         if patch == -2 or (patch >= 0 and patches.code[patch] not in (MIRROR, CYCLIC)):
             return True
-        ahead = found
+        ahead = reached
     R = block[at.R * LANES + i]
     clearance, _, _ = gap(flow, ahead, goal, load9(block, at.new_F, i), R)
     return bool(clearance < CLOSE * R)
@@ -276,7 +278,7 @@ def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
     return clearance, patch, triangle
 
 
-def beyond(
+def cross_patch(
     flow: Any, s: Scratch, i: int, patch: int, code: int, triangle: int, t: float, x0: Vector, x1: Vector
 ) -> tuple[Vector, Vector, Tensor, Vector]:
     """Move the particle in lane i to the other side of a mirror or a coupled patch.
@@ -294,7 +296,7 @@ def beyond(
     if code == MIRROR:
         y0, turn = x0, mirror_body(block, i, normal(flow, triangle, x0))
     else:
-        note(s, i, patch, t, x0, _NO_NORMAL)
+        record_contact(s, i, patch, t, x0, _NO_NORMAL)
         host, y0, turn = cross(flow, triangle, x0)
         s.host[i] = host
         turn_body(block, i, turn, load9(block, at.F, i), load9(block, at.A, i))
@@ -302,7 +304,7 @@ def beyond(
     store3(block, at.v, i, dot_vector(turn, v))
     turn_along(block, i, turn)
     if code != MIRROR:
-        note(s, i, patch, t, y0, _NO_NORMAL)
+        record_contact(s, i, patch, t, y0, _NO_NORMAL)
     m = dot_vector(turn, x0)
     shift = (y0[0] - m[0], y0[1] - m[1], y0[2] - m[2])
     return y0, moved(turn, shift, x1), turn, shift
@@ -346,9 +348,9 @@ def last_inside(flow: Any, x0: Vector, x1: Vector) -> tuple[int, float]:
     host, low, high = recover(flow, x0), 0.0, 1.0
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        found = recover(flow, between(x0, x1, middle))
-        if found >= 0:
-            host, low = found, middle
+        inside = recover(flow, between(x0, x1, middle))
+        if inside >= 0:
+            host, low = inside, middle
         else:
             high = middle
     return host, low
@@ -381,7 +383,7 @@ def move_centre(
         s.host[i] = ahead
         return x1, start, x1, dt, -1, -1, recovered
     for _ in range(_MAX_PATCHES):
-        rest = dt - spent
+        remaining = dt - spent
         host, fraction, patch, triangle = walk_on(flow, s.host[i], ahead, x0, x1)
         if patch == -2:
             recovered += 1
@@ -393,8 +395,8 @@ def move_centre(
             if done >= 1.0:
                 return x1, start, x1, dt, -1, -1, recovered
             x0 = between(x0, x1, done)
-            spent += done * rest
-            rest = dt - spent
+            spent += done * remaining
+            remaining = dt - spent
             host, fraction, patch, triangle = walk(flow, s.host[i], x0, x1)
             if patch == -2:
                 return x0, start, x0, dt, -1, -1, recovered
@@ -405,7 +407,7 @@ def move_centre(
         code = patches.code[patch]
         if code == REBOUND:
             return x0, start, x1, dt, patch, triangle, recovered
-        spent += fraction * rest
+        spent += fraction * remaining
         if code in (STICK, ESCAPE):
             settle(s, i, patch, code)
             return x0, start, x0, spent, -1, -1, recovered
@@ -413,7 +415,7 @@ def move_centre(
         if bounces > _MAX_BOUNCES:
             break
         t = block[at.t * LANES + i] + spent
-        x0, x1, turn, shift = beyond(flow, s, i, patch, code, triangle, t, x0, x1)
+        x0, x1, turn, shift = cross_patch(flow, s, i, patch, code, triangle, t, x0, x1)
         start, ahead = moved(turn, shift, start), s.host[i]
     return x0, start, x0, dt, -1, -1, recovered
 
@@ -436,7 +438,7 @@ def move_back(
         code = patches.code[patch]
         if code not in (MIRROR, CYCLIC):
             return x1, True
-        x0, x1, _, _ = beyond(flow, s, i, patch, code, triangle, t, between(x0, x1, fraction), x1)
+        x0, x1, _, _ = cross_patch(flow, s, i, patch, code, triangle, t, between(x0, x1, fraction), x1)
     return x0, True
 
 
@@ -545,7 +547,7 @@ def meet_wall(
         return bounce(flow, patches, s, i, way, met, n, before, after, t, h)
     f = before / (before - after) if before > 0.0 else 0.0
     if not rests:
-        note(s, i, patch, t + f * h, between(start, goal, f), n)
+        record_contact(s, i, patch, t + f * h, between(start, goal, f), n)
     e = 0.0 if rests and bouncing > 0 else patches.e[patch]
     store3(block, at.v, i, rebound_velocity(load3(block, at.v, i), n, e, patches.mu[patch]))
     bounce_along(block, i, n)
@@ -597,7 +599,7 @@ def bounce(
     )
     store3(block, at.v, i, v)
     rewind(block, i, f)
-    note(s, i, patch, t + f * h, place, n)
+    record_contact(s, i, patch, t + f * h, place, n)
     v = rebound_velocity(v, n, patches.e[patch], patches.mu[patch])
     bounce_along(block, i, n)
     x, _ = move_back(flow, patches, s, i, t + f * h, load3(block, at.x, i), place)
@@ -664,11 +666,11 @@ def longest_of(p: Particles) -> float:
 RARE: tuple[Callable[..., Any], ...] = (
     fail,
     fail_in_small_cell,
-    beyond,
-    note,
+    cross_patch,
+    record_contact,
     last_inside,
     move_back,
-    meets,
+    would_touch,
     meet_wall,
 )
 """Long functions that few steps call, compiled as separate functions to keep the loops short."""

@@ -173,8 +173,8 @@ class Needed(Surrounding):
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
         """Return the functions that sample."""
-        own: dict[str, Callable[..., Any]] = {"end_sampled": sample_end}
-        return own | ({"store_fields": store_case_fields} if self.columns else {})
+        functions: dict[str, Callable[..., Any]] = {"end_sampled": sample_end}
+        return functions | ({"store_fields": store_case_fields} if self.columns else {})
 
 
 @cache
@@ -220,7 +220,7 @@ def check_needs(forces: Sequence[Force], columns: Sequence[FieldColumns]) -> Non
         try:
             type(force).evaluate(SAMPLE, *samples, *force.coefficients)
         except Exception as error:
-            given = ", ".join(f"{name} is {_KINDS[components[name]]}" for name in fields)
+            kinds = ", ".join(f"{name} is {_KINDS[components[name]]}" for name in fields)
             raise InputError(
-                f"the force {force.name} fails: {type(error).__name__}: {error}; {given}"
+                f"the force {force.name} fails: {type(error).__name__}: {error}; {kinds}"
             ) from error

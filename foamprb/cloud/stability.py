@@ -70,12 +70,12 @@ def _limits(p: Particles, mu_f: Floats, dt: float, material: str) -> Floats:
         link(_find_doubtful)(p.status, p.F, p.A, p.R, p.rho, p.eta, mu_f, dt, steps, doubtful)
         rows = np.flatnonzero(doubtful)
         if len(rows):
-            chosen, found = p.take(rows), np.empty(len(rows))
-            shapes = chosen.F + steps * dt * chosen.A
+            part, longest = p.take(rows), np.empty(len(rows))
+            shapes = part.F + steps * dt * part.A
             loop = link(_find_limits, {"derivatives": MATERIALS[material].derivatives})
-            loop(shapes, chosen.F0, chosen.R, chosen.rho, chosen.mu, chosen.lame, chosen.k, chosen.eta,
-                 mu_f[rows], dt, found)  # fmt: skip
-            limits[rows] = np.minimum(limits[rows], found)
+            loop(shapes, part.F0, part.R, part.rho, part.mu, part.lame, part.k, part.eta,
+                 mu_f[rows], dt, longest)  # fmt: skip
+            limits[rows] = np.minimum(limits[rows], longest)
     return limits
 
 
@@ -99,10 +99,10 @@ def _find_doubtful(
 
 def _find_limits(
     F: Floats, F0: Floats, R: Floats, rho: Floats, mu: Floats, lame: Floats, k: Floats, eta: Floats,
-    mu_f: Floats, dt: float, found: Floats,
+    mu_f: Floats, dt: float, longest: Floats,
 ) -> None:  # fmt: skip
-    """Store the longest stable steps in ``found``; see :class:`Particles` for the other arguments."""
-    for n in range(len(found)):
+    """Store the longest stable steps in ``longest``; see :class:`Particles` for the other arguments."""
+    for n in range(len(longest)):
         Q, stretches = principal_frame(_tensor(F, n))
         g = integrals(stretches)
         b = finger(dot(Q, _tensor(F, n)), metric_at_rest(_tensor(F0, n)))
@@ -111,7 +111,7 @@ def _find_limits(
         T = kirchhoff(b, J, mu[n], lame[n], k[n])
         tau = (T[0], T[4], T[8])
         c = 5.0 / (rho[n] * R[n] * R[n])
-        found[n] = np.inf
+        longest[n] = np.inf
         if is_stable(dt, stretches, g, e, tau, c, mu_f[n], eta[n]):
             continue
         low, high = safe_step(stretches, c, mu_f[n], eta[n]), dt
@@ -121,7 +121,7 @@ def _find_limits(
                 low = middle
             else:
                 high = middle
-        found[n] = low
+        longest[n] = low
 
 
 def _tensor(T: Floats, n: int) -> Tensor:

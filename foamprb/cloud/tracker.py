@@ -218,7 +218,7 @@ class Tracker:
         if integrator.adaptive and models.tolerance < np.inf and not any(m.traits.each_step for m in around):
             self.stride = models.stride
         self.options = (models.tolerance, self.stride) if integrator.adaptive else ()
-        self.whole = stretch_of(self.stride)
+        self.stretch_steps = stretch_of(self.stride)
         """Multiple of steps at which a run may be cut into calls without any change of its results."""
         self.rebounds: list[NDArray[np.float64]] = []
         self._room = _ROOM if models.rebounds else 0
@@ -258,8 +258,8 @@ class Tracker:
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
         fields: Fields | None = None,
     ) -> Scratch:
-        kept = self.layout.kept, self.layout.fresh
-        scratch = new_scratch(self.layout.rows, stop, bounds, self._room, kept)
+        lasting = self.layout.lasting, self.layout.fresh
+        scratch = new_scratch(self.layout.rows, stop, bounds, self._room, lasting)
         return scratch._replace(fields=fields.arrays) if self._columns and fields is not None else scratch
 
     def advance(
@@ -352,8 +352,8 @@ class Tracker:
 
     def take_rebounds(self) -> NDArray[np.float64]:
         """Return the records since the last call, as :func:`foamprb.cloud.contact.in_order` does."""
-        found, self.rebounds = self.rebounds, []
-        return in_order(found)
+        records, self.rebounds = self.rebounds, []
+        return in_order(records)
 
 
 class Task(NamedTuple):
@@ -386,7 +386,7 @@ def tasks_of(
     (step, count), (dt, start) = steps, times
     pending = p.status[rows] == Status.PENDING
     active, waiting = rows[~pending], rows[pending]
-    found = [Task(dealt, step, count) for dealt in _deal(in_blocks(p, active), number)]
+    tasks = [Task(dealt, step, count) for dealt in _deal(in_blocks(p, active), number)]
 
     # One step early: the loop computes these times with other round-off.
     due = np.maximum(np.floor((p.t0[waiting] - start) / dt) - 1.0, step)
@@ -395,24 +395,24 @@ def tasks_of(
     order = np.argsort(due, kind="stable")
     blocks = -(-len(waiting) // LANES)
     most = -(-blocks // _GROUPS) * LANES
-    for begin in range(0, len(waiting), max(most, 1)):
-        group = order[begin : begin + most]
+    for low in range(0, len(waiting), max(most, 1)):
+        group = order[low : low + most]
         first = int(due[group[0]])
-        found.append(Task(in_blocks(p, waiting[group]), first, step + count - first))
-    return found
+        tasks.append(Task(in_blocks(p, waiting[group]), first, step + count - first))
+    return tasks
 
 
 def _deal(rows: NDArray[np.int64], number: int) -> list[NDArray[np.int64]]:
     """Deal out blocks of rows in turn to at most ``number`` hands."""
     blocks = -(-len(rows) // LANES)
     missing = blocks * LANES - len(rows)
-    whole = np.pad(rows, (0, missing)).reshape(blocks, LANES)
+    padded = np.pad(rows, (0, missing)).reshape(blocks, LANES)
     hands = min(number, blocks)
-    found = [whole[k::hands].ravel() for k in range(hands)]
+    shares = [padded[k::hands].ravel() for k in range(hands)]
     if missing:
         last = (blocks - 1) % hands
-        found[last] = found[last][:-missing]
-    return found
+        shares[last] = shares[last][:-missing]
+    return shares
 
 
 def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -468,14 +468,14 @@ def check(models: Models, tense: bool) -> None:
 
 def _check_names(model: Surrounding) -> None:
     """Raise NameError if a model binds a name that no loop reads, and whose function no loop would call."""
-    bound, known = set[str](), set[str]()
+    bound, names_read = set[str](), set[str]()
     for integrator in INTEGRATORS.values():
         around = surroundings.compose(integrator.layout, [model], integrator.inertia)
         functions = linked(track_share, {**integrator.bindings, **around, "track": integrator.track})
         bound.update(model.bindings(integrator.inertia).keys() - {"prepare"})
-        known.update(*(function.__globals__ for function in functions))
-    for name in sorted(bound - known):
-        meant = closest(name, known)
+        names_read.update(*(function.__globals__ for function in functions))
+    for name in sorted(bound - names_read):
+        meant = closest(name, names_read)
         question = f". Did you mean {meant}?" if meant else ""
         raise NameError(f"{type(model).__name__} binds {name}, a name that no loop reads{question}")
 

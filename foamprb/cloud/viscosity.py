@@ -83,12 +83,12 @@ def evaluate_law(block: Any, _medium: Medium, _share: float, coefficients: Any) 
 
 
 def sample_field(
-    flow: Any, s: Scratch, i: int, _step: int, rest: float, _medium: Medium, coefficients: Any
+    flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Store the field and its gradient at the position of lane i."""
     block = s.block
     # Half-way in time, so that the error of a constant value is of second order.
-    t = block[at.t * LANES + i] + (0.5 * block[at.dt * LANES + i] if rest > 0.0 else 0.0)
+    t = block[at.t * LANES + i] + (0.5 * block[at.dt * LANES + i] if remaining > 0.0 else 0.0)
     mu, slope = viscosity(flow, s.host[i], load3(block, at.x, i), t)
     c = coefficients[0]
     block[fluid.mu_there * LANES + i] = c * mu
@@ -246,9 +246,9 @@ def viscosity_of(
     if not isinstance(mu, VaryingViscosity):
         return mu
     rate = np.asarray(shear_rate(tuple(l_f.T)))
-    known, found = np.isfinite(rate), np.full(len(x), np.nan)
-    found[known] = mu.of(flow, x[known], hosts[known], rate[known], t)
-    return found
+    finite, mu_f = np.isfinite(rate), np.full(len(x), np.nan)
+    mu_f[finite] = mu.of(flow, x[finite], hosts[finite], rate[finite], t)
+    return mu_f
 
 
 def medium_at(medium: Medium, flow: Sampled, p: Particles, t: float) -> Medium:
@@ -258,14 +258,14 @@ def medium_at(medium: Medium, flow: Sampled, p: Particles, t: float) -> Medium:
     """
     if not isinstance(medium.mu, VaryingViscosity):
         return medium
-    known = np.flatnonzero((p.host >= 0) & np.isfinite(p.x).all(axis=1))
+    inside = np.flatnonzero((p.host >= 0) & np.isfinite(p.x).all(axis=1))
     mu = np.full(p.size, medium.mu.at_rate(1.0))
-    if len(known):
-        x, hosts = p.x[known], p.host[known]
+    if len(inside):
+        x, hosts = p.x[inside], p.host[inside]
         l = flow.sample(x, hosts, t)[1].reshape(-1, 9)
-        found = viscosity_of(medium.mu, flow, x, hosts, l, t)
-        mu[:] = np.median(found)
-        mu[known] = found
+        values = viscosity_of(medium.mu, flow, x, hosts, l, t)
+        mu[:] = np.median(values)
+        mu[inside] = values
     return medium._replace(mu=mu)
 
 

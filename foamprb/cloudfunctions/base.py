@@ -119,7 +119,7 @@ class ObservedCloud:
     @cached_property
     def particles(self) -> Particles:
         """The observed particles, pending ones included; in a run on several processes collected here."""
-        return self.cloud.whole() if self._seen is None else self._seen
+        return self.cloud.all_particles() if self._seen is None else self._seen
 
     @property
     def time(self) -> float:
@@ -252,9 +252,9 @@ class SampledFunction(CloudFunction):
     def begin(self, cloud: ObservedCloud) -> Memory:
         """Return the first sample, of all particles, and the initial data."""
         p = cloud.particles
-        own = self.initial(cloud)
+        initial = self.initial(cloud)
         closed = np.zeros(p.size, dtype=bool)
-        return {"closed": closed, "t": p.t.copy(), **self.observe(cloud, np.arange(p.size)), **own}
+        return {"closed": closed, "t": p.t.copy(), **self.observe(cloud, np.arange(p.size)), **initial}
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add a sample of the particles that move, or that have ended since the last one."""
@@ -264,8 +264,8 @@ class SampledFunction(CloudFunction):
         """Add the last sample of the particles that have ended since the one before."""
         self._add(memory, cloud, ~memory["closed"] & has_ended(cloud, slice(None)))
 
-    def _add(self, memory: Memory, cloud: ObservedCloud, chosen: NDArray[np.bool_]) -> None:
-        p, rows = cloud.particles, np.flatnonzero(chosen)
+    def _add(self, memory: Memory, cloud: ObservedCloud, mask: NDArray[np.bool_]) -> None:
+        p, rows = cloud.particles, np.flatnonzero(mask)
         now = {**self.observe(cloud, rows), "t": p.t[rows]}
         self.add(memory, cloud, rows, now)
         store(memory, rows, {**now, "closed": has_ended(cloud, rows)})
@@ -273,7 +273,7 @@ class SampledFunction(CloudFunction):
 
 def names_of_kind(function: CloudFunction, kind: Kind) -> list[str]:
     """Return the names of the arrays of a kind."""
-    return [name for name, own in function.arrays.items() if own is kind]
+    return [name for name, its_kind in function.arrays.items() if its_kind is kind]
 
 
 def events_of(function: CloudFunction) -> str:
@@ -328,8 +328,8 @@ def _sums_of(rank: Rank, path: str, part: slice) -> NDArray[np.float64]:
     """Return the cell sums of a rank's part of a range."""
     first, sums = rank.sampling.sums[path]
     ends = first[rank.number : rank.number + 2]
-    own: NDArray[np.float64] = sums[slice(*np.clip([part.start, part.stop], *ends) - ends[0])]
-    return own
+    of_range: NDArray[np.float64] = sums[slice(*np.clip([part.start, part.stop], *ends) - ends[0])]
+    return of_range
 
 
 def map_where_they_move(
@@ -354,8 +354,8 @@ def store(memory: Memory, rows: Rows, values: Memory) -> None:
 
 def memory_of(memory: Mapping[str, NDArray[Any]], name: str) -> Memory:
     """Return the arrays of a function among those of all, by ``function/array``; all without a name."""
-    own = f"{name}/" if name else ""
-    return {key.removeprefix(own): array for key, array in memory.items() if key.startswith(own)}
+    prefix = f"{name}/" if name else ""
+    return {key.removeprefix(prefix): array for key, array in memory.items() if key.startswith(prefix)}
 
 
 def append(memory: Memory, name: str, lines: Any) -> NDArray[np.float64]:

@@ -99,16 +99,16 @@ class DeformabilityCytometry(PlaneFunction):
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the particles that have changed sides since the last sample."""
         p = cloud.particles
-        found = crossings(memory, now, rows, np.array(self.origin), _unit(self.normal))
-        at, s = found.rows, found.share[:, None]
-        F = ((1.0 - s) * memory["F"][at] + s * now["F"][found.among]).reshape(-1, 3, 3)
+        crossed = crossings(memory, now, rows, np.array(self.origin), _unit(self.normal))
+        at, s = crossed.rows, crossed.share[:, None]
+        F = ((1.0 - s) * memory["F"][at] + s * now["F"][crossed.among]).reshape(-1, 3, 3)
         seen = outline(p.R[at, None, None] ** 2 * F @ F.transpose(0, 2, 1), _unit(self.view))
         new = np.column_stack(
             [
                 p.number[at],
-                found.time,
-                found.x,
-                found.sense,
+                crossed.time,
+                crossed.x,
+                crossed.sense,
                 seen.area,
                 seen.perimeter,
                 seen.semi_axes,

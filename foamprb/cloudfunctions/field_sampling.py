@@ -94,10 +94,10 @@ class FieldSampling(SampledFunction, StepObserver):
         now["value"] = np.where(np.isfinite(now["value"]), now["value"], before)
         h = now["t"] - memory["t"][rows]
         memory["integral"][rows] += 0.5 * h[:, None] * (before + now["value"])
-        for k, (_, own) in enumerate(self._columns(columns_of(cloud.cloud.flow))):
-            both = [v[:, own][:, 0] if own.stop - own.start == 1 else np.linalg.norm(v[:, own], axis=1)
-                    for v in (before, now["value"])]  # fmt: skip
-            memory["largest"][rows, k] = np.fmax(memory["largest"][rows, k], np.fmax(*both))
+        for k, (_, columns) in enumerate(self._columns(columns_of(cloud.cloud.flow))):
+            both = (v[:, columns] for v in (before, now["value"]))
+            sizes = [v[:, 0] if v.shape[1] == 1 else np.linalg.norm(v, axis=1) for v in both]
+            memory["largest"][rows, k] = np.fmax(memory["largest"][rows, k], np.fmax(*sizes))
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:  # noqa: ARG002
         """Write the values of all particles that were released."""
@@ -107,16 +107,16 @@ class FieldSampling(SampledFunction, StepObserver):
 
     def fates(self, memory: Memory, fields: Sequence[FieldColumns]) -> Mapping[str, Column]:
         """Return the last values."""
-        columns = [_named(name, "", memory["value"][:, own]) for name, own in self._columns(fields)]
-        return {name: column for named in columns for name, column in named.items()}
+        tables = [_named(name, "", memory["value"][:, columns]) for name, columns in self._columns(fields)]
+        return {name: column for named in tables for name, column in named.items()}
 
     def _columns(self, fields: Sequence[FieldColumns]) -> list[tuple[str, slice]]:
         """Return the name of each of its fields and its columns in the data, by the fields of the flow."""
-        components, found, end = {field.name: field.components for field in fields}, [], 0
+        components, columns, end = {field.name: field.components for field in fields}, [], 0
         for name in self.fields:
             start, end = end, end + components[name]
-            found.append((name_of_field(name), slice(start, end)))
-        return found
+            columns.append((name_of_field(name), slice(start, end)))
+        return columns
 
     def _table(self, fields: Mapping[str, FieldValues]) -> Floats:
         return np.concatenate([fields[name_of_field(name)].values for name in self.fields], axis=1)
@@ -136,8 +136,8 @@ def _values_of(
     }
     last = memory["value"][rows]
     mean = np.divide(memory["integral"][rows], duration, out=last.copy(), where=duration > 0.0)
-    for k, (name, own) in enumerate(fields):
-        table |= _named(name, "", last[:, own]) | _named(name, "Mean", mean[:, own])
+    for k, (name, columns) in enumerate(fields):
+        table |= _named(name, "", last[:, columns]) | _named(name, "Mean", mean[:, columns])
         table[f"{name}Max"] = memory["largest"][rows, k]
     return rows_of(table)
 

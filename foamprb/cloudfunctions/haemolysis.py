@@ -171,11 +171,13 @@ class Haemolysis(SampledFunction, ContactObserver):
     }
 
     def __post_init__(self) -> None:
-        given = [name for name in ("A", "alpha", "beta") if getattr(self, name) is not None]
-        if self.constants == "own" and len(given) < 3:
+        entries = [name for name in ("A", "alpha", "beta") if getattr(self, name) is not None]
+        if self.constants == "own" and len(entries) < 3:
             raise InputError("has constants own, which need A, alpha and beta")
-        if self.constants != "own" and given:
-            raise InputError(f"has the constants of {self.constants} and {given[0]}; constants own takes it")
+        if self.constants != "own" and entries:
+            raise InputError(
+                f"has the constants of {self.constants} and {entries[0]}; constants own takes it"
+            )
         if self.constants == "pores" and self.stress == "fluid":
             raise InputError("has constants pores, which need stress KelvinVoigt or morphology, not fluid")
 
@@ -205,20 +207,25 @@ class Haemolysis(SampledFunction, ContactObserver):
         gamma, mu, gradient = cloud.measure(
             rows, "shearRate", lambda c: c.mu, lambda c: np.stack(c.l_f, axis=1)
         )
-        found: Memory = {"fluid": gamma, "mu": mu if self.mu is None else np.full(len(rows), self.mu)}
+        fluid: Memory = {"fluid": gamma, "mu": mu if self.mu is None else np.full(len(rows), self.mu)}
         if self.stress == "fluid":
-            return {"rate": self._rate(gamma, found)}
-        return {**found, "l": gradient} if self.stress == "morphology" else found
+            return {"rate": self._rate(gamma, fluid)}
+        return {**fluid, "l": gradient} if self.stress == "morphology" else fluid
 
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return integrals of zero, cells at rest and an empty table."""
         n = cloud.particles.size
-        own = {"dose": np.zeros(n), "history": np.empty((0, 4)), "peak": np.zeros(n), "warned": np.zeros(1)}
+        memory = {
+            "dose": np.zeros(n),
+            "history": np.empty((0, 4)),
+            "peak": np.zeros(n),
+            "warned": np.zeros(1),
+        }
         if self.stress == "KelvinVoigt":
-            own["cell"] = np.zeros((n, 1))
+            memory["cell"] = np.zeros((n, 1))
         if self.stress == "morphology":
-            own["cell"] = np.tile(np.eye(3).ravel(), (n, 1))
-        return own
+            memory["cell"] = np.tile(np.eye(3).ravel(), (n, 1))
+        return memory
 
     def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
         """Return whether there are coupled patches, at which the shape of a cell turns."""
@@ -289,20 +296,20 @@ class Haemolysis(SampledFunction, ContactObserver):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the damage of all particles that were released, and the means by injection model."""
-        found: list[_Damage] = []
+        damages: list[_Damage] = []
         injectors = cloud.names["injector"]
 
         def rows() -> Iterator[TableRows]:
             for damage in cloud.map(self._damage, injectors):
-                found.append(damage._replace(rows=TableRows((), b"")))
+                damages.append(damage._replace(rows=TableRows((), b"")))
                 yield damage.rows
 
         write_rows(folder / "haemolysis.csv", rows())
-        self._warn(memory, found, folder.name)
+        self._warn(memory, damages, folder.name)
         lines = []
         for number in range(len(injectors)):
-            own = np.concatenate([damage.indices[number] for damage in found])
-            lines.append([cloud.time, number, len(own), own.mean() if len(own) else np.nan])
+            indices = np.concatenate([damage.indices[number] for damage in damages])
+            lines.append([cloud.time, number, len(indices), indices.mean() if len(indices) else np.nan])
         time, injector, n, mean = append(memory, "history", lines).T
         write_table(
             folder / "means.csv",
@@ -330,18 +337,18 @@ class Haemolysis(SampledFunction, ContactObserver):
             float(times.max(initial=-np.inf)),
         )  # fmt: skip
 
-    def _warn(self, memory: Memory, found: Sequence[_Damage], name: str) -> None:
+    def _warn(self, memory: Memory, damages: Sequence[_Damage], name: str) -> None:
         """Warn, once in a run, of stresses and times beyond the experiments of the constants."""
-        beyond = sum(damage.beyond for damage in found)
+        beyond = sum(damage.beyond for damage in damages)
         if not beyond or memory["warned"][0]:
             return
         memory["warned"] = np.ones(1)
         log.warning(
             "cloudFunctions/%s: %d of %d particles are beyond the range of the constants %s, stresses from "
             "%g to %g Pa and times up to %g s: their largest stress is %.3g Pa, the longest time %.3g s.",
-            name, beyond, sum(damage.released for damage in found), self.constants, self.law.least,
-            self.law.most, self.law.longest, max(damage.peak for damage in found),
-            max(damage.longest for damage in found),
+            name, beyond, sum(damage.released for damage in damages), self.constants, self.law.least,
+            self.law.most, self.law.longest, max(damage.peak for damage in damages),
+            max(damage.longest for damage in damages),
         )  # fmt: skip
 
 

@@ -66,11 +66,11 @@ class ParticleCollector(PlaneFunction):
         """Add the particles that have changed sides since the last sample."""
         p = cloud.particles
         e = np.array(self.normal) / math.hypot(*self.normal)
-        found = crossings(memory, now, rows, np.array(self.origin), e)
-        at, x = found.rows, found.x
-        before, after = (taylor_of(cloud, at, F) for F in (memory["F"][at], now["F"][found.among]))
-        D = before + found.share * (after - before)
-        new = np.column_stack([p.number[at], found.time, x, found.sense, D, masses(p, at)])
+        crossed = crossings(memory, now, rows, np.array(self.origin), e)
+        at, x = crossed.rows, crossed.x
+        before, after = (taylor_of(cloud, at, F) for F in (memory["F"][at], now["F"][crossed.among]))
+        D = before + crossed.share * (after - before)
+        new = np.column_stack([p.number[at], crossed.time, x, crossed.sense, D, masses(p, at)])
         if self.radius is not None:
             aside = x - self.origin - ((x - self.origin) @ e)[:, None] * e
             new = new[np.linalg.norm(aside, axis=1) <= self.radius]
@@ -94,10 +94,10 @@ class ParticleCollector(PlaneFunction):
         before = memory["history"][-1, 0] if len(memory["history"]) else cloud.cloud.start
         lines = []
         for index in range(len(cloud.names["injector"])):
-            own = injector == index
-            n = [np.count_nonzero(own & counted & (sense * side > 0.0)) for side in (1.0, -1.0)]
-            rate = weight[own & fresh].sum() / max(cloud.time - before, 1e-300)
-            lines.append([cloud.time, index, *n, weight[own & counted].sum(), rate])
+            of_model = injector == index
+            n = [np.count_nonzero(of_model & counted & (sense * side > 0.0)) for side in (1.0, -1.0)]
+            rate = weight[of_model & fresh].sum() / max(cloud.time - before, 1e-300)
+            lines.append([cloud.time, index, *n, weight[of_model & counted].sum(), rate])
         memory["written"][0] = len(crossings)
         time, index, along, against, total, rate = append(memory, "history", lines).T
         write_table(

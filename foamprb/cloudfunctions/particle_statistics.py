@@ -95,12 +95,12 @@ class ParticleStatistics(SampledFunction, StepObserver):
         # A particle that the mesh has lost counts in its last cell.
         now["cell"] = np.where(now["cell"] >= 0, now["cell"], memory["cell"][rows])
         for end, values in enumerate(({name: memory[name][rows] for name in now}, now)):
-            known = np.flatnonzero(values["cell"] >= 0)
-            number, weight = cloud.particles.number[rows[known]], half[known]
-            own = [np.ones(len(known)), *(values[name][known] for name in ("D", "S") if name in now)]
-            added = weight[:, None] * np.column_stack(own)
-            ends = np.full(len(known), end)
-            append(memory, "passed", np.column_stack([number, ends, values["cell"][known], added]))
+            inside = np.flatnonzero(values["cell"] >= 0)
+            number, weight = cloud.particles.number[rows[inside]], half[inside]
+            quantities = [np.ones(len(inside)), *(values[name][inside] for name in ("D", "S") if name in now)]
+            added = weight[:, None] * np.column_stack(quantities)
+            ends = np.full(len(inside), end)
+            append(memory, "passed", np.column_stack([number, ends, values["cell"][inside], added]))
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
@@ -131,7 +131,7 @@ def _fields(sums: Floats, volumes: Floats, time: float) -> dict[str, Floats]:
     """Return the fields at cells by the sums of all samples, volumes (m³) and the time since the start, s."""
     spent, timeD, *more = sums.T
     passed = np.maximum(volumes, 1e-300) * time
-    found = {
+    fields = {
         "concentration": spent / passed,
         "residenceTime": spent,
         "meanD": np.divide(timeD, spent, out=np.zeros_like(spent), where=spent > 0.0),
@@ -140,8 +140,8 @@ def _fields(sums: Floats, volumes: Floats, time: float) -> dict[str, Floats]:
     if more:
         # The volume comes first.
         volume, *stress = more / passed
-        found |= {"volumeFraction": volume, "sigmaParticles": np.stack(stress, axis=1)}
-    return found
+        fields |= {"volumeFraction": volume, "sigmaParticles": np.stack(stress, axis=1)}
+    return fields
 
 
 def _flow(cloud: ObservedCloud) -> Any:

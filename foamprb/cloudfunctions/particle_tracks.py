@@ -88,8 +88,8 @@ class ParticleTracks(CloudFunction, ContactObserver):
                 tracks = np.searchsorted(memory["row"], met.number)
                 # The flow may have changed since: shear rate and fields are those of the point before.
                 last = memory["points"][tracks, memory["count"][tracks] - 1]
-                begin = np.full(p.size, begins)
-                points = [met.x, met.t, met.v, axes, D, last[:, 11], begin, last[:, len(_POINT) :]]
+                at_start = np.full(p.size, begins)
+                points = [met.x, met.t, met.v, axes, D, last[:, 11], at_start, last[:, len(_POINT) :]]
                 self._append(memory, tracks, np.column_stack(points))
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
@@ -104,12 +104,12 @@ class ParticleTracks(CloudFunction, ContactObserver):
         tracks, points, ended = tracks[moved], points[moved], np.flatnonzero(ended[moved])
         first = tracks[memory["count"][tracks] == 1]
         if points.shape[1] > len(_POINT) and len(first):
-            found = cloud.of(memory["row"][first])
-            fields = fields_at_release(found, np.arange(len(first)), memory["host"][first])
+            observed = cloud.of(memory["row"][first])
+            fields = fields_at_release(observed, np.arange(len(first)), memory["host"][first])
             memory["points"][first, 0, len(_POINT) :] = _values(fields, len(first))
         if points.shape[1] > len(_POINT) and len(ended):
-            found = cloud.of(memory["row"][tracks[ended]])
-            points[ended, len(_POINT) :] = _values(fields_of(found, np.arange(len(ended))), len(ended))
+            observed = cloud.of(memory["row"][tracks[ended]])
+            points[ended, len(_POINT) :] = _values(fields_of(observed, np.arange(len(ended))), len(ended))
         self._append(memory, tracks, points)
 
     def _append(self, memory: Memory, tracks: Rows, points: NDArray[np.float64]) -> None:
@@ -138,7 +138,7 @@ class ParticleTracks(CloudFunction, ContactObserver):
         rows = tracks[np.searchsorted(first, start, side="right") - 1]
         fields = fields_of(cloud, rows[:0])
         ends = len(_POINT) + np.cumsum([f.values.shape[1] for f in fields.values()], dtype=int)
-        found = {
+        values = {
             name: FieldValues(points[:, end - f.values.shape[1] : end], f.unit).array
             for (name, f), end in zip(fields.items(), ends, strict=True)
         }
@@ -148,7 +148,7 @@ class ParticleTracks(CloudFunction, ContactObserver):
                 points[:, :3].copy(),
                 np.append(start, len(points)),
                 {"time": points[:, 3], "U": points[:, 4:7], "semiAxes": points[:, 7:10],
-                 "taylorDeformation": points[:, 10], "shearRate": points[:, 11], **found},
+                 "taylorDeformation": points[:, 10], "shearRate": points[:, 11], **values},
                 {"origId": memory["row"][rows], "d": 2.0 * p.R[rows], "Ca": p.Ca[rows],
                  "injector": p.injector[rows], "status": p.status[rows], "patch": p.patch[rows]},
                 {"time": "s", "d": "m", "Ca": "1"} | {n: MEASURES[n].unit for n in ("U", *_TRACKED)}

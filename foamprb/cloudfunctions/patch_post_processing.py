@@ -94,9 +94,9 @@ class PatchPostProcessing(CloudFunction, ContactObserver):
         for patch in self._chosen(cloud):
             path = folder / f"{file_name(cloud.names['patch'][patch])}.csv"
             if patch in bouncing:
-                found = rebounds_of(memory["rebounds"])
-                mine = found.patch == patch
-                met = (Rebounds(*(array[mine][part] for array in found)) for part in parts_of(mine.sum()))
+                records = rebounds_of(memory["rebounds"])
+                mine = records.patch == patch
+                met = (Rebounds(*(array[mine][part] for array in records)) for part in parts_of(mine.sum()))
             else:
                 met = self._landings(cloud, patch)
             write_rows(path, (_rows_of(cloud, some, patch in bouncing) for some in met))
@@ -113,8 +113,8 @@ class PatchPostProcessing(CloudFunction, ContactObserver):
         """Drop rebounds beyond ``maxStoredParcels``, when all particles are at the same time."""
         rows = in_order([memory["rebounds"]])
         patch = rebounds_of(rows).patch
-        kept = [rows[patch == which][: self.maxStoredParcels] for which in bouncing]
-        memory["rebounds"] = in_order(kept)
+        first_rows = [rows[patch == which][: self.maxStoredParcels] for which in bouncing]
+        memory["rebounds"] = in_order(first_rows)
 
     def _landings(self, cloud: ObservedCloud, patch: int) -> Iterator[Rebounds]:
         """Yield the ends of particles on a patch in the order of time, in the form of rebounds."""

@@ -86,9 +86,9 @@ class CloudFunctions:
             except InputError as error:
                 raise InputError(f"cloudFunctions/{name}: {error}") from error
         names, base = self.travelling, cloud.cloud
-        own = {name: self.functions[name] for name in names}
-        given = self._sums, base.interactions, base.medium, cloud.names
-        base.comm.call(install, Sampling(own, self._no_events(names), *given))
+        functions = {name: self.functions[name] for name in names}
+        arguments = self._sums, base.interactions, base.medium, cloud.names
+        base.comm.call(install, Sampling(functions, self._no_events(names), *arguments))
 
     def _begin(self, name: str, function: CloudFunction) -> None:
         """Let a function return its initial data."""
@@ -141,9 +141,9 @@ class CloudFunctions:
     def _gather(self) -> None:
         """Take the events of all ranks, in the order of their times."""
         self._record_rebounds()
-        found = self.cloud.cloud.comm.call(take_events)
-        for name in found[0]:
-            new = np.concatenate([tables[name] for tables in found])
+        events = self.cloud.cloud.comm.call(take_events)
+        for name in events[0]:
+            new = np.concatenate([tables[name] for tables in events])
             append(self._memory[name], events_of(self.functions[name]), in_time(new))
 
     def write(self, folder: Path) -> None:
@@ -172,8 +172,8 @@ class CloudFunctions:
         """Return the data of all functions, by ``function/array``; without the rows of several ranks."""
         self._gather()
         here = self.cloud.cloud.comm.arrays_here()
-        own = {f"{name}/{key}": array for name, m in self._memory.items() for key, array in m.items()}
-        return {path: here.get(path, array) for path, array in own.items()}
+        arrays = {f"{name}/{key}": array for name, m in self._memory.items() for key, array in m.items()}
+        return {path: here.get(path, array) for path, array in arrays.items()}
 
     def _record_rebounds(self) -> None:
         """Let the functions record rebounds and passages since the last call."""
@@ -202,14 +202,14 @@ class CloudFunctions:
         InputError
             If it belongs to other functions.
         """
-        expected, found = {*self.state()}, {*stored}
-        if expected != found:
-            changed = ", ".join(sorted({key.split("/")[0] for key in expected ^ found}))
+        expected, names = {*self.state()}, {*stored}
+        if expected != names:
+            changed = ", ".join(sorted({key.split("/")[0] for key in expected ^ names}))
             raise InputError(f"cloudFunctions: {changed} was not observed from the start, or no longer is.")
         for name, memory in self._memory.items():
             kinds = self.functions[name].arrays
-            rest = [key for key in memory if kinds[key] not in (per_particle, per_cell)]
-            memory.update({key: read(f"{name}/{key}") for key in rest})
+            tables = [key for key in memory if kinds[key] not in (per_particle, per_cell)]
+            memory.update({key: read(f"{name}/{key}") for key in tables})
 
 
 def _with_fates(
@@ -221,7 +221,7 @@ def _with_fates(
     *arguments: Any,
 ) -> Value:
     """Return what a function finds of particles, and of the columns of cloud functions for them."""
-    found: dict[str, Column] = {}
-    for name, own in functions.items():
-        found |= own.fates(memory_of(memory, name), fields)
-    return function(p, found, *arguments)
+    columns: dict[str, Column] = {}
+    for name, cloud_function in functions.items():
+        columns |= cloud_function.fates(memory_of(memory, name), fields)
+    return function(p, columns, *arguments)

@@ -61,15 +61,15 @@ class Sampling:
         self.sums: dict[str, tuple[NDArray[np.int64], NDArray[np.float64]]] = {}
         """The first cell of each rank, and the sums of the cells of this one, by ``function/array``."""
 
-    def begin(self, rank: Rank) -> None:
+    def install(self, rank: Rank) -> None:
         """Sample the particles of a rank from now on."""
         firsts = rank.firsts
         for name, (n, array) in self._no_sums.items():
             # A rank without a part of a checkpoint has none.
             first = np.where(firsts == firsts[-1], n, firsts * n // max(firsts[-1], 1))
             first[0] = 0
-            own = int(first[rank.number + 1] - first[rank.number])
-            self.sums[name] = first, np.zeros((own, *array.shape[1:]))
+            n_cells = int(first[rank.number + 1] - first[rank.number])
+            self.sums[name] = first, np.zeros((n_cells, *array.shape[1:]))
         rank.sampling = self
 
     def cloud(self, rank: Rank, p: Particles, time: float) -> ObservedCloud:
@@ -102,14 +102,16 @@ class Sampling:
     def record(self, rank: Rank, rows: NDArray[np.float64], time: float) -> None:
         """Let the functions record rebounds and passages of the particles of a rank."""
         here, at = rank.find(rows[:, 0].astype(np.int64))
-        own = np.column_stack([at, rows[here, 1:]])
+        here_rows = np.column_stack([at, rows[here, 1:]])
         observers = self._of_kind(ContactObserver)
-        self.observe(rank, observers, time, lambda f, memory, cloud: f.record_rebounds(memory, cloud, own))
+        self.observe(
+            rank, observers, time, lambda f, memory, cloud: f.record_rebounds(memory, cloud, here_rows)
+        )
 
     def take_events(self) -> Memory:
         """Return the events that the functions have recorded since the last call."""
-        found, self._events = {**self._no_events, **self._events}, {}
-        return found
+        events, self._events = {**self._no_events, **self._events}, {}
+        return events
 
     def add_up(self, rank: Rank, names: Collection[str]) -> None:
         """Add the events of some functions to the sums of cells, each on the rank that has these."""
@@ -118,9 +120,9 @@ class Sampling:
             if name not in names:
                 continue
             events = self._events[name]
-            found = rank.sent(np.searchsorted(first[1:], events[:, 2], side="right"), events)
-            found[:, 2] -= first[rank.number]
-            add_up(sums, in_time(found))
+            received = rank.sent(np.searchsorted(first[1:], events[:, 2], side="right"), events)
+            received[:, 2] -= first[rank.number]
+            add_up(sums, in_time(received))
             self._events[name] = events[:0].copy()
 
     def _of_kind(self, kind: type) -> list[str]:
@@ -129,7 +131,7 @@ class Sampling:
 
 def install(rank: Rank, sampling: Sampling) -> None:
     """Let functions sample the particles of a rank."""
-    sampling.begin(rank)
+    sampling.install(rank)
 
 
 def sample(rank: Rank, names: Collection[str], time: float) -> None:
@@ -145,5 +147,5 @@ def record(rank: Rank, rows: NDArray[np.float64], time: float) -> None:
 
 def take_events(rank: Rank) -> Memory:
     """See :meth:`Sampling.take_events`."""
-    found: Memory = rank.sampling.take_events()
-    return found
+    events: Memory = rank.sampling.take_events()
+    return events

@@ -38,8 +38,8 @@ class _Dump(Protocol):
 
 def cache_directory() -> Path:
     """Return the folder of the cache: ``$FOAMPRB_CACHE_DIR``, else ``foamprb`` in the user's cache folder."""
-    chosen = os.environ.get("FOAMPRB_CACHE_DIR")
-    return Path(chosen) if chosen else Path(platformdirs.user_cache_dir("foamprb", appauthor=False))
+    folder = os.environ.get("FOAMPRB_CACHE_DIR")
+    return Path(folder) if folder else Path(platformdirs.user_cache_dir("foamprb", appauthor=False))
 
 
 class Store:
@@ -70,8 +70,8 @@ class Store:
         data = _read(self._file(key), self._root)
         # It may name a class that no longer exists.
         with suppress(Exception):
-            found, value = pickle.loads(data)
-            return value if found == (self._name, key) else None
+            saved_key, value = pickle.loads(data)
+            return value if saved_key == (self._name, key) else None
         return None
 
     def save(self, key: Any, value: Any) -> None:

@@ -172,18 +172,18 @@ def _name_of_stage(qualified: str, kinds: Sequence[Any]) -> str:
     )
 
 
-def _context(own: Any, stage: str = "") -> Any:
+def _context(target: Any, stage: str = "") -> Any:
     """Return a copy of numba's context of a target for functions that Python does not call.
 
     ``stage`` is the qualified name of a stage, with its key.
     """
-    context = copy.copy(own)
+    context = copy.copy(target)
     context.get_executable = _without_executable
     if stage:
 
         def mangler(name: str, kinds: Sequence[Any], **more: Any) -> Any:
             is_stage = name.endswith(stage) and not name.startswith(".NumbaEnv")
-            return _name_of_stage(stage, kinds) if is_stage else own.mangler(name, kinds, **more)
+            return _name_of_stage(stage, kinds) if is_stage else target.mangler(name, kinds, **more)
 
         context.mangler = mangler
     return context
@@ -212,17 +212,17 @@ def _lowering(role: Role) -> type:
         _name = f"lowering_of_{role}"
 
         def run_pass(self, state: Any) -> bool:
-            own = state.targetctx
+            target = state.targetctx
             name = state.func_id.func_qualname
-            state.library = _LIBRARIES[role](own.codegen(), name)
+            state.library = _LIBRARIES[role](target.codegen(), name)
             if role in ("entry", "stage"):
                 state.library.enable_object_caching()
             if role != "entry":
-                state.targetctx = _context(own, name if role == "stage" else "")
+                state.targetctx = _context(target, name if role == "stage" else "")
             try:
                 return bool(super().run_pass(state))
             finally:
-                state.targetctx = own
+                state.targetctx = target
 
     return Lowering
 
@@ -452,10 +452,10 @@ class _Cache:
     def _rebuilt(self, context: Any, saved: Any) -> Any:
         called, state = saved
         self._compile(called)
-        own, codegen = _context(context), context.codegen()
-        own.codegen = lambda: _Reader(codegen)
+        target, codegen = _context(context), context.codegen()
+        target.codegen = lambda: _Reader(codegen)
         # Without the environments of interpreted code, which belong to entries.
-        return CompileResult._rebuild(own, *state[:-1], ())
+        return CompileResult._rebuild(target, *state[:-1], ())
 
     def _reduced(self, result: Any) -> Any:
         return self._called(result), result._reduce()
@@ -486,13 +486,13 @@ class _CacheOfEntry(_Cache):
         called, state = saved
         self._compile(called)
         for keys in self._keys:
-            state = state.replace(keys.outside.encode(), keys.own.encode())
+            state = state.replace(keys.outside.encode(), keys.full.encode())
         return CompileResult._rebuild(context, *pickle.loads(state))
 
     def _reduced(self, result: Any) -> Any:
         state = dumps(result._reduce())
         for keys in self._keys:
-            state = state.replace(keys.own.encode(), keys.outside.encode())
+            state = state.replace(keys.full.encode(), keys.outside.encode())
         return self._called(result), state
 
 
@@ -502,7 +502,7 @@ def use_cache(dispatcher: Any, key: str, stages: Mapping[str, Part]) -> Store:
     Its code changes with those of the ``stages`` that it calls: they go by their own keys.
     """
     store = Store(key, dumps)
-    dispatcher._cache = _Cache(store, {part.keys.own: part for part in stages.values()})
+    dispatcher._cache = _Cache(store, {part.keys.full: part for part in stages.values()})
     return store
 
 

@@ -107,8 +107,8 @@ def link(
 
 def read_by(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> dict[str, Any]:
     """Return the bindings whose names ``entry`` or a function linked with it reads."""
-    found = {name for function in linked(entry, bindings) for name in _global_names(function.__code__)}
-    return {name: value for name, value in bindings.items() if name in found}
+    names_read = {name for function in linked(entry, bindings) for name in _global_names(function.__code__)}
+    return {name: value for name, value in bindings.items() if name in names_read}
 
 
 def linked(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> Collection[Callable[..., Any]]:
@@ -178,7 +178,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role, called: s
         part = _link_once(function, linkage, role, called)
         if role == "stage" and linkage.stages.setdefault(part.keys.outside, part) is not part:
             # Another stage of this loop has the name, so the code must distinguish them.
-            part = part._replace(keys=Keys(part.keys.own, part.keys.own))
+            part = part._replace(keys=Keys(part.keys.full, part.keys.full))
             linkage.stages[part.keys.outside] = part
         linkage.done[task] = part
     return linkage.done[task]
@@ -191,8 +191,8 @@ def _link_callee(name: str, function: Callable[..., Any], linkage: _Linkage) -> 
     if not hasattr(function, TRACED) or _internals() is None:
         return _link(function, linkage, "separate")
     # A name that is not bound may mean other functions elsewhere.
-    own = f"{function.__module__}.{function.__qualname__}"
-    return _link(function, linkage, "stage", name if name in linkage.bindings else own)
+    qualified = f"{function.__module__}.{function.__qualname__}"
+    return _link(function, linkage, "stage", name if name in linkage.bindings else qualified)
 
 
 def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, called: str) -> Part:
@@ -203,9 +203,9 @@ def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, call
     names: dict[str, Any] = {}
     captured = [cell.cell_contents for cell in function.__closure__ or ()]
     is_traced = hasattr(function, TRACED)
-    own = f"{role} {called} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
+    identity = f"{role} {called} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
     code = f"{_fingerprint(function.__code__).hex()} {captured!r} {is_traced}"
-    described = [Keys(own, own), Keys(code, code)]
+    described = [Keys(identity, identity), Keys(code, code)]
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, function.__globals__.get(name))
         text = ""
@@ -222,17 +222,17 @@ def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, call
     keys = Keys(*map(_key_of, zip(*described, strict=True)))
     if role == "stage":
         keys = keys._replace(outside=_key_of([called]))
-    if keys.own not in _parts:
+    if keys.full not in _parts:
         cells = tuple(CellType(_constant(value)) for value in captured)
         scope = {**function.__globals__, **names}
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, cells)
         # Code is linked by name, and another process may have bound another model to the same name.
-        clone.__qualname__ = f"{function.__qualname__}_{keys.own}"
+        clone.__qualname__ = f"{function.__qualname__}_{keys.full}"
         clone.__module__ = function.__module__
         if is_traced:
             traced(clone)
-        _parts[keys.own] = Part(_compile(clone, role, keys, linkage.stages), keys)
-    return _parts[keys.own]
+        _parts[keys.full] = Part(_compile(clone, role, keys, linkage.stages), keys)
+    return _parts[keys.full]
 
 
 def _key_of(texts: Iterable[str]) -> str:
@@ -292,8 +292,8 @@ def _processor() -> str:
     with suppress(RuntimeError):
         features = binding.get_host_cpu_features().flatten()
         # From NUMBA_CPU_NAME and NUMBA_CPU_FEATURES.
-        chosen = f"{numba.config.CPU_NAME} {numba.config.CPU_FEATURES}"
-        return f"{binding.get_host_cpu_name()} {features} {chosen}"
+        override = f"{numba.config.CPU_NAME} {numba.config.CPU_FEATURES}"
+        return f"{binding.get_host_cpu_name()} {features} {override}"
     return platform.machine()
 
 
@@ -330,18 +330,18 @@ def _compile(function: Callable[..., Any], role: Role, keys: Keys, stages: Mappi
     dispatcher = numba.njit(**_OPTIONS, **_OPTIONS_OF[role], **internals.pipeline(role))(function)
     if role == "entry":
         of_stages = [_stores[id(part.dispatcher)] for part in stages.values()]
-        own = internals.use_cache_of_entry(dispatcher, keys, stages)
-        _stores[id(dispatcher)] = (own, *(store for stores in of_stages for store in stores))
+        store_of_entry = internals.use_cache_of_entry(dispatcher, keys, stages)
+        _stores[id(dispatcher)] = (store_of_entry, *(store for stores in of_stages for store in stores))
     elif role != "inlined":
-        _stores[id(dispatcher)] = (internals.use_cache(dispatcher, keys.own, stages),)
+        _stores[id(dispatcher)] = (internals.use_cache(dispatcher, keys.full, stages),)
     return dispatcher
 
 
 @cache
 def _global_names(code: CodeType) -> frozenset[str]:
     """Return the names that the code reads from its module; ``co_names`` has attributes as well."""
-    own = frozenset(step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL")
-    return own.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
+    names = frozenset(step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL")
+    return names.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
 
 
 @cache

@@ -10,7 +10,7 @@ __all__ = ["Keys", "Part"]
 class Keys(NamedTuple):
     """Keys of a function, of equal length."""
 
-    own: str
+    full: str
     """It changes with the code of the function and of its callees."""
     outside: str
     """The same, but stages count by the names by which they are called, and not by their code."""

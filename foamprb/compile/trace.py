@@ -106,9 +106,9 @@ class Code:
 
     def each_lane(self) -> Iterator[_Place]:
         """Yield the index of all lanes together."""
-        before = self.block.known
+        before = self.block.current
         for _ in range(self._passes):
-            self.block.known = dict(before)
+            self.block.current = dict(before)
             self._loops += 1
             self._loop = self._loops
             yield _Place(0)
@@ -116,7 +116,7 @@ class Code:
 
     def does_as(self, other: Code) -> bool:
         """Return True if another code has the same operations and leaves the same block."""
-        mine, its = ({k: _text(v) for k, v in code.block.known.items()} for code in (self, other))
+        mine, its = ({k: _text(v) for k, v in code.block.current.items()} for code in (self, other))
         return self._known == other._known and mine == its
 
     def load(self, offset: int) -> Symbol:
@@ -163,8 +163,8 @@ class Code:
         """Record a call of an LLVM function."""
         name = f"@llvm.{function}.v{self._together}f64"
         self._functions[name] = len(operands)
-        given = ", ".join(f"{self._numbers} {self._operand(a)}" for a in operands)
-        return Symbol(*self._result(f"call {self._flags} {self._numbers} {name}({given})", *operands))
+        arguments = ", ".join(f"{self._numbers} {self._operand(a)}" for a in operands)
+        return Symbol(*self._result(f"call {self._flags} {self._numbers} {name}({arguments})", *operands))
 
     def compare(self, relation: str, a: Any, b: Any) -> Condition:
         """Record a comparison."""
@@ -312,15 +312,15 @@ class _Block:
 
     def __init__(self, code: Code) -> None:
         self._code = code
-        self.known: dict[int, Any] = {}
+        self.current: dict[int, Any] = {}
         """Symbols or numbers by offset."""
         self._stored: dict[int, int] = {}
 
     def __getitem__(self, place: Any) -> Any:
         offset = self._offset(place)
-        if offset not in self.known:
-            self.known[offset] = self._code.load(offset)
-        value = self.known[offset]
+        if offset not in self.current:
+            self.current[offset] = self._code.load(offset)
+        value = self.current[offset]
         # An earlier loop may have stored it.
         return Symbol(self._code, value.name, self._code.loop) if isinstance(value, Symbol) else value
 
@@ -329,7 +329,7 @@ class _Block:
         if offset in self._stored:
             self._code.leave_out(self._stored[offset])
         self._stored[offset] = self._code.store(offset, value)
-        self.known[offset] = value if isinstance(value, Symbol) else float(value)
+        self.current[offset] = value if isinstance(value, Symbol) else float(value)
 
     def _offset(self, place: Any) -> int:
         if not (self._code.loop and isinstance(place, _Place)) or place.offset % self._code.lanes:

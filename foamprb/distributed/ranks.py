@@ -204,7 +204,7 @@ class Ranks(Communicator):
         self.call(Worker.wait_for_all)
         return next(iter(self.signals), 0)
 
-    def begin(self, cloud: Cloud) -> None:
+    def prepare_steps(self, cloud: Cloud) -> None:
         """Send the particles to the processes that advance them."""
         flow: Any = cloud.flow
         self.call(Worker.prepare, cloud.tracker, cloud.threads)
@@ -349,7 +349,7 @@ class _PartedFlow:
     def __init__(self, ranks: Ranks, cloud: Cloud) -> None:
         flow: Any = cloud.flow
         self._ranks, self._flow = ranks, flow
-        self._dt, self._stretch = cloud.dt, cloud.tracker.whole
+        self._dt, self._stretch = cloud.dt, cloud.tracker.stretch_steps
         flow.expect(max(cloud.map_ranks(largest_slip, cloud.medium)))
         cloud.make_ready()
         numbers = ranks.call(Worker.node_number)

@@ -200,7 +200,7 @@ class _Schedule:
         cloud = self.stepper.cloud
         most = MOST_STEPS / _moving(cloud)
         steps = min(most, self._steps or _FIRST_CALL * most)
-        left, stretch = target - cloud.step, cloud.tracker.whole
+        left, stretch = target - cloud.step, cloud.tracker.stretch_steps
         # Calls of similar length: not a long one and a remainder.
         steps = max(1, min(int(most), math.ceil(left / max(1, round(left / max(1.0, steps))))))
         # Steps of several Δt end at multiples of the stretch: calls that end elsewhere would change results.

@@ -78,7 +78,7 @@ class _Source:
         solid = injection.solid
         try:
             self._places = injection.model.places(flow, self._random(), read_positions)
-            self._values = self._places.given
+            self._values = self._places.columns
             mu = viscosity_at_rate(medium.mu, solid.referenceShearRate)
             self._stiffness = given_shear_modulus(
                 self._values, solid.poissonsRatio, mu, solid.referenceShearRate

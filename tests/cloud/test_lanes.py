@@ -66,7 +66,7 @@ def go(cloud):
 def scratch():
     """With numbers of no meaning in all lanes, each of them another."""
     kept = INTEGRATORS["rosenbrock"].layout
-    s = new_scratch(kept.rows, room=20, kept=(kept.kept, kept.fresh))
+    s = new_scratch(kept.rows, room=20, lasting=(kept.lasting, kept.fresh))
     s.block[:] = np.arange(len(s.block))
     empty_lanes(s)
     for n, name in enumerate(LABELS):
@@ -158,7 +158,7 @@ def test_what_is_put_aside_comes_back_in_any_lane():
     after = s.block.reshape(-1, LANES)
     for lane, kind, was in ((9, WAITING, 5), (3, READY, 3), (2, ENDED, 7), (1, WAITING, 0)):
         take_back(s, lane, kind)
-        np.testing.assert_array_equal(after[s.kept, lane], before[s.kept, was])
+        np.testing.assert_array_equal(after[s.lasting, lane], before[s.lasting, was])
         for name in LABELS:
             assert getattr(s, name)[lane] == labels[name][was]
     assert not s.counts[:3].any()
@@ -198,8 +198,8 @@ def test_what_loading_leaves_alone_is_empty_in_a_lane_that_is_used_again(integra
     own = INTEGRATORS[integrator].layout
     block = np.full(own.rows * LANES, np.nan)
     own.idle(block)
-    left = own.kept[len(own.kept) - len(own.fresh) :]
+    left = own.lasting[len(own.lasting) - len(own.fresh) :]
     assert len(left) > 0
     np.testing.assert_array_equal(block.reshape(-1, LANES)[left], np.tile(own.fresh, (LANES, 1)).T)
-    assert len(set(own.kept)) == len(own.kept)
-    assert max(own.kept) >= ROWS
+    assert len(set(own.lasting)) == len(own.lasting)
+    assert max(own.lasting) >= ROWS

@@ -17,8 +17,8 @@ from foamprb.cloud.state import CHANGING, VARIABLES, Particles, empty
 
 PARTS = {
     "paper": (at,),
-    "rosenbrock": (at, during, rosenbrock.own),
-    "stokes": (at, during, stokes.own),
+    "rosenbrock": (at, during, rosenbrock.work),
+    "stokes": (at, during, stokes.work),
     "measures": (at, measures.result),
 }
 

@@ -32,7 +32,9 @@ class WindRows(NamedTuple):
 wind = offsets(WindRows)
 
 
-def look(_flow: Any, s: Scratch, i: int, step: int, _rest: float, _medium: Medium, coefficients: Any) -> None:
+def look(
+    _flow: Any, s: Scratch, i: int, step: int, _remaining: float, _medium: Medium, coefficients: Any
+) -> None:
     s.block[wind.speed * LANES + i] = coefficients[0] * (step + 1)
     store3(s.block, wind.seen, i, load3(s.block, at.x, i))
 
@@ -116,7 +118,7 @@ swirl = offsets(SwirlRows)
 
 
 def look_for_nothing(
-    _flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, coefficients: Any
+    _flow: Any, s: Scratch, i: int, _step: int, _remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     s.block[swirl.speed * LANES + i] = coefficients[0]
 

@@ -113,8 +113,10 @@ def test_only_chosen_patches_count():
     grid = block(4)
     flow = still(build_mesh(grid, box_patches(grid)))
     names = [patch.name for patch in flow.patches]
-    assert WallLift(patches=("floor",)).chosen(flow.patches).tolist() == [name == "floor" for name in names]
-    assert WallLift(patches=("s.*",)).chosen(flow.patches).tolist() == [name == "sides" for name in names]
+    assert WallLift(patches=("floor",)).patch_mask(flow.patches).tolist() == [
+        name == "floor" for name in names
+    ]
+    assert WallLift(patches=("s.*",)).patch_mask(flow.patches).tolist() == [name == "sides" for name in names]
     with pytest.raises(InputError, match=re.escape("wallLift/patches is flor, which is no patch.")):
         WallLift(patches=("flor",)).walls(flow.patches)
 

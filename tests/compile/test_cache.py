@@ -399,7 +399,7 @@ class TestStages:
 
     def test_what_is_kept_of_an_entry_names_no_stage(self, folder):
         self.found(small_program.stage)
-        stage, entry = (p.keys for p in linking._parts.values() if p.keys.own != p.keys.outside)
+        stage, entry = (p.keys for p in linking._parts.values() if p.keys.full != p.keys.outside)
         (file,) = (folder / entry.outside).glob("*.code")
         kept = file.read_bytes()
         assert [key.encode() in kept for key in (*entry, *stage)] == [False, True, False, True]

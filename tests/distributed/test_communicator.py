@@ -78,7 +78,7 @@ class Processes(Ranks):
         for worker in self.workers:
             worker.flow, worker.sampled = arrays, loaded_fields(flow)
 
-    def begin(self, cloud: Cloud) -> None:
+    def prepare_steps(self, cloud: Cloud) -> None:
         """Let the particles go to the ranks that advance them."""
         self.call(Worker.prepare, cloud.tracker, 1)
         cloud.publish()
@@ -139,7 +139,7 @@ def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, 
     """Observe a cloud here and elsewhere; all files and all data are the same."""
     afar, ranks = on_ranks(cloud, n)
     here, there = (CloudFunctions(functions, observed(c)) for c in (cloud, afar))
-    ranks.begin(afar)
+    ranks.prepare_steps(afar)
     random = np.random.default_rng(1)
     for k in range(30):
         ranks.before_steps(cloud.time, cloud.start + (cloud.step + steps) * cloud.dt)
@@ -239,13 +239,13 @@ def test_particles_are_found_by_their_numbers():
     cloud = pipe_cloud()
     afar, ranks = on_ranks(cloud, 3)
     assert (afar.size, afar.particles.size) == (40, 14)
-    ranks.begin(afar)
+    ranks.prepare_steps(afar)
     ranks.mix(np.random.default_rng(2))
     numbers = np.array([39, 0, 17, 17, 2])
     for found, expected in zip(afar.of(numbers), cloud.of(numbers), strict=True):
         assert found.tobytes() == expected.tobytes()
     assert afar.values_of(numbers, "x").tolist() == cloud.values_of(numbers, "x").tolist()
-    assert afar.whole().x.tobytes() == cloud.particles.x.tobytes()
+    assert afar.all_particles().x.tobytes() == cloud.particles.x.tobytes()
     assert afar.counts() == cloud.counts()
     assert [p.number[0] for p in afar.map_by_id(same)] == [0, 7, 14, 21, 28, 35]
     assert [p.size for p in afar.map_by_id(same)] == [7, 7, 7, 7, 7, 5]
@@ -308,7 +308,7 @@ def test_ranks_read_their_particles_from_parts_of_other_numbers(before, tmp_path
     for worker in ranks.workers:
         first, sums = worker.sampling.sums["cells/sums"]
         sums[:] = np.arange(*first[worker.number : worker.number + 2])[:, None] + [0.5, 0.25]
-    ranks.begin(written)
+    ranks.prepare_steps(written)
     cloud.advance(20)
     ranks.take(cloud.particles)
     ranks.mix(np.random.default_rng(3))
@@ -329,7 +329,7 @@ def test_ranks_read_their_particles_from_parts_of_other_numbers(before, tmp_path
         comm.call(_restore_rank, file)
         sums = comm.call(_sums_of, "cells/sums", slice(2, 9))
         assert np.concatenate(sums)[:, 0].tolist() == (np.arange(2, 9) + 0.5).tolist()
-        for found, expected in zip(again.whole(), cloud.particles, strict=True):
+        for found, expected in zip(again.all_particles(), cloud.particles, strict=True):
             assert found.tobytes() == expected.tobytes()
         restored = comm.joined() if comm.size > 1 else comm.arrays_here()
         assert {k: a.tobytes() for k, a in restored.items()} == {

@@ -476,7 +476,7 @@ found = connect()
 if isinstance(found, Worker):
     sys.exit(found.serve(()))
 job = prepare(sys.argv[1], threads=1, comm=found)
-found.begin(job.cloud)
+found.prepare_steps(job.cloud)
 shared = found._way.publisher.move(np.full(1 << 24, 1.5))
 # The flow's own arrays and those of its mesh are the shared ones.
 flow, windows = job.cloud.flow, found.rank.windows.arrays.values()

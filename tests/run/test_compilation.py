@@ -19,7 +19,7 @@ import foamprb
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import _finder
+from foamprb.cloud.measures import _kernel
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.compile import link as compiling
 from foamprb.compile.cache import cache_directory
@@ -150,14 +150,14 @@ def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
         return Tracker(models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
 
     # A cache that lacks only the loop and the measures.
-    names = (code.py_func.__qualname__.rpartition("_")[2] for code in (loop()._track, _finder()))
+    names = (code.py_func.__qualname__.rpartition("_")[2] for code in (loop()._track, _kernel()))
     keys, of_measures = (compiling._parts[name].keys for name in names)
     cache, lacks = tmp_path / "cache", (keys.outside, of_measures.outside)
     cache.mkdir()
     for folder in {*cache_directory().glob("*")} - {cache_directory() / name for name in lacks}:
         (cache / folder.name).symlink_to(folder)
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(cache))
-    monkeypatch.delitem(compiling._parts, keys.own)
+    monkeypatch.delitem(compiling._parts, keys.full)
 
     p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
     cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, models)

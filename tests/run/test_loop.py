@@ -16,9 +16,9 @@ from foamprb.run.compilation import Compilation
 from foamprb.run.loop import _Schedule
 
 
-def calls(wanted: float, target: int, most: float = 1e9, whole: int = 1, step: int = 0) -> list[int]:
+def calls(wanted: float, target: int, most: float = 1e9, stretch: int = 1, step: int = 0) -> list[int]:
     """Lengths of the calls to a target, of four particles."""
-    tracker = SimpleNamespace(whole=whole, movable=(Status.PENDING, Status.ACTIVE))
+    tracker = SimpleNamespace(stretch_steps=stretch, movable=(Status.PENDING, Status.ACTIVE))
     cloud = SimpleNamespace(step=step, tracker=tracker, counts=lambda: {Status.PENDING: 1, Status.ACTIVE: 3})
     stepper = SimpleNamespace(cloud=cloud)
     schedule, found = _Schedule(cast("Any", stepper), Compilation()), []
@@ -44,9 +44,9 @@ def test_no_call_is_longer_than_the_limit() -> None:
 
 
 def test_calls_end_where_steps_through_several_do() -> None:
-    assert calls(30.0, 100, whole=4) == [36, 32, 32]
-    assert calls(0.2, 11, whole=4) == [4, 4, 3]
-    assert calls(5.0, 22, whole=8, step=3) == [5, 8, 6]
+    assert calls(30.0, 100, stretch=4) == [36, 32, 32]
+    assert calls(0.2, 11, stretch=4) == [4, 4, 3]
+    assert calls(5.0, 22, stretch=8, step=3) == [5, 8, 6]
 
 
 def test_compilation_with_the_first_steps_is_logged(monkeypatch, caplog) -> None:
@@ -57,7 +57,7 @@ def test_compilation_with_the_first_steps_is_logged(monkeypatch, caplog) -> None
                 time.sleep(1e-3)
 
     monkeypatch.setattr("foamprb.run.compilation._TICK", 1e-3)
-    tracker = SimpleNamespace(compiled=False, whole=1, movable=(Status.ACTIVE,))
+    tracker = SimpleNamespace(compiled=False, stretch_steps=1, movable=(Status.ACTIVE,))
     cloud = SimpleNamespace(step=0, tracker=tracker, counts=lambda: {Status.ACTIVE: 1})
     stepper = SimpleNamespace(cloud=cloud, advance=advance)
     with caplog.at_level(logging.INFO, "foamprb"):

@@ -45,10 +45,10 @@ class Distribution:
         with mistakes:
             refuse_unknown(dictionary, ("type", coefficients))
         with mistakes:
-            found: Dictionary = read_entry(dictionary, coefficients, Dictionary)
-            distribution = read_entries(kind, found)
+            entries: Dictionary = read_entry(dictionary, coefficients, Dictionary)
+            distribution = read_entries(kind, entries)
             if not distribution.limits[0] > 0.0:
-                raise found.mistake(f"begins at {distribution.limits[0]:g}. Allowed: values > 0.")
+                raise entries.mistake(f"begins at {distribution.limits[0]:g}. Allowed: values > 0.")
         mistakes.raise_any()
         return distribution
 
@@ -179,11 +179,11 @@ class General(Distribution):
         sought = share * total[-1]
         # Intervals without area are skipped: the last of equal sums is the one where the density begins.
         i = np.clip(np.searchsorted(total, sought, side="right") - 1, 0, np.flatnonzero(area)[-1])
-        rest = np.maximum(sought - total[i], 0.0) / h[i]
+        remaining = np.maximum(sought - total[i], 0.0) / h[i]
         rise = w[i + 1] - w[i]
-        root = np.sqrt(np.maximum(w[i] ** 2 + 2.0 * rise * rest, 0.0))
+        root = np.sqrt(np.maximum(w[i] ** 2 + 2.0 * rise * remaining, 0.0))
         with np.errstate(invalid="ignore"):
-            part = np.where(rest > 0.0, 2.0 * rest / (w[i] + root), 0.0)
+            part = np.where(remaining > 0.0, 2.0 * remaining / (w[i] + root), 0.0)
         return np.asarray(x[i] + np.clip(part, 0.0, 1.0) * h[i])
 
 

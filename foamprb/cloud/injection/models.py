@@ -88,7 +88,7 @@ class Places(NamedTuple):
     """(n,), s."""
     v: Floats | Vector3 | None = None
     """(n, 3) or one for all, m/s; by default that of the fluid."""
-    given: Mapping[str, Floats] = MappingProxyType({})
+    columns: Mapping[str, Floats] = MappingProxyType({})
     """Values per particle of some of :data:`GIVEN`, (n,) each."""
 
 
@@ -136,11 +136,11 @@ class ManualInjection(Injection):
             If positions lie outside the flow; with their number and the first of them.
         """
         SOI = start_of_injection(self, flow)
-        x, given = read(self.positionsFile, GIVEN)
+        x, columns = read(self.positionsFile, GIVEN)
         hosts = flow.locate(x)
         inside = _inside(x, hosts, self.ignoreOutOfBounds, self.positionsFile)
         t = np.full(np.count_nonzero(inside), SOI)
-        columns = {name: column[inside] for name, column in given.items()}
+        columns = {name: column[inside] for name, column in columns.items()}
         return Places(x[inside], hosts[inside], t, self.U0, columns)
 
 
@@ -184,10 +184,10 @@ class PatchInjection(Injection):
                 + "Choose another SOI, another patch or other times of the flow; or the type "
                 "patchFlowRateInjection, which follows the inflow in time."
             )
-        chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
-        x = _in_triangles(faces.vertices, inflow, chosen, random)
+        triangles = random.choice(len(flux), size=n, p=flux / flux.sum())
+        x = _in_triangles(faces.vertices, inflow, triangles, random)
         t = SOI + np.arange(n) / self.parcelsPerSecond
-        return Places(x, faces.hosts[chosen], t, self.U0)
+        return Places(x, faces.hosts[triangles], t, self.U0)
 
 
 _ONE = Constant(1.0)
@@ -248,9 +248,9 @@ class PatchFlowRateInjection(Injection):
                 s = 2.0 * mean / (Q0 + np.sqrt(np.maximum(Q0**2 + 2.0 * mean * (Q1 - Q0), 0.0)))
                 density = a + b
                 flux = density.mean(axis=1) * before.areas
-                chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
-                x = _in_triangles(before.vertices, density, chosen, random)
-                parts.append((x, before.hosts[chosen], t0 + h * (j + np.minimum(s, 1.0))))
+                triangles = random.choice(len(flux), size=n, p=flux / flux.sum())
+                x = _in_triangles(before.vertices, density, triangles, random)
+                parts.append((x, before.hosts[triangles], t0 + h * (j + np.minimum(s, 1.0))))
             before = after
         if not parts:
             raise InputError(
@@ -370,17 +370,17 @@ def _in_mesh(
     """
     low, high = np.maximum(box[0], flow.bounds[0]), np.minimum(box[1], flow.bounds[1])
     n = require_room(model.number, f"{what}: number {model.number}")
-    x, hosts, tried, found = np.empty((n, 3)), np.empty(n, dtype=np.int64), 0, 0
-    while found < n:
-        drawn = low + (high - low) * random.random((min(max(n - found, 1000), _AT_ONCE), 3))
+    x, hosts, tried, placed = np.empty((n, 3)), np.empty(n, dtype=np.int64), 0, 0
+    while placed < n:
+        drawn = low + (high - low) * random.random((min(max(n - placed, 1000), _AT_ONCE), 3))
         tried += len(drawn)
         drawn = drawn[contains(drawn)]
         held = flow.locate(drawn)
-        own = np.flatnonzero(held >= 0)[: n - found]
-        x[found : found + len(own)], hosts[found : found + len(own)] = drawn[own], held[own]
-        found += len(own)
-        if (low > high).any() or (found < n and tried > _MOST_DRAWN * (found + 10)):
-            raise InputError(f"{what}: only {found} of {tried} random places lie in the mesh.")
+        rows = np.flatnonzero(held >= 0)[: n - placed]
+        x[placed : placed + len(rows)], hosts[placed : placed + len(rows)] = drawn[rows], held[rows]
+        placed += len(rows)
+        if (low > high).any() or (placed < n and tried > _MOST_DRAWN * (placed + 10)):
+            raise InputError(f"{what}: only {placed} of {tried} random places lie in the mesh.")
     times = start_of_injection(model, flow) + model.duration * np.arange(n, dtype=float) / n
     return Places(x, hosts, times, model.U0)
 
@@ -454,9 +454,9 @@ class CellZoneInjection(Injection):
         )
         # Stratified sampling: one random number in each n-th part of the cumulative volume.
         sought = (np.arange(n) + random.random(n)) / n * total[-1]
-        chosen = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
+        tetrahedra = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
         weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), n)
-        hosts = zone.hosts[chosen]
+        hosts = zone.hosts[tetrahedra]
         x = np.einsum("nv,nvi->ni", weights, zone.vertices(hosts))
         return Places(x, hosts, np.full(n, SOI), self.U0)
 
@@ -520,7 +520,7 @@ def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
 
 
 def _in_triangles(
-    vertices: Floats, density: Floats, chosen: NDArray[np.int64], random: np.random.Generator
+    vertices: Floats, density: Floats, triangles: NDArray[np.int64], random: np.random.Generator
 ) -> Floats:
     """Draw a point in each of n triangles, from a linear density.
 
@@ -528,24 +528,26 @@ def _in_triangles(
     ----------
     vertices, density
         Vertices of triangles, (m, 3, 3), m, and the density at each of them, (m, 3).
-    chosen
+    triangles
         The triangles, (n,).
     random
         Source of random numbers.
     """
-    points = np.empty((len(chosen), 3))
-    open_rows = np.arange(len(chosen))
+    points = np.empty((len(triangles), 3))
+    open_rows = np.arange(len(triangles))
     while len(open_rows):
         weights = random.dirichlet((1.0, 1.0, 1.0), len(open_rows))
         accepted = random.random(len(open_rows))
         for part in parts_of(len(open_rows)):
-            own = density[chosen[open_rows[part]]]
-            accepted[part] = accepted[part] * own.max(axis=1) <= np.einsum("nv,nv->n", weights[part], own)
+            at_corners = density[triangles[open_rows[part]]]
+            accepted[part] = accepted[part] * at_corners.max(axis=1) <= np.einsum(
+                "nv,nv->n", weights[part], at_corners
+            )
         inside = accepted.astype(bool)
         points[open_rows[inside]] = weights[inside]
         open_rows = open_rows[~inside]
-    for part in parts_of(len(chosen)):
-        points[part] = np.einsum("nv,nvi->ni", points[part], vertices[chosen[part]])
+    for part in parts_of(len(triangles)):
+        points[part] = np.einsum("nv,nvi->ni", points[part], vertices[triangles[part]])
     return points
 
 
@@ -594,13 +596,13 @@ def pending(places: Places, rows: slice = slice(None)) -> Particles:
 
 
 def given_shear_modulus(
-    given: Mapping[str, Floats], poissons_ratio: float | None, mu: float, shear_rate: float | None
+    columns: Mapping[str, Floats], poissons_ratio: float | None, mu: float, shear_rate: float | None
 ) -> Floats | None:
     """Return the shear moduli μ_s of a file, (n,), Pa; None if it gives no stiffness.
 
     Parameters
     ----------
-    given
+    columns
         Columns of the file: ``shearModulus``, ``youngsModulus`` (2(1 + ν_s) μ_s) or ``Ca`` (μ_f γ̇/μ_s).
     poissons_ratio
         ν_s, which ``youngsModulus`` needs.
@@ -612,7 +614,7 @@ def given_shear_modulus(
     InputError
         If there are several of these columns, or if ``Ca`` or ``youngsModulus`` lacks its second quantity.
     """
-    names = [name for name in ("shearModulus", "youngsModulus", "Ca") if name in given]
+    names = [name for name in ("shearModulus", "youngsModulus", "Ca") if name in columns]
     if len(names) > 1:
         raise InputError(f"the file of positions gives {' and '.join(names)}, but one of them is enough.")
     if "Ca" in names and shear_rate is None:
@@ -625,7 +627,7 @@ def given_shear_modulus(
         )
     if not names:
         return None
-    column = given[names[0]]
+    column = columns[names[0]]
     with np.errstate(over="ignore"):
         if names == ["Ca"]:
             return np.asarray(mu * (shear_rate or 0.0) / column)

@@ -77,9 +77,9 @@ from foamprb.cloud.motion import (
     fail_small_step,
     interrupted,
     is_sound,
-    meets,
     overspent,
     reach_end,
+    would_touch,
 )
 from foamprb.cloud.state import Particles
 from foamprb.compile.link import traced
@@ -112,7 +112,7 @@ class StepRows(NamedTuple):
     difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
     path: Annotated[int, Row(1, "1", "error of the path over its length")]
     by_path: Annotated[int, Row(1, "1", "length of the next step over that of this one, by that error")]
-    rest: Annotated[int, Row(1, "s", "what is left of the stretch", 1.0)]
+    remaining: Annotated[int, Row(1, "s", "what is left of the stretch", 1.0)]
     again: Annotated[int, Row(1, "", "1 after a step whose error was too large, else 0", lasting=True)]
     ahead: Annotated[int, Row(3, "m", "where the step was to lead when its end was sampled")]
     entered: Annotated[int, Row(1, "", "number of cells that the way there enters")]
@@ -296,8 +296,8 @@ def sample_ahead(
         The host of the goal, or the last one on the way; the distance along each axis, m, within which this
         host certainly holds any point around the goal; the number of cells on the way; the flow there.
     """
-    found, _, patch, _ = walk(flow, host, x, goal)
-    last = host if patch == -2 else found
+    reached, _, patch, _ = walk(flow, host, x, goal)
+    last = host if patch == -2 else reached
     u, l_f, u_t = sample(flow, last, goal, t)
     return last, 0.0, 0, u, l_f, u_t
 
@@ -406,15 +406,15 @@ def track_adaptive(
             store9(block, during.start_l, i, l_f)
             store3(block, at.DuDt, i, u_t)
             scratch.stride[i] = min((current[i] // stretch + 1) * stretch, last) - current[i]
-            rest = start + (current[i] + scratch.stride[i]) * dt - t
-            left = steps_left(block, i, rest, l_f, dt, most)
-            block[during.rest * LANES + i], block[at.dt * LANES + i] = rest, rest / left
+            remaining = start + (current[i] + scratch.stride[i]) * dt - t
+            left = steps_left(block, i, remaining, l_f, dt, most)
+            block[during.remaining * LANES + i], block[at.dt * LANES + i] = remaining, remaining / left
             if measures_again(scratch, i, left, stretch):
                 block[during.discount * LANES + i] = 0.0
         begin_stage(block)
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
-                update_surroundings(flow, scratch, i, current[i], block[during.rest * LANES + i], medium)
+                update_surroundings(flow, scratch, i, current[i], block[during.remaining * LANES + i], medium)
         evaluate_shape(block, medium, 0.0)
         predict(block, medium)
         for i in range(LANES):
@@ -438,7 +438,7 @@ def track_adaptive(
         for i in range(LANES):
             if not block[at.moving * LANES + i] > 0.0:
                 continue
-            if overspent(scratch, i, block[during.rest * LANES + i] / dt):
+            if overspent(scratch, i, block[during.remaining * LANES + i] / dt):
                 continue
             h, size = block[at.dt * LANES + i], block[at.h * LANES + i]
             t_end = start + (current[i] + scratch.stride[i]) * dt
@@ -457,8 +457,8 @@ def track_adaptive(
             allowed = next_size(h, size, factor, block[during.again * LANES + i] > 0.0)
             block[during.again * LANES + i] = 0.0
             t_new = block[at.t * LANES + i] + h
-            whole = t_new >= t_end - SHORTEST_STEP * dt
-            if whole:
+            reaches_end = t_new >= t_end - SHORTEST_STEP * dt
+            if reaches_end:
                 t_new = t_end
             block[at.h * LANES + i] = min(most * dt, allowed, longest_over_cells(block, i, dt))
             goal = load3(block, at.new_x, i)
@@ -466,7 +466,7 @@ def track_adaptive(
             ahead = scratch.ahead[i]
             scratch.mended[i] += reach_end(flow, patches, scratch, i, goal, ahead, held, t_new, h)
             # A step ends early where a body bounces.
-            if whole and (scratch.status[i] != ACTIVE or block[at.t * LANES + i] >= t_end):
+            if reaches_end and (scratch.status[i] != ACTIVE or block[at.t * LANES + i] >= t_end):
                 end_tracking_steps(scratch, i)
     end_block(scratch)
     return walks_relocated(scratch)
@@ -481,15 +481,15 @@ def stretch_of(most: int) -> int:
     return 1 if most == 1 else _STRETCH * most
 
 
-def steps_left(block: Any, i: int, rest: float, l_f: Tensor, dt: float, most: int) -> float:
-    """Return the number of equal steps of lane i for the rest of its stretch, at its present step size.
+def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, most: int) -> float:
+    """Return the number of equal steps of lane i for its remaining stretch, at its present step size.
 
     Close to a wall no step is longer than Δt.
 
     Parameters
     ----------
-    rest
-        Rest of the stretch, s; a rest of round-off needs no step.
+    remaining
+        Time to the end of the stretch, s; round-off needs no step.
     l_f
         Velocity gradient of the fluid at the start, 1/s.
     dt, most
@@ -497,7 +497,7 @@ def steps_left(block: Any, i: int, rest: float, l_f: Tensor, dt: float, most: in
     """
     close = block[at.clearance * LANES + i] < CLOSE * block[at.R * LANES + i]
     size = min(block[at.h * LANES + i], dt if close else most * dt, longest_step(l_f))
-    return float(max(1.0, np.ceil((rest - SHORTEST_STEP * dt) / size)))
+    return float(max(1.0, np.ceil((remaining - SHORTEST_STEP * dt) / size)))
 
 
 def measures_again(s: Scratch, i: int, left: float, stretch: int) -> bool:
@@ -519,7 +519,7 @@ def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, to
         if block[during.entered * LANES + i] > MOST_CELLS:
             block[at.moving * LANES + i] = 0.0
             block[at.h * LANES + i] = longest_over_cells(block, i, dt)
-        elif meets(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal)):
+        elif would_touch(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal)):
             block[at.moving * LANES + i] = 0.0
             block[at.h * LANES + i] = dt
 

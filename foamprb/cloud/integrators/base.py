@@ -77,17 +77,17 @@ class Integrator(NamedTuple):
 # foamprb.cloud.surroundings.registry) when the loop is compiled. Without any they are no-ops.
 
 
-def update_surroundings(flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium) -> None:
+def update_surroundings(flow: Any, s: Scratch, i: int, step: int, remaining: float, medium: Medium) -> None:
     """Let each model update its rows of lane i before a step.
 
     Parameters
     ----------
     step
         Number of the tracking step.
-    rest
+    remaining
         Time from the lane's t to the end of the tracking step, s.
     """
-    update_all(flow, s, i, step, rest, medium, medium.surroundings)
+    update_all(flow, s, i, step, remaining, medium, medium.surroundings)
 
 
 def apply_surroundings(block: Any, medium: Medium, share: float) -> None:
@@ -97,7 +97,7 @@ def apply_surroundings(block: Any, medium: Medium, share: float) -> None:
 
 
 def no_update(
-    _flow: Any, _s: Scratch, _i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+    _flow: Any, _s: Scratch, _i: int, _step: int, _remaining: float, _medium: Medium, _coefficients: Any
 ) -> None:
     """No-op: no model of the surroundings has rows."""
 
@@ -151,7 +151,7 @@ def track_share(
     The number of walks that needed the tree.
     """
     recovered = 0
-    for begin in range(0, len(rows), MOST_MEMBERS):
-        members = rows[begin : begin + MOST_MEMBERS]
+    for first in range(0, len(rows), MOST_MEMBERS):
+        members = rows[first : first + MOST_MEMBERS]
         recovered += track(flow, patches, medium, p, members, step, steps, dt, start, scratch, *options)
     return recovered

@@ -69,8 +69,8 @@ def traction_stage(block: Any, medium: Medium) -> None:
         l_f = to_frame(Q, load9(block, at.l, i))
         l_s = to_frame(Q, dot(A, inverse(F)))
         stress = traction(load3(block, at.stretch, i), load_integrals(block, i), l_f, l_s)
-        own = viscous_stress(l_s, block[at.eta * LANES + i])
-        store9(block, at.stress, i, add(scale(viscosity_at(block, i, medium), stress), scale(-1.0, own)))
+        viscous = viscous_stress(l_s, block[at.eta * LANES + i])
+        store9(block, at.stress, i, add(scale(viscosity_at(block, i, medium), stress), scale(-1.0, viscous)))
         store9(block, at.predictor, i, dot(Q, add(F, scale(block[at.dt * LANES + i], A))))
 
 
@@ -144,11 +144,11 @@ def dense_newton(block: Any, i: int, M: Any) -> None:
     """Compute the deformation gradient of lane i by Newton's method with the full 9×9 tangent (50), in M."""
     predictor, stress = load9(block, at.predictor, i), load9(block, at.stress, i)
     mu, lame, kappa = block[at.mu * LANES + i], block[at.lame * LANES + i], _kappa(block, i)
-    rest = load9(block, at.M, i)
+    M_rest = load9(block, at.M, i)
     G = predictor
     size = math.inf
     for _ in range(_DENSE_STEPS):
-        n = equation(G, predictor, stress, kappa, mu, lame, rest)
+        n = equation(G, predictor, stress, kappa, mu, lame, M_rest)
         for k in range(9):
             E = (
                 1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0, 1.0 if k == 2 else 0.0,

@@ -134,7 +134,7 @@ class StiffnessRows(NamedTuple):
     elastic: Annotated[int, Row(9, "1/s2", "how the elastic normal stresses resist strain")]
     elastic_pairs: Annotated[int, Row(6, "1/s2", "how the elastic shear stresses do, 23, 13 and 12")]
     weight: Annotated[int, Row(1, "1/s", "5 J μ_f/(ρ_s R²)")]
-    own: Annotated[int, Row(1, "1", "1 − η_s/μ_f")]
+    deficit: Annotated[int, Row(1, "1", "1 − η_s/μ_f")]
     change: Annotated[int, Row(9, "1/s2", "change of dl_s/dt by that of the fluid's gradient over the step")]
     turning: Annotated[int, Row(9, "1/s3", "rate of change of dl_s/dt by turning")]
     Omega: Annotated[int, Row(9, "1", "Ω of the shape that is evaluated")]
@@ -154,7 +154,7 @@ class StiffnessRows(NamedTuple):
     second_v: Annotated[int, Row(3, "m/s", "change of v of order 2")]
 
 
-own = offsets(StiffnessRows, STEP_ROWS)
+work = offsets(StiffnessRows, STEP_ROWS)
 
 
 @traced
@@ -176,9 +176,9 @@ def predict_inertial(block: Any, medium: Medium) -> None:
         bend = (f * (way[0] - h * v[0]), f * (way[1] - h * v[1]), f * (way[2] - h * v[2]))
         store3(block, during.start_v, i, v)
         store3(block, during.start_a, i, bend)
-        store3(block, own.rate, i, rate)
-        store3(block, own.first_v, i, start[0])
-        store3(block, own.first_vt, i, start[1])
+        store3(block, work.rate, i, rate)
+        store3(block, work.first_v, i, start[0])
+        store3(block, work.first_vt, i, start[1])
 
 
 @traced
@@ -209,16 +209,19 @@ def first_inertial(block: Any, medium: Medium) -> None:
         _set_shape(block, i, Q, G, shape)
         leave_gradient(block, i, Q, add(L, shape[1]), block[at.moving * LANES + i] > 0.0)
         store9(block, during.start_Q, i, Q)
-        store9(block, own.G, i, G)
-        store9(block, own.b_e, i, b_e)
-        store9(block, own.l_s, i, L)
-        store9(block, own.l_t, i, l_t)
+        store9(block, work.G, i, G)
+        store9(block, work.b_e, i, b_e)
+        store9(block, work.l_s, i, L)
+        store9(block, work.l_t, i, l_t)
         _store_stiffness(block, i, n)
-        store9(block, own.change, i, change)
-        store9(block, own.turning, i, turning)
+        store9(block, work.change, i, change)
+        store9(block, work.turning, i, turning)
 
         v, u, u_end = load3(block, at.v, i), load3(block, during.start_u, i), load3(block, during.end_u, i)
-        rate, start = load3(block, own.rate, i), (load3(block, own.first_v, i), load3(block, own.first_vt, i))
+        rate, start = (
+            load3(block, work.rate, i),
+            (load3(block, work.first_v, i), load3(block, work.first_vt, i)),
+        )
         P = drag_axes(block, i, Q)
         du = (u_end[0] - u[0], u_end[1] - u[1], u_end[2] - u[2])
         a_u = _fluid_slope(block, i, h, v, du)
@@ -227,8 +230,8 @@ def first_inertial(block: Any, medium: Medium) -> None:
         _set_motion(block, i, P, moved)
         x, way = load3(block, at.x, i), vector_dot(moved[0], P)
         store3(block, at.new_x, i, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
-        store3(block, own.drag_change, i, changes[0])
-        store3(block, own.drag_bend, i, changes[1])
+        store3(block, work.drag_change, i, changes[0])
+        store3(block, work.drag_bend, i, changes[1])
 
         # The fluid there as the parabola has it; its acceleration between those of start and end.
         p, q = NODE - NODE * NODE, NODE * NODE
@@ -254,31 +257,31 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
     """Compute slopes at a quarter of the step and the solution of order 2, and choose the order."""
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
-        n, start = _load_stiffness(block, i), (load9(block, own.l_s, i), load9(block, own.l_t, i))
-        b_e, change = load9(block, own.b_e, i), load9(block, own.change, i)
+        n, start = _load_stiffness(block, i), (load9(block, work.l_s, i), load9(block, work.l_t, i))
+        b_e, change = load9(block, work.b_e, i), load9(block, work.change, i)
         rates = _rates(block, i, medium, Q0, start[0])
         k = slope_of(n, _argument(block, i), rates, start, scale(NODE, change), 1.0 / NODE)
         share = judged_share(block, i, relaxation_rate(n))
         two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, (share, FLUID_SHARE))
         judged_size = 0.5 * h * _size(judged, h, b_e, strain_scale(b_e, two[0]))
         size = counted_error(block, i, judged_size)
-        store9(block, own.slope_Omega, i, k[0])
-        store9(block, own.slope_l, i, k[1])
-        store9(block, own.second_Omega, i, two[0])
-        store9(block, own.second_l, i, two[1])
+        store9(block, work.slope_Omega, i, k[0])
+        store9(block, work.slope_l, i, k[1])
+        store9(block, work.second_Omega, i, two[0])
+        store9(block, work.second_l, i, two[1])
 
         rate, moving, changes = _load_drag(block, i)
         seen = _fluid_share(changes, NODE)
         P = drag_axes(block, i, Q0)
         forced = _forced(block, i, medium, P)
-        kv = slope_of_path(rate, load3(block, own.dv, i), forced, moving[1], seen, 1.0 / NODE)
+        kv = slope_of_path(rate, load3(block, work.dv, i), forced, moving[1], seen, 1.0 / NODE)
         path = path_of_second_order(rate, h, moving, *changes, kv)
         by_forces = respond_in_path(rate, h, NOTHING, kv, NOTHING)
         size = np.maximum(size, _length(by_forces, h, _way(block, i)))
         choose_order(block, i, size, tolerance)
-        store3(block, own.slope_v, i, kv[1])
-        store3(block, own.second_x, i, path[0])
-        store3(block, own.second_v, i, path[1])
+        store3(block, work.slope_v, i, kv[1])
+        store3(block, work.second_x, i, path[0])
+        store3(block, work.second_v, i, path[1])
 
         store9(block, during.second_Q, i, load9(block, at.Q, i))
         F, A, J = _new_shape(block, i, Q0, start[0], two)
@@ -296,19 +299,19 @@ def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
         third = block[during.third * LANES + i] > 0.0
-        n, start = _load_stiffness(block, i), (load9(block, own.l_s, i), load9(block, own.l_t, i))
-        k = load9(block, own.slope_Omega, i), load9(block, own.slope_l, i)
-        change, turning = load9(block, own.change, i), load9(block, own.turning, i)
+        n, start = _load_stiffness(block, i), (load9(block, work.l_s, i), load9(block, work.l_t, i))
+        k = load9(block, work.slope_Omega, i), load9(block, work.slope_l, i)
+        change, turning = load9(block, work.change, i), load9(block, work.turning, i)
         bend = _bend(block, i, n, Q0)
         shape = end_argument(n, resolvent(n, h), h, start, change, bend, k, turning)
         F = load9(block, at.new_F, i)
-        _set_shape(block, i, Q0, load9(block, own.G, i), shape)
+        _set_shape(block, i, Q0, load9(block, work.G, i), shape)
         store9(block, at.new_F, i, choose(third, load9(block, at.new_F, i), F))
         leave_gradient(block, i, Q0, add(start[0], shape[1]), third)
 
         rate, moving, changes = _load_drag(block, i)
         v = load3(block, at.new_v, i)
-        slope = (NOTHING[0], load3(block, own.slope_v, i))
+        slope = (NOTHING[0], load3(block, work.slope_v, i))
         P = drag_axes(block, i, Q0)
         _set_motion(block, i, P, last_motion(rate, h, moving, *changes, slope))
         store3(block, at.new_v, i, choose3(third, load3(block, at.new_v, i), v))
@@ -324,24 +327,24 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
         third = block[during.third * LANES + i] > 0.0
-        n, start = _load_stiffness(block, i), (load9(block, own.l_s, i), load9(block, own.l_t, i))
-        b_e, change = load9(block, own.b_e, i), load9(block, own.change, i)
-        k = load9(block, own.slope_Omega, i), load9(block, own.slope_l, i)
+        n, start = _load_stiffness(block, i), (load9(block, work.l_s, i), load9(block, work.l_t, i))
+        b_e, change = load9(block, work.b_e, i), load9(block, work.change, i)
+        k = load9(block, work.slope_Omega, i), load9(block, work.slope_l, i)
         last = slope_of(n, _argument(block, i), _rates(block, i, medium, Q0, start[0]), start, change, 1.0)
         bend = _bend(block, i, n, Q0)
         three = of_third_order(n, resolvent(n, h), h, start, change, bend, k, last)
-        two = load9(block, own.second_Omega, i), load9(block, own.second_l, i)
+        two = load9(block, work.second_Omega, i), load9(block, work.second_l, i)
         strain = strain_scale(b_e, two[0])
         difference = _size(combine(1.0, three, -1.0, two), h, b_e, strain)
         update_discount(block, i, third, difference, tolerance)
 
         rate, moving, changes = _load_drag(block, i)
         P = drag_axes(block, i, Q0)
-        slope = (NOTHING[0], load3(block, own.slope_v, i))
+        slope = (NOTHING[0], load3(block, work.slope_v, i))
         forced = _forced(block, i, medium, P)
-        end = slope_of_path(rate, load3(block, own.dv, i), forced, moving[1], changes[0], 1.0)
+        end = slope_of_path(rate, load3(block, work.dv, i), forced, moving[1], changes[0], 1.0)
         path = path_of_third_order(rate, h, moving, *changes, slope, end)
-        x2, v2 = load3(block, own.second_x, i), load3(block, own.second_v, i)
+        x2, v2 = load3(block, work.second_x, i), load3(block, work.second_v, i)
         miss = (
             (path[0][0] - x2[0], path[0][1] - x2[1], path[0][2] - x2[2]),
             (path[1][0] - v2[0], path[1][1] - v2[1], path[1][2] - v2[2]),
@@ -361,7 +364,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
 def rewind_inertial(block: Any, i: int, f: float) -> None:
     """Set the shape in lane i to that after the fraction f of the finished step, on Hermite's cubic."""
     Q, h = load9(block, during.start_Q, i), block[at.dt * LANES + i]
-    G, L = load9(block, own.G, i), load9(block, own.l_s, i)
+    G, L = load9(block, work.G, i), load9(block, work.l_s, i)
     F0, A0 = dot(transpose(Q), G), dot(transpose(Q), dot(L, G))
     D = add(load9(block, at.F, i), scale(-1.0, F0))
     a, b = add(scale(h, A0), scale(-1.0, D)), add(scale(h, load9(block, at.A, i)), scale(-1.0, D))
@@ -396,36 +399,36 @@ def _squares(v: Vector) -> Vector:
 
 def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
     """Return the rate of Ω less l_s, 1/s, and the rate of l_s, 1/s², of the evaluated state."""
-    Q, L = load9(block, at.Q, i), add(l_s, load9(block, own.dl, i))
+    Q, L = load9(block, at.Q, i), add(l_s, load9(block, work.dl, i))
     G = dot(Q, load9(block, at.new_F, i))
     turn = dot(Q, transpose(Q0))
     b_e = finger_in_frame(load3(block, at.stretch, i), G, load9(block, at.M, i))
     rate, _ = _shape_rate(block, i, viscosity_at(block, i, medium), to_frame(turn, L), b_e)
-    return algebra_excess(load9(block, own.Omega, i), L), from_frame(turn, rate)
+    return algebra_excess(load9(block, work.Omega, i), L), from_frame(turn, rate)
 
 
 def _argument(block: Any, i: int) -> Pair:
     """Return Ω and the change of l_s of the evaluated state."""
-    return load9(block, own.Omega, i), load9(block, own.dl, i)
+    return load9(block, work.Omega, i), load9(block, work.dl, i)
 
 
 def _set_shape(block: Any, i: int, Q: Tensor, G: Tensor, shape: Pair) -> None:
     """Store the shape to be evaluated."""
-    store9(block, own.Omega, i, shape[0])
-    store9(block, own.dl, i, shape[1])
+    store9(block, work.Omega, i, shape[0])
+    store9(block, work.dl, i, shape[1])
     store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(shape[0]), G)))
 
 
 def _set_motion(block: Any, i: int, Q: Tensor, moved: Motion) -> None:
     """Store the displacement to the position to be evaluated, and the velocity there."""
     v, dv = load3(block, at.v, i), vector_dot(moved[1], Q)
-    store3(block, own.dv, i, moved[1])
+    store3(block, work.dv, i, moved[1])
     store3(block, at.new_v, i, (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2]))
 
 
 def _new_shape(block: Any, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[Tensor, Tensor, Any]:
     """Return F, A and J at the end of the step."""
-    G = dot(group_exponential(end[0]), load9(block, own.G, i))
+    G = dot(group_exponential(end[0]), load9(block, work.G, i))
     F = dot(transpose(Q), G)
     return F, dot(transpose(Q), dot(add(l_s, end[1]), G)), det(F)
 
@@ -484,15 +487,15 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     # The fluid at the end, with the slip of the body as it is or as it is predicted. Thus the jumps of the
     # fluid's velocity between cells, which u_t leaves out and a lagging body does not follow, do not count.
     u, u_end = load3(block, during.start_u, i), load3(block, during.end_u, i)
-    kept = (u_end[0] + v[0] - u[0], u_end[1] + v[1] - u[1], u_end[2] + v[2] - u[2])
+    with_slip = (u_end[0] + v[0] - u[0], u_end[1] + v[1] - u[1], u_end[2] + v[2] - u[2])
     seen = (
-        kept[0] + h * (bend[0] - a_u[0]),
-        kept[1] + h * (bend[1] - a_u[1]),
-        kept[2] + h * (bend[2] - a_u[2]),
+        with_slip[0] + h * (bend[0] - a_u[0]),
+        with_slip[1] + h * (bend[1] - a_u[1]),
+        with_slip[2] + h * (bend[2] - a_u[2]),
     )
     a_end = acceleration_at_end(block, i, seen)
     chord = np.minimum(
-        chord_error(h, way, a_u, a_end), chord_error(h, way, a_u, acceleration_at_end(block, i, kept))
+        chord_error(h, way, a_u, a_end), chord_error(h, way, a_u, acceleration_at_end(block, i, with_slip))
     )
     straight = chord < parabola_error(h, way, du, a_u, a_end)
     # The body as it starts: a bent path counts for more than the parabola is off by, so that steps are short
@@ -534,45 +537,45 @@ def _bend(block: Any, i: int, n: Stiffness, Q: Tensor) -> Tensor:
 
 
 def _store_stiffness(block: Any, i: int, n: Stiffness) -> None:
-    store3(block, own.b, i, n.b)
-    store9(block, own.traction, i, n.traction)
+    store3(block, work.b, i, n.b)
+    store9(block, work.traction, i, n.traction)
     p, q, r = n.traction_pairs
-    store4(block, own.traction_pairs, i, p)
-    store4(block, own.traction_pairs + 4, i, q)
-    store4(block, own.traction_pairs + 8, i, r)
-    store9(block, own.elastic, i, n.elastic)
+    store4(block, work.traction_pairs, i, p)
+    store4(block, work.traction_pairs + 4, i, q)
+    store4(block, work.traction_pairs + 8, i, r)
+    store9(block, work.elastic, i, n.elastic)
     (p0, p1), (q0, q1), (r0, r1) = n.elastic_pairs
-    store3(block, own.elastic_pairs, i, (p0, p1, q0))
-    store3(block, own.elastic_pairs + 3, i, (q1, r0, r1))
-    block[own.weight * LANES + i] = n.weight
-    block[own.own * LANES + i] = n.own
+    store3(block, work.elastic_pairs, i, (p0, p1, q0))
+    store3(block, work.elastic_pairs + 3, i, (q1, r0, r1))
+    block[work.weight * LANES + i] = n.weight
+    block[work.deficit * LANES + i] = n.deficit
 
 
 def _load_drag(block: Any, i: int) -> tuple[Vector, Motion, tuple[Vector, Vector]]:
     """Return rates of drag, velocity and its rate at the start, and changes by the fluid's velocity."""
-    moving = load3(block, own.first_v, i), load3(block, own.first_vt, i)
+    moving = load3(block, work.first_v, i), load3(block, work.first_vt, i)
     return (
-        load3(block, own.rate, i),
+        load3(block, work.rate, i),
         moving,
-        (load3(block, own.drag_change, i), load3(block, own.drag_bend, i)),
+        (load3(block, work.drag_change, i), load3(block, work.drag_bend, i)),
     )
 
 
 def _load_stiffness(block: Any, i: int) -> Stiffness:
     p, q, r = (
-        load4(block, own.traction_pairs, i),
-        load4(block, own.traction_pairs + 4, i),
-        load4(block, own.traction_pairs + 8, i),
+        load4(block, work.traction_pairs, i),
+        load4(block, work.traction_pairs + 4, i),
+        load4(block, work.traction_pairs + 8, i),
     )
-    (p0, p1, q0), (q1, r0, r1) = load3(block, own.elastic_pairs, i), load3(block, own.elastic_pairs + 3, i)
+    (p0, p1, q0), (q1, r0, r1) = load3(block, work.elastic_pairs, i), load3(block, work.elastic_pairs + 3, i)
     return Stiffness(
-        b=load3(block, own.b, i),
-        traction=load9(block, own.traction, i),
+        b=load3(block, work.b, i),
+        traction=load9(block, work.traction, i),
         traction_pairs=(p, q, r),
-        elastic=load9(block, own.elastic, i),
+        elastic=load9(block, work.elastic, i),
         elastic_pairs=((p0, p1), (q0, q1), (r0, r1)),
-        weight=block[own.weight * LANES + i],
-        own=block[own.own * LANES + i],
+        weight=block[work.weight * LANES + i],
+        deficit=block[work.deficit * LANES + i],
     )
 
 
@@ -589,7 +592,7 @@ ROSENBROCK = Integrator(
         last_inertial,
         third_inertial,
     ),
-    layout=layout(at, during, own),
+    layout=layout(at, during, work),
     rare=RARE,
     bindings={
         **ADAPTIVE_BINDINGS,

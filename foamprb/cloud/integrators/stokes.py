@@ -104,7 +104,7 @@ class RelaxationRows(NamedTuple):
     second: Annotated[int, Row(9, "1", "Ω of order 2")]
 
 
-own = offsets(RelaxationRows, STEP_ROWS)
+work = offsets(RelaxationRows, STEP_ROWS)
 
 
 @traced
@@ -116,7 +116,7 @@ def predict_inertialess(block: Any, medium: Medium) -> None:
         u, x = load3(block, at.u, i), load3(block, at.x, i)
         v = (u[0] + w[0], u[1] + w[1], u[2] + w[2])
         a = fluid_acceleration(block, i, v)
-        store3(block, own.start_slip, i, w)
+        store3(block, work.start_slip, i, w)
         store3(block, during.start_v, i, v)
         store3(block, during.start_a, i, a)
         f = 0.5 * h * h
@@ -140,7 +140,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         l_s = velocity_gradient(m, sigma, l_f)
         e = incompressible_elasticity(block, i, b_e)
         n = relaxation(m, e, viscosity_at(block, i, medium))
-        quarter, whole = responses(n, h)
+        quarter, full = responses(n, h)
         dl = add(l_end, scale(-1.0, l))
         change = _seen(m, to_frame(Q, dl))
         turning = turning_gradient(stretches, m, e, viscosity_at(block, i, medium), l_s, l_f, sigma)
@@ -148,7 +148,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(Omega), G)))
         # Forces act at the end here, and at the start elsewhere.
         block[at.gone * LANES + i] = 1.0
-        store3(block, own.end_slip, i, _slip(block, i, medium, l_end, end_acceleration(block, i)))
+        store3(block, work.end_slip, i, _slip(block, i, medium, l_end, end_acceleration(block, i)))
         block[at.gone * LANES + i] = 0.0
         # That of the body's place and time, as long as the flow is smooth.
         store9(block, at.l, i, add(l, scale(NODE, dl)))
@@ -156,23 +156,23 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         f = NODE * h
         store3(block, at.new_x, i, (x[0] + f * v[0], x[1] + f * v[1], x[2] + f * v[2]))
         w = load3(block, during.start_u, i)
-        store3(block, own.disturbance, i, (u[0] - w[0], u[1] - w[1], u[2] - w[2]))
+        store3(block, work.disturbance, i, (u[0] - w[0], u[1] - w[1], u[2] - w[2]))
         store3(block, at.u, i, _fluid_at_node(block, i))
         store9(block, during.start_Q, i, Q)
-        store9(block, own.l_s, i, l_s)
-        store9(block, own.b_e, i, b_e)
-        store9(block, own.normal, i, m.normal)
-        store3(block, own.compliance, i, m.compliance)
-        store3(block, own.slip, i, m.slip)
-        store3(block, own.upper, i, n.upper)
-        store3(block, own.lower, i, n.lower)
-        store9(block, own.relaxation, i, n.normal)
-        store9(block, own.pairs, i, whole.pairs)
-        store3(block, own.along, i, whole.along)
-        store3(block, own.bent, i, whole.bent)
-        store9(block, own.change, i, change)
-        store9(block, own.turning, i, turning)
-        store9(block, own.quarter, i, Omega)
+        store9(block, work.l_s, i, l_s)
+        store9(block, work.b_e, i, b_e)
+        store9(block, work.normal, i, m.normal)
+        store3(block, work.compliance, i, m.compliance)
+        store3(block, work.slip, i, m.slip)
+        store3(block, work.upper, i, n.upper)
+        store3(block, work.lower, i, n.lower)
+        store9(block, work.relaxation, i, n.normal)
+        store9(block, work.pairs, i, full.pairs)
+        store3(block, work.along, i, full.along)
+        store3(block, work.bent, i, full.bent)
+        store9(block, work.change, i, change)
+        store9(block, work.turning, i, turning)
+        store9(block, work.quarter, i, Omega)
 
 
 @traced
@@ -180,31 +180,31 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
     """Compute the slope at a quarter of the step and the solution of order 2, and choose the order."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
-        Q0, Omega = load9(block, during.start_Q, i), load9(block, own.quarter, i)
-        l_s, b_e, change = load9(block, own.l_s, i), load9(block, own.b_e, i), load9(block, own.change, i)
-        n, whole = _load_relaxation(block, i)
+        Q0, Omega = load9(block, during.start_Q, i), load9(block, work.quarter, i)
+        l_s, b_e, change = load9(block, work.l_s, i), load9(block, work.b_e, i), load9(block, work.change, i)
+        n, full = _load_relaxation(block, i)
         turn = dot(Q0, transpose(load9(block, at.Q, i)))
         g = algebra_rate(Omega, to_frame(turn, _gradient_in_frame(block, i, medium)))
         k = slope_of(n, Omega, g, l_s, scale(NODE, change), 1.0 / NODE)
-        two, by_fluid, by_slope = of_second_order(n, whole, h, l_s, change, k)
+        two, by_fluid, by_slope = of_second_order(n, full, h, l_s, change, k)
         strain = strain_scale(b_e, two)
         share = judged_share(block, i, fastest(n))
         size = share * relative_size(by_slope, b_e, strain)
         size = size + FLUID_SHARE * relative_size(by_fluid, b_e, strain)
         choose_order(block, i, counted_error(block, i, size), tolerance)
-        store9(block, own.slope, i, k)
-        store9(block, own.second, i, two)
+        store9(block, work.slope, i, k)
+        store9(block, work.second, i, two)
         store9(block, during.second_Q, i, load9(block, at.Q, i))
 
         # The slip changes with the fluid and with the shape.
         l, a = load9(block, during.start_l, i), load3(block, at.DuDt, i)
         w0, w1, w = (
-            load3(block, own.start_slip, i),
-            load3(block, own.end_slip, i),
+            load3(block, work.start_slip, i),
+            load3(block, work.end_slip, i),
             _slip(block, i, medium, l, a),
         )
         # So does the disturbance by the surroundings.
-        d, p, q = load3(block, own.disturbance, i), load3(block, at.u, i), _fluid_at_node(block, i)
+        d, p, q = load3(block, work.disturbance, i), load3(block, at.u, i), _fluid_at_node(block, i)
         u = load3(block, during.end_u, i)
         f = 1.0 / NODE
         v = (
@@ -226,18 +226,18 @@ def last_inertialess(block: Any, medium: Medium) -> None:
     for i in range(LANES):
         h = block[at.dt * LANES + i]
         Q0, F = load9(block, during.start_Q, i), load9(block, at.F, i)
-        l_s, change = load9(block, own.l_s, i), load9(block, own.change, i)
-        n, whole = _load_relaxation(block, i)
-        k, turning = load9(block, own.slope, i), load9(block, own.turning, i)
+        l_s, change = load9(block, work.l_s, i), load9(block, work.change, i)
+        n, full = _load_relaxation(block, i)
+        k, turning = load9(block, work.slope, i), load9(block, work.turning, i)
         curve = _bend(block, i, medium, Q0)
-        Omega = end_argument(n, whole, h, l_s, change, curve, k, turning)
+        Omega = end_argument(n, full, h, l_s, change, curve, k, turning)
         new = dot(transpose(Q0), dot(group_exponential(Omega), dot(Q0, F)))
         third = block[during.third * LANES + i] > 0.0
         store9(block, at.new_F, i, choose(third, new, load9(block, at.new_F, i)))
         store9(block, at.l, i, load9(block, during.end_l, i))
         store3(block, at.u, i, load3(block, during.end_u, i))
         # The quarter has served.
-        store9(block, own.quarter, i, Omega)
+        store9(block, work.quarter, i, Omega)
 
 
 @traced
@@ -245,15 +245,15 @@ def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
     """Compute the slope at the end and the solution of order 3."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
-        Q0, Omega = load9(block, during.start_Q, i), load9(block, own.quarter, i)
-        l_s, b_e, change = load9(block, own.l_s, i), load9(block, own.b_e, i), load9(block, own.change, i)
-        n, whole = _load_relaxation(block, i)
-        k, two = load9(block, own.slope, i), load9(block, own.second, i)
+        Q0, Omega = load9(block, during.start_Q, i), load9(block, work.quarter, i)
+        l_s, b_e, change = load9(block, work.l_s, i), load9(block, work.b_e, i), load9(block, work.change, i)
+        n, full = _load_relaxation(block, i)
+        k, two = load9(block, work.slope, i), load9(block, work.second, i)
         curve = _bend(block, i, medium, Q0)
         l_end = _gradient(block, i, medium)
         g = algebra_rate(Omega, to_frame(Q0, l_end))
         last = slope_of(n, Omega, g, l_s, change, 1.0)
-        three = of_third_order(n, whole, h, l_s, change, curve, k, last)
+        three = of_third_order(n, full, h, l_s, change, curve, k, last)
         difference = relative_size(add(three, scale(-1.0, two)), b_e, strain_scale(b_e, two))
         third = block[during.third * LANES + i] > 0.0
         update_discount(block, i, third, difference, tolerance)
@@ -318,9 +318,9 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
         load9(block, during.end_l, i),
     )
     bend = scale(2.0, add(add(l, l_end), scale(-2.0, middle)))
-    own_part = own_viscosity(block, i, medium)
+    deficit = own_viscosity(block, i, medium)
     m = Mobility(
-        load9(block, own.normal, i), load3(block, own.compliance, i), load3(block, own.slip, i), own_part
+        load9(block, work.normal, i), load3(block, work.compliance, i), load3(block, work.slip, i), deficit
     )
     return _seen(m, to_frame(Q, bend))
 
@@ -345,14 +345,14 @@ def _finish_shape(block: Any, i: int, Q: Tensor, Omega: Tensor) -> Tensor:
 
 def _load_relaxation(block: Any, i: int) -> tuple[Relaxation, Response]:
     """Return the relaxation of the state at the start, and the functions of the whole step."""
-    b_e = load9(block, own.b_e, i)
+    b_e = load9(block, work.b_e, i)
     n = Relaxation(
         (b_e[0], b_e[4], b_e[8]),
-        load3(block, own.upper, i),
-        load3(block, own.lower, i),
-        load9(block, own.relaxation, i),
+        load3(block, work.upper, i),
+        load3(block, work.lower, i),
+        load9(block, work.relaxation, i),
     )
-    return n, Response(load9(block, own.pairs, i), load3(block, own.along, i), load3(block, own.bent, i))
+    return n, Response(load9(block, work.pairs, i), load3(block, work.along, i), load3(block, work.bent, i))
 
 
 def _refuses(traction: str, material: str, _tense: bool) -> str:
@@ -377,7 +377,7 @@ STOKES = Integrator(
         third_inertialess,
         end_inertialess,
     ),
-    layout=layout(at, during, own),
+    layout=layout(at, during, work),
     rare=RARE,
     bindings={
         **ADAPTIVE_BINDINGS,

@@ -96,12 +96,14 @@ class BrownianRows(NamedTuple):
 thermal = offsets(BrownianRows)
 
 
-def draw(_flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any) -> None:
+def draw(
+    _flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
+) -> None:
     """Draw the random numbers of lane i at the start of a tracking step."""
     block = s.block
-    if block[thermal.drawn * LANES + i] != step + 1.0 and rest > 0.0:
+    if block[thermal.drawn * LANES + i] != step + 1.0 and remaining > 0.0:
         block[thermal.drawn * LANES + i] = step + 1.0
-        block[thermal.duration * LANES + i] = rest
+        block[thermal.duration * LANES + i] = remaining
         number = np.uint64(block[thermal.number * LANES + i])
         three, nine = deviates(number, np.uint64(step), (coefficients[1], _KIND))
         store3(block, thermal.three, i, three)

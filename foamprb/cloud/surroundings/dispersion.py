@@ -47,7 +47,7 @@ class EddyRows(NamedTuple):
         int, Row(3, "m/s", "velocity of its eddy relative to the mean flow", of="eddy", saved=True)
     ]
     eddy_time: Annotated[
-        int, Row(1, "s", "rest of its eddy's life, or the eddy's age", of="eddyTime", saved=True)
+        int, Row(1, "s", "remaining life of its eddy, or the eddy's age", of="eddyTime", saved=True)
     ]
     updated: Annotated[int, Row(1, "", "tracking step, from 1 on, of the last update")]
     drift: Annotated[int, Row(3, "m/s", "correction that keeps evenly spread particles evenly spread")]
@@ -57,12 +57,12 @@ eddies = offsets(EddyRows)
 
 
 def update_eddy(
-    flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any
+    flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Draw the next eddy of lane i at the start of a tracking step, if the particle has left the last one."""
     seed, kind, corrected = coefficients
     block = s.block
-    if block[eddies.updated * LANES + i] == step + 1.0 or rest <= 0.0:
+    if block[eddies.updated * LANES + i] == step + 1.0 or remaining <= 0.0:
         return
     block[eddies.updated * LANES + i] = step + 1.0
     x, t = load3(block, at.x, i), block[at.t * LANES + i]
@@ -75,16 +75,16 @@ def update_eddy(
     size = fluctuation_size(k)
     if kind == OPENFOAM:
         # In this model eddy_time is the age of the eddy.
-        new, left = after_openfoam(left, life, rest)
-        if rest >= life:
+        new, left = after_openfoam(left, life, remaining)
+        if remaining >= life:
             store3(block, eddies.eddy_velocity, i, (0.0, 0.0, 0.0))
     else:
-        new = left <= 0.5 * rest * rate
+        new = left <= 0.5 * remaining * rate
         if new:
-            n, share = lasting(life, rest)
-            left = n * rest * rate
+            n, share = lasting(life, remaining)
+            left = n * remaining * rate
             size *= share if kind == NORMAL else 1.0
-        left -= rest * rate
+        left -= remaining * rate
     if new:
         number, counter = np.uint64(block[eddies.eddy_number * LANES + i]), np.uint64(step)
         words = philox((number & _LOW, number >> _HALF, counter & _LOW, counter >> _HALF), (seed, _KIND))
@@ -185,10 +185,10 @@ class Dispersion(Surrounding):
         nu = mu / medium.rho
         k, epsilon = np.maximum(some.turbulence[:, :2], 0.0).T
         worst, usual = flow.ends_at_nodes(_eddies)[2][1], np.median(epsilon)
-        found = []
+        warnings = []
         if worst > 0.0:
             rate, length = kolmogorov_rate(worst, nu), kolmogorov_length(worst, nu)
-            found.append(
+            warnings.append(
                 "eddies move particles but do not deform them. The shear rate of the smallest, "
                 f"sqrt(epsilon/nu), is {kolmogorov_rate(usual, nu):.3g} (median) to {rate:.3g} 1/s, a "
                 f"capillary number of up to {mu * rate / p.mu.min():.3g}; their smallest size is "
@@ -196,11 +196,11 @@ class Dispersion(Surrounding):
             )
         time = np.median(eddy_time(k, epsilon))
         if 0.0 < time < _FEWEST * dt:
-            found.append(
+            warnings.append(
                 f"deltaT is {dt / time:.3g} of the eddies' median life of {time:.3g} s: the dispersion is "
                 f"right, but the velocities of particles are not. Use deltaT < {time / _FEWEST:.3g} s."
             )
-        return found
+        return warnings
 
 
 def _eddies(values: NodeValues) -> tuple[Floats, Floats, Floats]:

@@ -44,7 +44,7 @@ class FateRows(NamedTuple):
     dose: Annotated[int, Row(1, "Pa s", "dose of the fluid's shear stress", of="dose", saved=True)]
     dosed: Annotated[int, Row(1, "s", "time to which it is integrated")]
     shear_stress: Annotated[int, Row(1, "Pa", "shear stress of the fluid at that time")]
-    known: Annotated[int, Row(1, "", "1 once these two are known, else 0")]
+    measured: Annotated[int, Row(1, "", "1 once these two are measured, else 0")]
     outcome: Annotated[int, Row(1, "", "code of the status and the reason that are reached, else 0")]
 
 
@@ -68,22 +68,22 @@ def reached(values: tuple[Scalar, ...], limits: tuple[Scalar, ...], codes: tuple
 
 
 def check_limits(
-    _flow: Any, s: Scratch, i: int, _step: int, rest: float, medium: Medium, coefficients: Any
+    _flow: Any, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, coefficients: Any
 ) -> None:
     """Add to the dose of lane i, and end the particle where it has reached a limit."""
     block = s.block
     t, stress = block[at.t * LANES + i], viscosity_at(block, i, medium) * shear_rate(load9(block, at.l, i))
-    if block[fates.known * LANES + i] > 0.0:
+    if block[fates.measured * LANES + i] > 0.0:
         mean = 0.5 * (block[fates.shear_stress * LANES + i] + stress)
         block[fates.dose * LANES + i] += mean * (t - block[fates.dosed * LANES + i])
-    block[fates.known * LANES + i] = 1.0
+    block[fates.measured * LANES + i] = 1.0
     block[fates.dosed * LANES + i], block[fates.shear_stress * LANES + i] = t, stress
     stretch = longest_stretch(dot(load9(block, at.F, i), inverse(load9(block, at.F0, i))))
     values = stretch, elastic_stress(block, i), stress, block[fates.dose * LANES + i]
     code = reached(values, coefficients[0], _OF_RUPTURE)
     if code == 0:
         code = reached(values, coefficients[1], _OF_RELEASE)
-    if code > 0 and rest > 0.0:
+    if code > 0 and remaining > 0.0:
         block[fates.outcome * LANES + i] = code
     elif code > 0:
         # The end of a call: there is no step that could be judged.
@@ -162,7 +162,7 @@ class Fates(Surrounding):
         """Refuse ``paper``, which has no update at the end of a call, and a stress that drops do not have."""
         if integrator.name == "paper":
             return "fates need the integrator stokes or rosenbrock, not paper"
-        chosen = [own for own in (self.ruptured, self.released) if own is not None]
-        if liquid and any(own.stress is not None for own in chosen):
+        limits = [fate for fate in (self.ruptured, self.released) if fate is not None]
+        if liquid and any(fate.stress is not None for fate in limits):
             return "the limit stress of a fate holds for solids, not for drops"
         return ""

@@ -60,20 +60,20 @@ def add_surrounding(name: str, kind: type[Surrounding]) -> None:
     SURROUNDINGS[name] = kind
 
 
-def with_rows(own: Layout, surroundings: Sequence[Surrounding]) -> Layout:
-    """Return the layout of an integrator's block, extended by the rows of these models, all of them kept."""
+def with_rows(base: Layout, surroundings: Sequence[Surrounding]) -> Layout:
+    """Return the layout of an integrator's block, extended by the lasting rows of these models."""
     if not surroundings:
-        return own
-    found = layout(*own.parts, *_offsets(own, surroundings).values())
-    return keep(found, [row for row in range(own.rows, found.rows) if row not in found.kept])
+        return base
+    extended = layout(*base.parts, *_offsets(base, surroundings).values())
+    return keep(extended, [row for row in range(base.rows, extended.rows) if row not in extended.lasting])
 
 
-def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> dict[str, Any]:
+def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> dict[str, Any]:
     """Return the composed functions of these models and the offsets of their rows, by the names they bind.
 
     Parameters
     ----------
-    own
+    base
         Layout of the integrator's block without them.
     inertia
         Whether the integrator's solid has inertia.
@@ -83,16 +83,16 @@ def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> 
     update: Callable[..., None] = no_update
     prepare: Callable[..., None] = no_disturbance
     disturb: Callable[..., None] = no_disturbance
-    found: dict[str, Any] = dict(_offsets(own, surroundings))
+    bindings: dict[str, Any] = dict(_offsets(base, surroundings))
     for model in surroundings:
         update = bound(_then_update, others=update, model=type(model).update)
-        own_functions: dict[str, Any] = dict(model.bindings(inertia))
-        prepare = bound(_then_disturb, others=prepare, model=own_functions.pop("prepare", no_disturbance))
+        functions: dict[str, Any] = dict(model.bindings(inertia))
+        prepare = bound(_then_disturb, others=prepare, model=functions.pop("prepare", no_disturbance))
         disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
-        for name in _TOGETHER & own_functions.keys() & found.keys():
-            own_functions[name] = bound(_both, one=found[name], other=own_functions[name])
-        found |= own_functions
-    return {**found, "update_all": update, "prepare_all": prepare, "disturb_all": disturb}
+        for name in _TOGETHER & functions.keys() & bindings.keys():
+            functions[name] = bound(_both, one=bindings[name], other=functions[name])
+        bindings |= functions
+    return {**bindings, "update_all": update, "prepare_all": prepare, "disturb_all": disturb}
 
 
 def stages(surroundings: Sequence[Surrounding], inertia: bool) -> list[Callable[..., Any]]:
@@ -109,14 +109,14 @@ def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) 
     return nested
 
 
-def _offsets(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tuple[int, ...]]:
-    found: dict[str, tuple[int, ...]] = {}
-    first = own.rows
+def _offsets(base: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tuple[int, ...]]:
+    first_rows: dict[str, tuple[int, ...]] = {}
+    first = base.rows
     for model in surroundings:
         for name, rows in model.rows.items():
-            found[name] = offsets(rows, first)
-            first = end(found[name])
-    return found
+            first_rows[name] = offsets(rows, first)
+            first = end(first_rows[name])
+    return first_rows
 
 
 _TOGETHER = {"turn_along", "bounce_along"}
@@ -129,10 +129,10 @@ def _both(block: Any, i: int, turn: Any) -> None:
 
 
 def _then_update(
-    flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium, coefficients: Any
+    flow: Any, s: Scratch, i: int, step: int, remaining: float, medium: Medium, coefficients: Any
 ) -> None:
-    others(flow, s, i, step, rest, medium, coefficients[0])
-    model(flow, s, i, step, rest, medium, coefficients[1])
+    others(flow, s, i, step, remaining, medium, coefficients[0])
+    model(flow, s, i, step, remaining, medium, coefficients[1])
 
 
 def _then_disturb(block: Any, medium: Medium, share: float, coefficients: Any) -> None:

@@ -124,13 +124,13 @@ class RotatingFrames(Surrounding):
 
     def remarks(self, survey: Survey) -> Remarks:
         """Warn of gravity that is not along the axis of a zone."""
-        found = []
+        warnings = []
         g = np.array(survey.medium.gravity)
         for zone in getattr(survey.flow, "rotating", ()):
             omega = np.array(zone.omega)
             if np.linalg.norm(np.cross(omega, g)) > 1e-6 * np.linalg.norm(omega) * np.linalg.norm(g):
-                found.append(
+                warnings.append(
                     f"gravity is not along the axis of the rotating zone {zone.name}: in the rotor's frame "
                     "it should rotate, but here its direction is constant."
                 )
-        return Remarks(warnings=found)
+        return Remarks(warnings=warnings)

@@ -47,15 +47,15 @@ swimmers = offsets(SwimmerRows)
 
 
 def draw_spin(
-    _flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any
+    _flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Draw the spin of lane i at the start of a tracking step."""
     block = s.block
-    if block[swimmers.spun * LANES + i] != step + 1.0 and rest > 0.0:
+    if block[swimmers.spun * LANES + i] != step + 1.0 and remaining > 0.0:
         block[swimmers.spun * LANES + i] = step + 1.0
         number = np.uint64(block[swimmers.swimmer * LANES + i])
         three, _ = deviates(number, np.uint64(step), (coefficients[2], _KIND))
-        store3(block, swimmers.tumble, i, random_spin(coefficients[1], rest, three))
+        store3(block, swimmers.tumble, i, random_spin(coefficients[1], remaining, three))
 
 
 @traced

@@ -129,10 +129,10 @@ def find_walls(
     flow: Any, s: Scratch, i: int, step: int, _rest: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Store the walls around the particle in lane i, and count the step if one is close."""
-    cut_off, least_gap, _, _, chosen = coefficients
+    cut_off, least_gap, _, _, patch_mask = coefficients
     block = s.block
     R = block[at.R * LANES + i]
-    p = walls(flow, s.host[i], load3(block, at.x, i), cut_off * R, chosen)
+    p = walls(flow, s.host[i], load3(block, at.x, i), cut_off * R, patch_mask)
     store3(block, near.wall_distance, i, (min(p.h1, _FAR * R), min(p.h2, _FAR * R), min(p.h3, _FAR * R)))
     block[near.least_gap * LANES + i] = least_gap
     store3(block, near.wall_normal, i, p.n1)
@@ -442,12 +442,14 @@ def velocity_loss(block: Any, i: int, medium: Medium) -> Vector:
     return vector_dot(w, Q)
 
 
-def nearest_walls(p: Particles, arrays: Any, flow: Flow, cut_off: float, chosen: NDArray[np.int8]) -> Floats:
+def nearest_walls(
+    p: Particles, arrays: Any, flow: Flow, cut_off: float, patch_mask: NDArray[np.int8]
+) -> Floats:
     """Return distances of particles from the nearest wall, in radii, (n,); infinite beyond ``cut_off``."""
     # Nodes that share the mesh have its walls.
     ask = getattr(flow, "wall_distances", partial(wall_distances, flow.kernels, arrays))
-    found: Floats = ask(p.x, p.host, cut_off * p.R, chosen) / p.R
-    return found
+    distances: Floats = ask(p.x, p.host, cut_off * p.R, patch_mask) / p.R
+    return distances
 
 
 def wall_distances(
@@ -456,7 +458,7 @@ def wall_distances(
     x: Floats,
     hosts: Ints,
     cuts: Floats,
-    chosen: NDArray[np.int8],
+    patch_mask: NDArray[np.int8],
 ) -> Floats:
     """Return distances of points from the nearest wall, m, (n,); infinite beyond a cut and without a host.
 
@@ -466,21 +468,21 @@ def wall_distances(
         Kernels of a flow, and their arguments.
     x, hosts, cuts
         Points (n, 3), m, their hosts (n,), and the largest distances (n,), m.
-    chosen
+    patch_mask
         1 for each patch that counts, else 0.
     """
     nearest = np.full(len(x), np.inf)
-    link(_nearest_walls, read_by(_nearest_walls, kernels))(arrays, x, hosts, cuts, chosen, nearest)
+    link(_nearest_walls, read_by(_nearest_walls, kernels))(arrays, x, hosts, cuts, patch_mask, nearest)
     return nearest
 
 
 def _nearest_walls(
-    flow: Any, x: Floats, hosts: Ints, cuts: Floats, chosen: NDArray[np.int8], nearest: Floats
+    flow: Any, x: Floats, hosts: Ints, cuts: Floats, patch_mask: NDArray[np.int8], nearest: Floats
 ) -> None:
     for k in range(len(nearest)):
         if hosts[k] >= 0:
-            found = walls(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), cuts[k], chosen)
-            nearest[k] = min(found.h1, found.h2, found.h3)
+            planes = walls(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), cuts[k], patch_mask)
+            nearest[k] = min(planes.h1, planes.h2, planes.h3)
 
 
 body_gradient: Callable[..., Tensor] = balanced_gradient
@@ -531,9 +533,9 @@ class WallLift(Surrounding):
                 names = [patch.name for patch in patches]
                 text = f"wallLift/patches is {pattern}, which is no patch. {suggestion(pattern, names)}"
                 raise InputError(text.removesuffix("."))
-        return self.cutOff, [int(index) for index in np.flatnonzero(self.chosen(patches))]
+        return self.cutOff, [int(index) for index in np.flatnonzero(self.patch_mask(patches))]
 
-    def chosen(self, patches: Sequence[Patch]) -> NDArray[np.int8]:
+    def patch_mask(self, patches: Sequence[Patch]) -> NDArray[np.int8]:
         """Return 1 for each patch that counts, else 0."""
         if self.patches is None:
             return np.array([patch.kind is PatchKind.WALL for patch in patches], dtype=np.int8)
@@ -543,7 +545,7 @@ class WallLift(Surrounding):
     def coefficients(self, patches: Sequence[Patch]) -> Any:
         """Return the entries, and 1 for each patch that counts."""
         strain, hindered = float(self.strain), float(self.mobility)
-        return self.cutOff, self.leastGap, strain, hindered, self.chosen(patches)
+        return self.cutOff, self.leastGap, strain, hindered, self.patch_mask(patches)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
         """Return the functions of a body with or without inertia."""
@@ -572,7 +574,7 @@ class WallLift(Surrounding):
         if survey.arrays is None:
             return Remarks()
         p, flow = survey.p, survey.flow
-        nearest = nearest_walls(p, survey.arrays, flow, self.cutOff, self.chosen(flow.patches))
+        nearest = nearest_walls(p, survey.arrays, flow, self.cutOff, self.patch_mask(flow.patches))
         some = nearest[np.isfinite(nearest)]
         beyond = len(nearest) - len(some)
         lines = (

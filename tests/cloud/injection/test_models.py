@@ -311,7 +311,7 @@ class TestGiven:
         model = ManualInjection(Path("file"), ignoreOutOfBounds=True)
         places = model.places(analytic.pipe(1.0, 1.0), rng(), read)
         np.testing.assert_array_equal(pending(places).x, x[[0, 2]])
-        np.testing.assert_array_equal(places.given["d"], [1.0, 3.0])
+        np.testing.assert_array_equal(places.columns["d"], [1.0, 3.0])
 
     @pytest.mark.parametrize(
         ("outside", "told"),
