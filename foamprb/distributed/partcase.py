@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -78,6 +78,11 @@ class PartCase(DecomposedCase):
         if cells is None:
             raise IndivisibleMeshError(_NO_ADDRESSES)
         self.processors.selected = range(*ends_of(cells, load, team.size)[team.rank :][:2])
+
+    def damaged(self, times: Sequence[str], name: str) -> dict[str, str]:
+        """See :meth:`~foamprb.flow.read.openfoam.Case.damaged`; of all nodes."""
+        of_nodes = self._team.of_all(super().damaged(times, name))
+        return {time: fault for damaged in of_nodes for time, fault in damaged.items()}
 
     def mesh(self, time: str) -> CaseMesh:
         """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`.

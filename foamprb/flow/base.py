@@ -74,7 +74,7 @@ NO_PLANES = Planes(math.inf, (0.0, 0.0, 0.0), math.inf, (0.0, 0.0, 0.0), math.in
 """Value where no wall is near."""
 
 
-FAULTS = ("movingMesh",)
+FAULTS = ("movingMesh", "pseudoTime")
 """Faults of a flow by which fates are worthless: errors, unless ``solution/accept`` names them."""
 
 

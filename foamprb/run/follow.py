@@ -188,6 +188,12 @@ def begin_to_follow(
             f"{case}: the solver has ended (system/controlDict) with {len(followed.times)} time of the "
             "flow in the selected range. Allowed: two or more."
         )
+    damaged = open_case(case, source).damaged(followed.times, source.velocity)
+    if damaged:
+        time, fault = next(iter(damaged.items()))
+        raise InputError(
+            f"{case}: -follow goes through all times, but {source.velocity} at {time} is {fault}."
+        )
     times = FlowTimes(f"{followed.times[0]}:{followed.times[-1]}", transient=True)
     flow: Any = read(case, times, source)
     return Following(followed, flow, lag, options.patience, signal)

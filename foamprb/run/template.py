@@ -20,9 +20,9 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Patch
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.patches import PatchKind
-from foamprb.flow.read.case import available_times, is_only_decomposed
-from foamprb.flow.read.caveats import is_steady, turbulence_fields
-from foamprb.flow.read.flows import check_region, read_flow
+from foamprb.flow.read.case import is_only_decomposed
+from foamprb.flow.read.caveats import turbulence_fields
+from foamprb.flow.read.flows import check_region, open_case, read_flow
 from foamprb.flow.read.fluid import (
     CaseViscosity,
     apparent_viscosity,
@@ -38,6 +38,7 @@ from foamprb.flow.read.fluid import (
     read_viscosity,
 )
 from foamprb.flow.read.mrf import read_rotations
+from foamprb.flow.read.openfoam import transient_times
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
 from foamprb.settings.fluid import of_region, read_gravity
@@ -509,10 +510,15 @@ def _faults(flow: MeshFlow) -> list[str]:
 
 def _transient(case: Path, source: FlowSource) -> list[str]:
     """Return a hint if the flow was written at several times."""
-    names = [name for name in available_times(case) if float(name) > 0.0]
-    if len(names) < 2 or is_steady(case, source.region):
+    try:
+        names, notes = transient_times(open_case(case, source), None, source.velocity)
+    except InputError:
         return []
-    return [
+    names = [name for name in names if float(name) > 0.0]
+    faults = [note.split(":")[0] for note in notes if isinstance(note, Caveat) and note.fault]
+    if source.file is not None or len(names) < 2:
+        return []
+    return [f"// no transient flow: {fault}" for fault in faults] or [
         f"// transient       true;   // transient flow, times {names[0]} to {names[-1]}; default: the latest"
     ]
 

@@ -18,12 +18,13 @@ from foamprb.dictionary.schema import Instead, read_entries, read_entry
 from foamprb.dictionary.tree import Dictionary, Entry
 from foamprb.errors import InputError
 from foamprb.flow.base import FAULTS
+from foamprb.flow.read.caveats import pseudo_time
 
 __all__ = ["STRIDE", "Solution", "StartFrom", "read_solution"]
 
 log = logging.getLogger("foamprb")
 
-_CONTROL, _SCHEMES = Path("system/controlDict"), Path("system/fvSchemes")
+_CONTROL = Path("system/controlDict")
 _TIME = Annotated[float, Positive]
 MULTIPLE_TOLERANCE = 1e-6
 """Tolerance of the check that a write interval is a multiple of the step, relative."""
@@ -155,7 +156,8 @@ class Solution:
         Choice(FAULTS),
         Meaning(
             "`( name … )`, faults of the flow with which the run goes on, where it would end with an error: "
-            "`movingMesh`, a mesh that moves is read at one time",
+            "`movingMesh`, a mesh that moves is read at one time; `pseudoTime`, iterations are taken for "
+            "times",
             default="none",
         ),
     ] = ()
@@ -259,7 +261,7 @@ def _time_control(case: Path) -> dict[str, tuple[Entry, float]]:
     """
     times: dict[str, tuple[Entry, float]] = {}
     try:
-        if not (case / _CONTROL).is_file() or _counts_iterations(case):
+        if not (case / _CONTROL).is_file() or pseudo_time(case, ""):
             return times
         control = read_dictionary(case / _CONTROL, case)
         for key in ("deltaT", "endTime", "writeInterval"):
@@ -277,12 +279,3 @@ def _time_control(case: Path) -> dict[str, tuple[Entry, float]]:
     except InputError as error:
         log.info("%s", error)
     return times
-
-
-def _counts_iterations(case: Path) -> bool:
-    """Return whether ``system/fvSchemes`` has the time derivatives of a steady solver."""
-    if not (case / _SCHEMES).is_file():
-        return False
-    schemes = read_dictionary(case / _SCHEMES, case).entries.get("ddtSchemes")
-    default = schemes.entries.get("default") if isinstance(schemes, Dictionary) else None
-    return default is not None and any(word in str(default) for word in ("steadyState", "localEuler"))

@@ -177,6 +177,10 @@ MISTAKES = {
     "no patience": (["-follow", "-patience", "0"], "-patience 0: a number of seconds > 0"),
     "single time": (["-follow", "-latestTime"], "'latestTime' is no range of times"),
     "one time": (["-follow", "-time", ":0.2"], "has ended (system/controlDict) with 1 time"),
+    "a time without a velocity": (
+        ["-follow", "-velocity", "V"],
+        "goes through all times, but V at 0.5 is missing",
+    ),
 }
 
 
@@ -185,6 +189,8 @@ def test_mistakes_have_one_message(mistake, written, tmp_path, capsys):
     case = shutil.copytree(written[0], tmp_path / "case")
     text = (case / "constant/softCloudProperties").read_text()
     (case / "steady").write_text(text.replace("transient yes;", ""))
+    for time in ("0", "1.5"):
+        shutil.copy(case / time / "U", case / time / "V")
     options, words = MISTAKES[mistake]
     assert main(["run", "-case", str(case), *options]) == 1
     error = capsys.readouterr().err

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 import re
 import shutil
@@ -199,9 +200,28 @@ def moving(case):
     shutil.copy(case / "constant/polyMesh/points", case / "0.5/polyMesh/points")
 
 
-def cut_short(case):
-    file = case / "1.5/U"
-    file.write_text(file.read_text()[:300])
+def compress(file):
+    packed = gzip.compress(file.read_bytes())
+    file.unlink()
+    file.with_name("U.gz").write_bytes(packed[: len(packed) // 2])
+
+
+DAMAGES = {
+    "missing": lambda file: file.unlink(),
+    "empty": lambda file: file.write_text(""),
+    "cut off": lambda file: file.write_text(file.read_text()[:-5]),
+    "unreadable": compress,
+}
+
+
+@pytest.mark.parametrize("fault", DAMAGES)
+def test_a_time_without_a_whole_velocity_is_left_out(fault, case, capsys):
+    DAMAGES[fault](case / "0.5/U")
+    assert main(["run", "-dry-run", "-case", str(case)]) == 0
+    said = capsys.readouterr().out
+    assert said.count(f"Times without a whole field U are left out: 0.5 ({fault}).") == 1
+    assert "linear in time between 2 times from 0 to 1.5" in said
+    assert ("Warning : Times" in said) == (fault != "missing")
 
 
 MISTAKES = {
@@ -226,8 +246,10 @@ MISTAKES = {
         lambda c: edit(c, "transient yes; ", "transient yes; period 4; "), [],
         ["to 1.5 s do not fill the period of 4 s from 0 to 4 s: correct the period."],
     ),
-    "no velocity at a time": (lambda c: (c / "0.5/U").unlink(), [], ["0.5: no field U; the fields are p"]),
-    "a velocity cut short": (cut_short, [], ["1.5"]),
+    "iterations": (
+        lambda c: (c / "system/fvSchemes").write_text("ddtSchemes { default localEuler; }"), [],
+        ["the times of the flow are iterations (ddtSchemes localEuler)", "accept ( pseudoTime )"],
+    ),
 }  # fmt: skip
 
 

@@ -388,5 +388,9 @@ def test_iterations_of_a_steady_solver_are_no_times(tmp_path):
     assert "// transient" in write_template(tmp_path).read_text()
     (tmp_path / "constant/softCloudProperties").unlink()
     (tmp_path / "system").mkdir(exist_ok=True)
-    (tmp_path / "system/fvSchemes").write_text("ddtSchemes { default steadyState; }")
-    assert "transient" not in write_template(tmp_path).read_text()
+    for entry, scheme in (("steadyState", "steadyState"), ("bounded localEuler rDeltaT", "localEuler")):
+        (tmp_path / "system/fvSchemes").write_text(f"ddtSchemes {{ default {entry}; }}")
+        file = write_template(tmp_path)
+        hint = f"// no transient flow: the times of the flow are iterations (ddtSchemes {scheme})\n"
+        assert hint in file.read_text()
+        file.unlink()

@@ -11,7 +11,7 @@ import numpy as np
 from foamprb.dictionary.dimensions import MASS_FLUX
 from foamprb.dictionary.files import existing, read_bytes
 from foamprb.dictionary.grammar import read_dictionary
-from foamprb.dictionary.tree import Dictionary, Stream
+from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
@@ -20,6 +20,8 @@ from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
 from foamprb.flow.read.field import FoamField, Kind
 
+_PSEUDO = ("steadyState", "localEuler", "CoEuler", "SLTS")
+"""Schemes of ``ddtSchemes`` by which a time is an iteration, with a step of its own in each cell or none."""
 _AT_REST = frozenset({"staticFvMesh", "dynamicRefineFvMesh"})
 """Types of meshes whose points keep their places."""
 _ZERO = re.compile(rb"internalField\s+uniform\s+0(?:\.0*)?\s*;")
@@ -75,18 +77,23 @@ def refuse_absolute(case: Path, region: str, folder: Path, velocity: str) -> Non
         )
 
 
-def is_steady(case: Path, region: str) -> bool | None:
-    """Return True if ``fvSchemes`` is steady, so that the times of a case are iterations; None without it."""
+def pseudo_time(case: Path, region: str) -> str:
+    """Return the scheme of ``ddtSchemes`` by which the times of a case are iterations, or ''."""
+    return word if (word := _time_scheme(case, region)) in _PSEUDO else ""
+
+
+def _time_scheme(case: Path, region: str) -> str:
+    """Return the default scheme of ``ddtSchemes``, or '' without one."""
     try:
         schemes = read_dictionary(case / "system" / region / "fvSchemes", case).entries.get("ddtSchemes")
     except InputError:
-        return None
-    default = schemes.entries.get("default") if isinstance(schemes, Dictionary) else None
-    return default.text == "steadyState" if isinstance(default, Stream) else None
+        return ""
+    words = word_of(schemes, "default").split() if isinstance(schemes, Dictionary) else []
+    return next((word for word in words if word != "bounded"), "")
 
 
 def _frozen(case: Path, region: str) -> Iterator[Caveat]:
-    if is_steady(case, region) is False:
+    if _time_scheme(case, region) not in ("", *_PSEUDO):
         yield Caveat(
             "the flow is one instant of an unsteady solver (ddtSchemes), which stands still for the "
             "particles: right if it is steady by then. solution/transient true follows all times."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -70,6 +70,11 @@ class DecomposedCase(Case):
         self.notes = (f"The flow was put together from {self.processors.n} processor folders.", note)[
             : 1 + bool(note)
         ]
+
+    @property
+    def roots(self) -> Sequence[Path]:
+        """The folders of the processors."""
+        return [self.processors.folders[k] for k in self.processors.held]
 
     def times(self) -> tuple[str, ...]:
         """Return the names of the times of all processors."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import warnings
 from collections.abc import Container
@@ -28,6 +29,8 @@ _NOTE = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _WORD = re.compile(rb'"(?:[^"\\]|\\.)*"|[^\s(){};"]+')
 _COUNT = re.compile(rb"(?:List<\w+>\s*)?(\d+)")
 COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
+_ENDS = [re.compile(rb"%b\s*(?://[^\n]*\s*)*\Z" % bracket) for bracket in (rb"\}", rb"\)")]
+"""Ends of a field and of a collated one, perhaps before comments."""
 _MOST_ENTRIES = 1 << 31
 _NO_BRACKETS = bytes.maketrans(b"()", b"  ")
 
@@ -326,6 +329,26 @@ def read_blocks(path: Path, chosen: Container[int], most: int = -1) -> tuple[lis
             if number in chosen:
                 files.append(FoamFile(path, data, entries))
             at, number = begin + n + 1, number + 1
+
+
+def damage(path: Path) -> str:
+    """Return missing, empty, cut off or unreadable for such a file, by its first and last bytes; else ''."""
+    file = existing(path)
+    if file is None:
+        return "missing"
+    try:
+        with opened(file) as stream:
+            first = stream.read(HEADER_BYTES)
+            stream.seek(max(0, stream.seek(0, os.SEEK_END) - HEADER_BYTES))
+            last = stream.read()
+        collated = b"decomposedBlockData" in first
+        if collated:
+            read_blocks(file, (), 0)
+    except InputError:
+        return "unreadable"
+    if b"FoamFile" not in first:
+        return "cut off" if first.strip() else "empty"
+    return "" if _ENDS[collated].search(last) else "cut off"
 
 
 def header(path: Path) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -34,7 +34,7 @@ from foamprb.flow.read.case import (
     select_time,
     select_times,
 )
-from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case, refuse_absolute
+from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case, pseudo_time, refuse_absolute
 from foamprb.flow.read.checks import (
     at_cells,
     notes_of_types,
@@ -44,10 +44,12 @@ from foamprb.flow.read.checks import (
 )
 from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, Kind, read_field
+from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
 from foamprb.flow.read.sampled import kinds_of, read_sampled
 from foamprb.flow.read.source import FlowSource, FlowTimes
+from foamprb.flow.read.times import listed
 from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.viscosity import read_viscosity_field
 from foamprb.flow.reconstruct import Reconstruction
@@ -95,6 +97,16 @@ class Case:
     def select_times(self, selection: str | None) -> tuple[str, ...]:
         """Return the names of times; see :func:`foamprb.flow.read.case.select_times`."""
         return select_times(self.root, selection, self.region)
+
+    @property
+    def roots(self) -> Sequence[Path]:
+        """The folders that hold the times."""
+        return (self.root,)
+
+    def damaged(self, times: Sequence[str], name: str) -> dict[str, str]:
+        """Return the times at which a field is missing, empty or cut off, each with the word."""
+        files = ((time, damage(root / time / self.region / name)) for time in times for root in self.roots)
+        return {time: fault for time, fault in files if fault}
 
     def folder(self, time: str) -> Path:
         """Return the folder of the fields at a time."""
@@ -272,12 +284,10 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             f"{case.root}: rotating zones (MRFProperties) are seen from their rotors in steady flows only. "
             "Allowed: solution/transient no, or solution/rotatingZones absolute."
         )
-    names = list(case.select_times(times))
+    names, notes = transient_times(case, times, source.velocity)
     if len(names) == 1:
         return steady_flow(case, names[0], source)
     kinds = kinds_of(source.sampled, case.fields, names)
-    for name in names[1:]:
-        _refuse_moving(case, name)
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     field = case.field(names[0], source.velocity, VELOCITY_FIELD)
     whole = case.mesh(names[0])
@@ -300,7 +310,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         correction = conserve(u, l, mass, case.folder(name) / source.velocity)
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
 
-    notes = [*case.notes, *whole.notes]
+    notes = [*notes, *case.notes, *whole.notes]
     notes += _caveats(case, names[-1], moving=False, turbulent=source.turbulent)
     zones = partial(case.zones, names[0])
     notes += flux
@@ -309,6 +319,35 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
         make=partial(case.make, SeriesFlow),
     )  # fmt: skip
+
+
+def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[list[str], list[str]]:
+    """Return the times of a transient flow at which the velocity is whole, and notes.
+
+    Raises
+    ------
+    InputError
+        The selection has no times, or the mesh changes in time.
+    """
+    selected, notes = case.select_times(selection), []
+    damaged = case.damaged(selected, velocity)
+    names = [name for name in selected if name not in damaged] or list(selected)
+    if damaged:
+        kind = Caveat if {*damaged.values()} - {"missing"} else str
+        times = listed(f"{name} ({fault})" for name, fault in damaged.items())
+        notes.append(kind(f"Times without a whole field {velocity} are left out: {times}."))
+    scheme = pseudo_time(case.root, case.region)
+    if scheme:
+        notes.append(
+            Caveat(
+                f"the times of the flow are iterations (ddtSchemes {scheme}): solution/transient takes them "
+                "for seconds.",
+                "pseudoTime",
+            )
+        )
+    for name in names[1:]:
+        _refuse_moving(case, name)
+    return names, notes
 
 
 def _at_nodes(
