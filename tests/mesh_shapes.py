@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from foamprb.flow.mesh.boundary import PatchSurface, Transform
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.read.boundary import PatchInfo, patches_of_mesh
 
 HEXAHEDRON_FACES = ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7))
 KINDS = ("hexahedra", "tetrahedra", "prisms", "pyramids", "polyhedra", "mixed")
@@ -248,6 +249,47 @@ def interfaces(angle, cuts=(4, 5, 7), perturbation=0.2):
             sides._replace(name=f"sides{i}"),
         ]
     return build_mesh(beside(parts), patches), turn, shift * n
+
+
+def joined_boxes(cuts, joints, openings=(), perturbation=0.2):
+    """Unit cubes far from each other, each cut differently; some sides continue in sides of others.
+
+    A joint is a type of coupled patches, an axis, and two cubes: the upper side of the first along the axis
+    continues in the lower side of the second. ``openings`` are patches, such as ``cube0upper2``; all other
+    sides are walls.
+    """
+    parts, types, infos = [], {}, []
+    for i, cut in enumerate(cuts):
+        part = block(cut, perturbation, seed=i)
+        part.points = np.asarray(part.points) + np.array([3.0 * i, 0.0, 0.0])
+        parts.append(part)
+        names = [f"cube{i}{end}{axis}" for axis in range(3) for end in ("lower", "upper")]
+        types[i] = {name: "patch" if name in openings else "wall" for name in names}
+    for kind, axis, one, other in joints:
+        ends = {one: f"cube{one}upper{axis}"}, {other: f"cube{other}lower{axis}"}
+        shift = np.array([3.0 * (other - one), 0.0, 0.0]) - np.eye(3)[axis]
+        for own, theirs, sign in ((*ends, 1.0), (*ends[::-1], -1.0)):
+            (name,), (beyond,) = own.values(), theirs.values()
+            transform = Transform("translational", separation=tuple(sign * shift))
+            if kind == "nonConformalCyclic":
+                infos.append(PatchInfo(name, "wall", 1, 0, "", Transform(), {}))
+                entries = {"originalPatch": name}
+                infos.append(PatchInfo(f"on{name}", kind, 0, 0, f"on{beyond}", transform, entries))
+            else:
+                infos.append(PatchInfo(name, kind, 1, 0, beyond, transform, {}))
+    coupled = {patch.name: patch for patch in patches_of_mesh(infos)}
+
+    def name(x):
+        y = x - [3.0 * round((x[0] - 0.5) / 3.0), 0.0, 0.0]
+        axis = int(np.argmax(np.abs(y - 0.5)))
+        return f"cube{round((x[0] - 0.5) / 3.0)}{'upper' if y[axis] > 0.5 else 'lower'}{axis}"
+
+    patches = [
+        coupled[p.name]._replace(surface=p.surface) if p.name in coupled else p
+        for i, part in enumerate(parts)
+        for p in boundary(part, name, types[i])
+    ]
+    return build_mesh(beside(parts), patches)
 
 
 def folds_at_a_gap(n):

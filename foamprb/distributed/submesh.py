@@ -173,7 +173,7 @@ class Halo(MeshCommunicator):
     """
 
     def __init__(self, part: SubMesh, team: Team, folders: Folders | None = None) -> None:
-        self.part, self.team = part, team
+        self.part, self.team, self.rank = part, team, team.rank
         self.folders = folders or Folders(range(1), np.zeros(len(part.cells), dtype=np.int32))
         mesh, cells = part.mesh, part.cells
         everyone = range(team.size)
@@ -218,7 +218,7 @@ class Halo(MeshCommunicator):
 
     def distribute(
         self, rows: tuple[Any, ...], blocks: tuple[Ints, int], segments: Index
-    ) -> tuple[tuple[Any, ...], Callable[[Floats], Floats], Callable[[Floats], Floats]]:
+    ) -> tuple[tuple[Any, ...], Callable[[NDArray[Any]], NDArray[Any]], Callable[[Floats], Floats]]:
         """See :meth:`MeshCommunicator.distribute`."""
         team, numbers, cells = self.team, self.part.cells, self.own_cells
         parts = [(len(segments) - 1) * k // team.size for k in range(team.size + 1)]

@@ -18,6 +18,7 @@ import numpy as np
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator, single_node, total_of
+from foamprb.flow.mesh.interfaces import FacePairs
 from foamprb.flow.mesh.lists import Index, Mask, starts, threads
 from foamprb.flow.mesh.mesh import Mesh
 
@@ -50,14 +51,14 @@ CONSTANT = Mass(np.ones(1), np.ones(1), np.zeros(1))
 class Balanced(NamedTuple):
     """Outcome of :class:`Balance`: ratios of root mean squares to those of the flow, and a count.
 
-    A flow that starts from rest has fluxes at its openings only: the change is compared with the largest flux
+    A flow that starts from rest moves at its boundary only: the change is compared with the largest velocity
     through the boundary if that is larger.
     """
 
     left: float
-    """Mass that cells still make or lose."""
+    """Mass that cells still make or lose, to the fluxes through faces and into cells."""
     change: float
-    """Change of the fluxes."""
+    """Change of the velocity through faces; means over their areas."""
     iterations: int
 
 
@@ -74,60 +75,88 @@ class Balance:
     ----------
     mesh
         Cells and faces.
+    pairs
+        Coupled faces; the flux through the area that two faces share may change.
     measures
-        (3, n_faces) results of :func:`~foamprb.flow.fluxes.weigh_faces`; they are overwritten.
+        (3, n_faces) results of :func:`~foamprb.flow.fluxes.weigh_faces`; weights and errors are overwritten.
+    fluxes
+        (n_faces,) interpolated fluxes; calls change them.
     free
-        Boundary faces through which the flux may change.
+        Other boundary faces through which the flux may change.
+    closed
+        See :func:`closed_pieces`.
     comm
         The nodes that hold the mesh.
     """
 
     def __init__(
-        self, mesh: Mesh, measures: Floats, free: Mask, comm: MeshCommunicator = SINGLE_NODE
+        self,
+        mesh: Mesh,
+        pairs: FacePairs,
+        measures: Floats,
+        fluxes: Floats,
+        free: Mask,
+        closed: Ints,
+        comm: MeshCommunicator = SINGLE_NODE,
     ) -> None:
-        weight, error, square = measures
+        weight, error, area = measures
         self._mesh, self._weight, self._comm, n = mesh, weight, comm, mesh.n_internal
+        self._fluxes, self._area = fluxes, area
+        outer = mesh.owner[n:]
+        self._pairs, self._ends = pairs, (outer[pairs.faces], outer[pairs.others])
         self._of_all = of_all = comm.of_all
         # Each face and each cell counts on one node.
         self._faces, self._cells = comm.own_faces, comm.own_cells
         self._n_faces = sum(of_all(len(weight[self._faces])))
         self._n_cells = sum(of_all(len(mesh.volumes[self._cells])))
-        means = [total_of(a[self._faces], of_all) / max(self._n_faces, 1) for a in (error, square)]
-        error += _LEAST_ERROR * means[0] + 1e-12 * means[1] + 1e-300
+        # The normals of two coupled faces are opposite.
+        of_pairs = 0.25 * (error[n:][pairs.faces] - error[n:][pairs.others]) ** 2
+        np.square(error, out=error)
+        squares = error, (fluxes / area) ** 2
+        means = [total_of(a[self._faces], of_all) / max(self._n_faces, 1) for a in squares]
+        least = _LEAST_ERROR * means[0] + 1e-12 * means[1] + 1e-300
+        error += least
+        # The two halves of the way between two cells are in series.
+        one, other = weight[n:][pairs.faces] * pairs.parts, weight[n:][pairs.others] * pairs.of_others
+        across = one * other / np.maximum(one + other, 1e-300) * (of_pairs + least)
         weight *= error
-        weight /= max(of_all(float(weight[self._faces].max(initial=1e-300))))
+        largest = max(of_all(float(weight[self._faces].max(initial=1e-300))))
+        weight /= largest
         weight[n:][~free] = 0.0
-        may_change = np.concatenate([np.zeros(n, dtype=bool), free])[self._faces]
-        self._closed = not any(of_all(bool(may_change.any())))
+        self._across = across / largest
+        size = 2 * n + len(pairs.faces)
         # Unsigned, which avoids a check for negative indices.
-        start, columns = np.empty(mesh.n_cells + 1, dtype=np.uint32), np.empty(2 * n, dtype=np.uint32)
-        rows = start, columns, np.empty(2 * n), np.empty(mesh.n_cells)
+        start, columns = np.empty(mesh.n_cells + 1, dtype=np.uint32), np.empty(size, dtype=np.uint32)
+        rows = start, columns, np.empty(size), np.empty(mesh.n_cells)
         faces_of = mesh.cell_face_start, mesh.cell_faces, mesh.owner, mesh.neighbour
-        link(list_rows)(*faces_of, weight, *rows)
+        link(list_rows)(*faces_of, weight, pairs.start, self._ends[1], self._across, *rows)
         blocks = _blocks(mesh.centres[self._cells], of_all)
         segments = _segments(self._n_cells)
-        given, self._put, self._get = comm.distribute(rows, blocks, segments)
-        self._equations = Equations(*given)
+        of_equations, self._put, self._get = comm.distribute(rows, blocks, segments)
+        self._equations, self._closed = Equations(*of_equations), self._put(closed[self._cells])
 
-    def __call__(self, fluxes: Floats, mass: Mass) -> Balanced:
-        """Change fluxes (n_faces,) in place; what remains of a closed flow is shared by volume.
+    def __call__(self, crossing: Floats, mass: Mass) -> Balanced:
+        """Change the fluxes in place; what remains of a closed piece is shared by volume.
 
-        The flow that the result refers to is that through faces and into the cells.
+        ``crossing`` (n_pairs,) is the part of the fluxes of coupled faces that crosses each pair.
         """
-        mesh, weight, n = self._mesh, self._weight, self._mesh.n_internal
+        mesh, pairs, weight, n = self._mesh, self._pairs, self._weight, self._mesh.n_internal
+        fluxes = self._fluxes
         owner, neighbour, cells = mesh.owner, mesh.neighbour, mesh.n_cells
         inside = np.broadcast_to(mass.cells, (cells,))
         outside = np.broadcast_to(mass.boundary, (len(owner) - n,))
-        density = np.ones(1)
+        density, between = np.ones((2, 1))
+        (here, there), coupled = self._ends, n + np.flatnonzero(np.diff(pairs.start))
         if mass is not CONSTANT:
             density = np.concatenate([0.5 * (inside[owner[:n]] + inside[neighbour]), outside])
+            between = 0.5 * (inside[here] + inside[there])
         fluxes *= density
+        fluxes[coupled] = pairs.total(crossing * between)[coupled - n]
         stored = mesh.volumes * mass.growth
         rest = np.bincount(neighbour, fluxes[:n], cells) - np.bincount(owner, fluxes, cells) - stored
         volumes = mesh.volumes
         rest, volumes = (self._put(a[self._cells]) for a in (rest, volumes))
-        if self._closed:
-            rest -= volumes * (self._equations.total(rest) / self._equations.total(volumes))
+        self._equations.close(rest, volumes, self._closed)
         squares = total_of(fluxes[self._faces] ** 2, self._of_all)
         gained = total_of(stored[self._cells] ** 2, self._of_all)
         size = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells + gained)
@@ -136,13 +165,56 @@ class Balance:
         given = fluxes.copy()
         fluxes += weight * y[owner]
         fluxes[:n] -= weight[:n] * y[neighbour]
+        crossing = crossing * between + self._across * (y[here] - y[there])
+        fluxes[coupled] = pairs.total(crossing)[coupled - n]
         change = given - fluxes
         fluxes /= density
+        fluxes[coupled] = pairs.total(crossing / between)[coupled - n]
         self._comm.fill("faces", fluxes)
-        squares = total_of(change[self._faces] ** 2, self._of_all)
-        changed = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells)
-        strongest = max(self._of_all(float(np.abs(given[n:]).max(initial=0.0)))) * math.sqrt(self._n_cells)
-        return Balanced(left / max(size, 1e-300), changed / max(size, strongest, 1e-300), iterations)
+        speed = np.abs(given[n:] / self._area[n:])[self._comm.own_boundary].max(initial=0.0)
+        swelling = (mass.growth * np.cbrt(mesh.volumes))[self._cells] ** 2
+        flow = self._mean_square(given) + total_of(swelling, self._of_all) / max(self._n_cells, 1)
+        most = max(math.sqrt(flow), *self._of_all(float(speed)), 1e-300)
+        return Balanced(left / max(size, 1e-300), math.sqrt(self._mean_square(change)) / most, iterations)
+
+    def _mean_square(self, fluxes: Floats) -> float:
+        """Return the mean over the area of the faces of the squared velocity through them."""
+        area, squares = (
+            total_of(values[self._faces], self._of_all) for values in (self._area, fluxes**2 / self._area)
+        )
+        return squares / max(area, 1e-300)
+
+
+def closed_pieces(mesh: Mesh, pairs: FacePairs, free: Mask, comm: MeshCommunicator = SINGLE_NODE) -> Ints:
+    """Return a number for all cells (n_cells,) of each piece of a mesh that no flux enters, −1 for others.
+
+    Fluxes pass from one piece to the next neither through faces nor through coupled ones. ``free`` are the
+    boundary faces through which they may change.
+    """
+    from scipy import sparse
+    from scipy.sparse.csgraph import connected_components
+
+    n, outer = mesh.n_internal, mesh.owner[mesh.n_internal :]
+
+    def joined(ends: Any, count: int) -> tuple[int, Ints]:
+        graph = sparse.coo_array((np.ones(len(ends[0]), dtype=np.int8), tuple(ends)), shape=(count, count))
+        number, labels = connected_components(graph, directed=False)
+        return int(number), labels
+
+    ends = (mesh.owner[:n], outer[pairs.faces]), (mesh.neighbour, outer[pairs.others])
+    count, piece = joined([np.concatenate(side) for side in ends], mesh.n_cells)
+    # Cells that several nodes hold join the pieces of these nodes.
+    counts = comm.of_all(count)
+    piece += np.int32(sum(counts[: comm.rank]))
+    of_owner = piece.copy()
+    comm.fill("cells", of_owner)
+    links = np.concatenate(comm.of_all(np.unique([piece, of_owner], axis=1)), axis=1)
+    count, number = joined(links, sum(counts))
+    piece = number[piece]
+    is_open = np.zeros(count, dtype=bool)
+    is_open[piece[outer[comm.own_boundary]][free[comm.own_boundary]]] = True
+    is_open = np.any(comm.of_all(is_open), axis=0)
+    return np.where(is_open, -1, np.cumsum(~is_open) - 1)[piece]
 
 
 def _segments(cells: int) -> Index:
@@ -210,9 +282,21 @@ class Equations:
         matrix = pairs + pairs.T + sparse.diags_array((1.0 + 1e-9) * total - 2.0 * within)
         self._solve_blocks = splu(matrix.tocsc()).solve
 
-    def total(self, values: Floats) -> float:
-        """Return the sum of values of the cells of all nodes."""
-        return self._summed([float(values[a:b].sum()) for a, b in self._segments])
+    def close(self, residual: Floats, volumes: Floats, closed: Ints) -> None:
+        """Subtract from what the cells of each closed piece lack their share, by volume, of its sum.
+
+        Without it there is no solution. ``closed`` (n_cells,) is the piece of each cell, −1 for open ones.
+        """
+        n = 2 + max(self._of_all(int(closed.max(initial=-1))))
+
+        def totals(values: Floats) -> Floats:
+            sums = [np.bincount(closed[a:b] + 1, values[a:b], n) for a, b in self._segments]
+            rows = [row for listed in self._of_all(sums) for row in listed]
+            return np.array([math.fsum(column) for column in zip(*rows, strict=True)])
+
+        lack = totals(residual) / np.maximum(totals(volumes), 1e-300)
+        lack[0] = 0.0
+        residual -= volumes * lack[closed + 1]
 
     def _summed(self, found: Sequence[float]) -> float:
         """Return the sum of values of the segments of all nodes, which is exact but for one rounding."""
@@ -317,6 +401,9 @@ def list_rows(
     owner: Ints,
     neighbour: Ints,
     weight: Floats,
+    pair_start: Ints,
+    beyond: Ints,
+    across: Floats,
     start: Ints,
     columns: Ints,
     values: Floats,
@@ -328,6 +415,8 @@ def list_rows(
     ----------
     first, of_cell, owner, neighbour, weight
         The faces of each cell; the cells and the weight of each face.
+    pair_start, beyond, across
+        The pairs of each boundary face; the cell beyond and the weight of each pair.
     start, columns, values, diagonal
         Results: the row of cell c is from ``start[c]`` to before ``start[c + 1]``. 1 on the diagonal of a
         cell without weights.
@@ -342,6 +431,14 @@ def list_rows(
                 columns[at] = neighbour[f] if owner[f] == c else owner[f]
                 values[at] = -weight[f]
                 at += 1
+                continue
+            b = f - neighbour.shape[0]
+            for k in range(pair_start[b], pair_start[b + 1]):
+                if beyond[k] != c:
+                    total += across[k]
+                    columns[at] = beyond[k]
+                    values[at] = -across[k]
+                    at += 1
         diagonal[c] = total if total > 0.0 else 1.0
     start[diagonal.shape[0]] = at
 

@@ -25,18 +25,19 @@ from numpy.typing import NDArray
 from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector_product
 from foamprb.compile.link import link
 from foamprb.errors import InputError
-from foamprb.flow.balance import BALANCED, CONSTANT, Balance, Mass
+from foamprb.flow.balance import BALANCED, CONSTANT, Balance, Mass, closed_pieces
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
+from foamprb.flow.mesh.interfaces import face_pairs
 from foamprb.flow.mesh.lists import Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import PatchKind
 
 _LEAST_ALONG = 0.02
 """Least cosine between a face's normal and the line of the cell centres that counts in its weight."""
-_LARGEST_CHANGE = 2.0
-"""Largest change of the fluxes (rms) over the flow, or over its largest flux through the boundary."""
+_LARGEST_CHANGE = 1.0
+"""Largest change of the velocity through faces; see :class:`~foamprb.flow.balance.Balanced`."""
 # Sum of squares of what the tetrahedra of a cell may still lack, over that of their fluxes.
 _EXACT = 1e-14
 _ROWS = 7
@@ -74,9 +75,9 @@ class Measures(NamedTuple):
     weight: Floats
     """Conductance, m."""
     error: Floats
-    """Squared error of the velocity, m²/s²."""
-    square: Floats
-    """Squared velocity, m²/s²."""
+    """Error of the velocity out of the face, m/s."""
+    area: Floats
+    """Area, m²."""
 
 
 class Work(NamedTuple):
@@ -127,8 +128,10 @@ class Conservation:
         self._open = ~(self._closed | walls)
         if valued is not None:
             self._open |= walls & ~valued
-        for coupling in mesh.couplings:
-            self._open[coupling.faces] = False
+        self._coupled = np.concatenate([np.empty(0, dtype=np.intp), *(c.faces for c in mesh.couplings)])
+        self._open[self._coupled] = False
+        self._pairs = face_pairs(mesh)
+        self._closed_pieces = closed_pieces(mesh, self._pairs, self._open, comm)
 
     def __call__(
         self, u: Floats, l: Floats, mass: Mass | None = CONSTANT, where: object = "flow"
@@ -159,21 +162,22 @@ class Conservation:
 
         share(len(fluxes), faces)
         outer = fluxes[mesh.n_internal :]
-        interpolated = outer.copy()
         outer[self._closed] = 0.0
-        for coupling in mesh.couplings:
-            # What leaves through a coupled patch enters through its partner.
-            outer[coupling.faces] = 0.5 * (interpolated[coupling.faces] - interpolated[coupling.partners])
+        # What leaves through a coupled patch enters through its partner.
+        crossing = self._pairs.crossing(outer)
+        outer[self._coupled] = self._pairs.total(crossing)[self._coupled]
         if mass is not None:
             measures = _measured(mesh, at, sides, fluxes)
-            left, change, iterations = Balance(mesh, measures, self._open, self._comm)(fluxes, mass)
+            openings = self._open, self._closed_pieces
+            balance = Balance(mesh, self._pairs, measures, fluxes, *openings, self._comm)
+            left, change, iterations = balance(crossing, mass)
             if not (left <= 10.0 * BALANCED and change <= _LARGEST_CHANGE):
                 raise InputError(
                     f"{where}: no fluxes were found that conserve the fluid in each cell. After {iterations} "
-                    f"iterations the correction of the fluxes is {change:.2g} times the flow, and cells make "
-                    f"or lose {left:.2g} times the flow through their faces (root mean squares; allowed: "
-                    f"{_LARGEST_CHANGE:g} and {10.0 * BALANCED:g}). Possible causes: cells without volume "
-                    "(see checkMesh), or cyclicAMI patches around a part of the mesh without inlet or outlet."
+                    f"iterations the correction of the velocity is {change:.2g} times the flow, and cells "
+                    f"make or lose {left:.2g} times the flow through their faces (root mean squares; "
+                    f"allowed: {_LARGEST_CHANGE:g} and {10.0 * BALANCED:g}). Possible causes: a velocity "
+                    "that is no solution of the flow equations, or cells without volume (see checkMesh)."
                 )
         correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
         most = int(np.diff(mesh.cell_start).max(initial=0))
@@ -238,8 +242,8 @@ def weigh_faces(
             d = arm(boundary_centres, f - neighbour.shape[0], x)
         reach = max(inner(d, d), 1e-300)
         measures.weight[f] = max(inner(s, d), _LEAST_ALONG * size * np.sqrt(reach)) / reach
-        measures.error[f] = ((inner(s, v) - fluxes[f]) / size) ** 2
-        measures.square[f] = (fluxes[f] / size) ** 2
+        measures.error[f] = (inner(s, v) - fluxes[f]) / size
+        measures.area[f] = size
 
 
 def area_vector(nodes: Floats, a: int, b: int, c: int) -> Vector:

@@ -57,13 +57,20 @@ class Images:
         """Return tensors of the images (n, 3, …, 3), which ``read`` makes of the cells' ``values``."""
         return _turned(self._turns, read(values[self.cells]))
 
-    def agree(self, points: Floats) -> None:
-        """Average tensors at the mesh points (n_points, 3, …, 3) in place with their images."""
+    def agree(self, points: Floats, walls: Index | None = None) -> None:
+        """Average tensors at the mesh points (n_points, 3, …, 3) in place with their images.
+
+        At coupled patches the points of ``walls`` keep their values; their images off walls take these.
+        """
+        on_wall = np.zeros(len(points), dtype=bool)
+        on_wall[walls if walls is not None else slice(0)] = True
         for rows, mirrors in self._planes:
             points[rows] = 0.5 * (points[rows] + _turned(mirrors, points[rows]))
         for here, there, turn in self._seams:
             turns = np.broadcast_to(turn, (len(here), 3, 3))
-            mean = 0.5 * (_turned(turns, points[here]) + points[there])
+            counts = np.stack([on_wall[here] | ~on_wall[there], on_wall[there] | ~on_wall[here]])
+            a, b = (counts / counts.sum(axis=0)).reshape(2, -1, *(points.ndim - 1) * [1])
+            mean = a * _turned(turns, points[here]) + b * points[there]
             points[here], points[there] = _turned(turns.transpose(0, 2, 1), mean), mean
             axis = here[here == there]
             if len(axis) and np.any(turn != np.eye(3)):

@@ -63,6 +63,7 @@ class Reconstruction:
         walls = np.array([p.kind is PatchKind.WALL for p in mesh.patches], dtype=bool)[patch_of_face] & valued
         self.mesh = mesh
         self._valued, self._walls = np.flatnonzero(valued), np.flatnonzero(walls)
+        self._on_walls = np.unique(points_of_faces(mesh, self._walls)[0])
         self._open = ~walls[self._valued]
         self._owner = mesh.owner[mesh.n_internal :].astype(np.intp)
         self._images = images = Images(mesh)
@@ -116,8 +117,8 @@ class Reconstruction:
         at_points = u_nodes[:n_points], l_nodes[:n_points]
         self._average(u, slopes, bends, *at_points)
         self._impose_walls(at_points[0], boundary, slopes, bends)
-        for values in at_points:
-            self._images.agree(values)
+        for values, fixed in zip(at_points, (self._on_walls, None), strict=True):
+            self._images.agree(values, fixed)
             self.comm.fill("points", values)
         return u_nodes, l_nodes
 

@@ -17,12 +17,14 @@ from mesh_shapes import (
     block,
     box_patches,
     cyclic_row,
-    interfaces,
+    joined_boxes,
     pipe,
     pipe_patches,
     wedge,
     wedge_patches,
 )
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -268,14 +270,55 @@ def test_a_correction_that_is_larger_than_the_flow_is_refused(monkeypatch):
     assert left <= 1e-4
 
 
-def test_closed_parts_between_patches_that_do_not_match_are_refused():
-    """The interpolated flux into each part is not zero, and the flux through coupled patches is given."""
-    mesh, *_ = interfaces(0.0, cuts=(3, 4))
-    y = np.pi * mesh.centres[:, 1:]
-    u = np.zeros_like(mesh.centres)
-    u[:, 0] = np.prod(np.sin(y) ** 2, axis=1)
-    with pytest.raises(InputError, match="cyclicAMI patches around a part"):
-        Conservation(mesh)(*Reconstruction(mesh)(u, np.zeros_like(mesh.boundary_centres)))
+@st.composite
+def networks(draw):
+    """Cuts of cubes, joints between sides that face each other, and openings."""
+    cuts = draw(st.lists(st.integers(3, 5), min_size=1, max_size=4))
+    joints, taken = [], set()
+    for axis in range(3):
+        others = draw(st.permutations(range(len(cuts))))
+        for one, other in enumerate(others):
+            if draw(st.booleans()):
+                alike = ["cyclic"] if cuts[one] == cuts[other] else []
+                kind = draw(st.sampled_from(["cyclicAMI", "nonConformalCyclic", *alike]))
+                joints.append((kind, axis, one, other))
+                taken |= {f"cube{one}upper{axis}", f"cube{other}lower{axis}"}
+    sides = {f"cube{i}{end}{k}" for i in range(len(cuts)) for end in ("lower", "upper") for k in range(3)}
+    openings = draw(st.sets(st.sampled_from(sorted(sides - taken)), max_size=2)) if sides - taken else ()
+    return cuts, joints, openings
+
+
+@given(networks(), st.integers(0, 100))
+@settings(max_examples=25)
+def test_pieces_between_coupled_patches_keep_volume(network, seed):
+    """Where walls push fluid into a closed piece, its cells have the same divergence."""
+    cuts, joints, openings = network
+    mesh, random = joined_boxes(*network), np.random.default_rng(seed)
+    cells = whirl(mesh.centres % 3.0) + random.normal(0.0, 0.3, (mesh.n_cells, 3))
+    u, l = Reconstruction(mesh)(cells, random.normal(0.0, 0.1, (len(mesh.boundary_centres), 3)))
+    plain, flow = MeshFlow(mesh, u, l), MeshFlow(mesh, u, l, correction=Conservation(mesh)(u, l))
+    fluxes, faces = outward(flow).mean(axis=2), mesh.triangle_face
+    size = np.sqrt(np.mean(fluxes**2))
+    before, after = (np.bincount(faces, outward(f).mean(axis=2)[mesh.triangle_tet, 0]) for f in (plain, flow))
+    walls = np.repeat([patch.type == "wall" for patch in mesh.patches], np.diff(mesh.patch_start))
+    assert after[walls] == pytest.approx(before[walls], abs=1e-5 * size)
+    patches = np.add.reduceat(after, mesh.patch_start[:-1])
+    for coupling in mesh.couplings:
+        assert patches[coupling.patch] == pytest.approx(-patches[coupling.other], abs=1e-5 * size)
+        if coupling.matching:
+            here, there = after[coupling.faces], after[coupling.partners]
+            assert here == pytest.approx(-there, abs=1e-5 * size)
+    ends = np.array([joint[2:] for joint in joints], dtype=int).reshape(-1, 2).T
+    graph = coo_array((np.ones(len(joints)), tuple(ends)), shape=(len(cuts), len(cuts)))
+    piece = connected_components(graph, directed=False)[1]
+    of_cells = piece[(mesh.centres[:, 0] / 3.0).astype(int)]
+    pushed = np.bincount(of_cells[mesh.owner[mesh.n_internal :]], walls * after, len(cuts))
+    pushed[[piece[int(opening[4])] for opening in openings]] = 0.0
+    corners, cell = mesh.nodes[mesh.tets], mesh.tets[:, 0] - mesh.n_points
+    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
+    made = mesh.volumes * pushed[of_cells] / np.bincount(piece)[of_cells]
+    made = volumes * (made / np.bincount(cell, volumes))[cell]
+    assert np.sqrt(np.mean((fluxes.sum(axis=1) - made) ** 2)) < 3e-5 * size
 
 
 def test_a_flow_from_rest_at_an_inlet_is_taken():

@@ -24,6 +24,7 @@ class MeshCommunicator:
     Each cell and each face is counted by one node, its owner.
     """
 
+    rank = 0
     own_cells: Index | slice = slice(None)
     own_faces: Index | slice = slice(None)
     own_boundary: Index | slice = slice(None)
@@ -56,7 +57,7 @@ class MeshCommunicator:
 
     def distribute(
         self, rows: tuple[Any, ...], blocks: tuple[Ints, int], segments: Index
-    ) -> tuple[tuple[Any, ...], Callable[[Floats], Floats], Callable[[Floats], Floats]]:
+    ) -> tuple[tuple[Any, ...], Callable[[NDArray[Any]], NDArray[Any]], Callable[[Floats], Floats]]:
         """Redistribute matrix rows by contiguous cell ranges.
 
         Parameters
