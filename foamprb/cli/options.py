@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,6 +54,7 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
         metavar="DEG",
         help="split patches of a mesh file at edges with a larger angle",
     )
+    add("--scale", type=float, metavar="S", help="lengths in a mesh file times S are m [1]")
 
 
 def fraction(text: str) -> float:
@@ -69,13 +71,16 @@ def source_of(arguments: argparse.Namespace) -> FlowSource:
     Raises
     ------
     InputError
-        If the feature angle is out of range.
+        If the feature angle or the scale is out of range.
     """
     from foamprb.flow.read.source import Division, FlowSource
 
     angle = arguments.featureAngle
     if angle is not None and not 0.0 < angle < 180.0:
         raise InputError(f"-featureAngle {angle:g}: an angle between 0 and 180 degrees is needed.")
+    scale = arguments.scale
+    if scale is not None and not 0.0 < scale < math.inf:
+        raise InputError(f"-scale {scale:g}: a number above 0 is needed.")
     divided = arguments.patchArray or angle is not None
     return FlowSource(
         arguments.flow,
@@ -85,4 +90,5 @@ def source_of(arguments: argparse.Namespace) -> FlowSource:
         Division(arguments.patchArray, angle) if divided else None,
         arguments.decomposed,
         reader=arguments.reader,
+        scale=scale,
     )

@@ -70,6 +70,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     warnings += [line for remark in remarks for line in remark.warnings]
     if cloud.size == 0:
         warnings.append("there is no particle: no injection model releases any.")
+    scale = settings.solution.scale
     number, path_number = cloud.stokes_numbers or (None, None)
     description: dict[str, Any] = _as_json({
         "format": RECORD_FORMAT,
@@ -78,7 +79,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         "fluid": {
             "rho": settings.fluid.rho, **_viscosity(settings, cloud), "gravity": settings.gravity,
         },
-        "flow": _ranges(cloud),
+        "flow": _ranges(cloud) | ({} if scale == 1.0 else {"scale": scale}),
         "models": {
             "traction": settings.traction,
             "drag": settings.drag,

@@ -173,6 +173,9 @@ def prepare(
     # The latest time may be unfinished, and is another one when the run continues.
     fluid_time = None if follow is not None else time_of_fluid(time)
     settings = read_settings(case, dictionary, source.region, fluid_time, outside_libs, overrides)
+    scale = settings.solution.scale if source.scale is None else source.scale
+    settings = replace(settings, solution=replace(settings.solution, scale=scale))
+    source = replace(source, scale=None if scale == 1.0 else scale)
     turbulent = any(model.traits.turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative, viscosity=settings.fluid.field)

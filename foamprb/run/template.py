@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import re
 from collections.abc import Sequence
@@ -46,6 +47,8 @@ from foamprb.settings.help import meaning, plain
 from foamprb.settings.solution import STRIDE
 
 __all__ = ["FlowScales", "scales_of", "template", "write_template"]
+
+log = logging.getLogger("foamprb")
 
 NAME = "softCloudProperties"
 PARTICLES = 1000
@@ -115,7 +118,10 @@ def write_template(case: Path, source: FlowSource | None = None, output: Path | 
             f"{file if file.exists() else present} exists and is not changed. Check it with "
             f"foamprb run -dry-run{source.options}, or rename it to get a new one."
         )
-    text = template(case, read_flow(case, "latestTime", source), source)
+    flow = read_flow(case, "latestTime", source)
+    for note in flow.notes if source.file else ():
+        log.log(logging.WARNING if isinstance(note, Caveat) else logging.INFO, "%s", note)
+    text = template(case, flow, source)
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
         with file.open("x", encoding="utf-8") as out:
@@ -136,6 +142,7 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     rotating = _rotating(case, flow, source)
     d = diameter(scales, nu, rho0 / rho if len(rotating) > 1 else 0.0)
     step, interval, end = times(scales)
+    scale = [f"scale {source.scale:g}; // {_said('solution', 'scale')}"] if source.scale else []
     text = f"""\
 // Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{source.options}.
 // Explain an entry: foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
@@ -152,7 +159,7 @@ solution
     deltaT {step:g}; // {_said("solution", "deltaT", "a fifth of a cell in the flow")}
     endTime {end:g}; // {_said("solution", "endTime")}
     writeInterval {interval:g}; // {_said("solution", "writeInterval")}
-{_lines([*_faults(flow), *(rotating or _transient(case, source))])}}}
+{_lines([*scale, *_faults(flow), *(rotating or _transient(case, source))])}}}
 
 constantProperties
 {{

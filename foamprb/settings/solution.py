@@ -173,6 +173,13 @@ class Solution:
     period: Annotated[
         float | None, Positive, Meaning("with `transient`: period of the flow", "s", "none")
     ] = None
+    scale: Annotated[
+        float,
+        Positive,
+        Meaning(
+            "lengths in [a mesh file](meshes.md#files) times `scale` are m; `-scale` takes precedence", "1"
+        ),
+    ] = 1.0
     rotatingZones: Annotated[
         Literal["relative", "absolute"],
         Meaning(

@@ -89,8 +89,11 @@ class Run:
         return self.results.cloud
 
     def source(self, source: FlowSource | None) -> FlowSource:
-        """Return the source of the flow, in the region of the run."""
-        return replace(source or FlowSource(), region=self.results.region)
+        """Return the source of the flow, in the region of the run and with its scale."""
+        source = replace(source or FlowSource(), region=self.results.region)
+        if source.file is None or source.scale is not None:
+            return source
+        return replace(source, scale=self.record.get("flow", {}).get("scale"))
 
     @property
     def times(self) -> NDArray[np.float64]:

@@ -83,7 +83,9 @@ def describe(case: Case) -> CaseInfo:
     )
 
 
-def describe_file(path: Path, velocity: str = "U", division: Division | None = None) -> list[str]:
+def describe_file(
+    path: Path, velocity: str = "U", division: Division | None = None, scale: float = 1.0
+) -> list[str]:
     """Return the contents of a mesh file as lines of text.
 
     Raises
@@ -95,19 +97,16 @@ def describe_file(path: Path, velocity: str = "U", division: Division | None = N
     from foamprb.flow.read.meshfile import open_file
     from foamprb.flow.read.vtkfile import times_of_file
 
-    grid, mesh, _, note = open_file(path, velocity, "latestTime", division)
+    grid, mesh, _, patches, remarks = open_file(path, velocity, "latestTime", division, scale)
     bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
     kinds = _kinds(mesh.face_start, mesh.owner, mesh.neighbour, mesh.n_cells)
     lines = [f"File    {path}", "", *_lines_of_mesh(mesh.n_points, kinds, bounds)]
-    for index, patch in enumerate(mesh.patches):
-        rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
-        centre = "({:g} {:g} {:g})".format(*mesh.boundary_centres[rows].mean(axis=0))
-        lines.append(f"    {patch.name:20s} {rows.stop - rows.start:10d} faces  {patch.type}  about {centre}")
-    lines += ["", "Arrays"]
+    lines += [*(f"    {line}" for line in patches), "", "Arrays"]
     for where, data in (("cells", grid.cell_data), ("points", grid.point_data)):
         lines += [f"    {name:20s} at {where}, {np.shape(data[name])[1:] or 'scalar'}" for name in list(data)]
     times = times_of_file(path)
-    return [*lines, *(["", "Times", f"    {listed(times)}"] if times else []), "", note]
+    lines += ["", "Times", f"    {listed(times)}"] if times else []
+    return [*lines, *([""] if remarks else []), *remarks]
 
 
 _KINDS = {(4, 4, 0): "tetrahedron", (6, 0, 6): "hexahedron", (5, 2, 3): "prism", (5, 4, 1): "pyramid"}

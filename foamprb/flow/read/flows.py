@@ -36,6 +36,8 @@ def open_case(case: Path, source: FlowSource) -> Case:
     """
     if source.division is not None:
         raise InputError(f"{case}: a case has its own patches; only those of a mesh file are divided.")
+    if source.scale is not None:
+        raise InputError(f"{case}: a case is in m; only the lengths of a mesh file (-flow) have a scale.")
     if not source.decomposed and not is_only_decomposed(case, source.region):
         opened = Case(case, source.region, source.reader)
         opened.notes += later_times(case)
@@ -48,7 +50,7 @@ def open_case(case: Path, source: FlowSource) -> Case:
 def describe_source(case: Path, source: FlowSource) -> Sequence[str]:
     """Return lines that describe a case or a mesh file; InputError if it cannot be read."""
     if source.file is not None:
-        return describe_file(source.file, source.velocity, source.division)
+        return describe_file(source.file, source.velocity, source.division, source.length_scale)
     return describe(open_case(case, source)).lines()
 
 
@@ -77,9 +79,7 @@ def read_flow(case: Path, time: float | str = "latestTime", source: FlowSource |
     from foamprb.flow.read.meshfile import read_mesh_file
 
     _refuse_of_case(source)
-    return read_mesh_file(
-        source.file, source.velocity, time=time, gradient=source.gradient, division=source.division
-    )
+    return read_mesh_file(source.file, source.velocity, time=time, **source.of_file)
 
 
 def read_mesh(case: Path, time: float | str, source: FlowSource) -> Mesh:
@@ -110,9 +110,7 @@ def read_transient_flow(case: Path, times: str | None, period: float | None, sou
         from foamprb.flow.read.meshfile import read_mesh_series
 
         _refuse_of_case(source)
-        return read_mesh_series(
-            source.file, times, period, source.velocity, gradient=source.gradient, division=source.division
-        )
+        return read_mesh_series(source.file, times, period, source.velocity, **source.of_file)
     return transient_flow(open_case(case, source), times, period, source)
 
 

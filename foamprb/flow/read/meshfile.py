@@ -1,29 +1,38 @@
 """Flow of a mesh file: VTK's own formats, including foamToVTK's output, and others through meshio.
 
-If the file has named surfaces with velocities, as foamToVTK's ``boundary``, these are the patches. Otherwise
-the whole boundary is one patch, ``boundary``, or is divided as the user requests. Such files have no types of
-patches: a patch is a ``wall`` unless the fluid moves on it.
+If the file has named surfaces, as foamToVTK's ``boundary``, these are the patches. Otherwise the boundary is
+divided by the velocity, or as the user requests. :mod:`foamprb.flow.read.division` has the rules.
 """
 
 from __future__ import annotations
 
+import math
 import re
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.base import Floats
+from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface
-from foamprb.flow.mesh.mesh import Mesh, build_mesh
+from foamprb.flow.mesh.cells import poly_of_grid
+from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.patches import VALUELESS
 from foamprb.flow.read.checks import require_numbers, require_volumes
-from foamprb.flow.read.division import divided, patch_names
+from foamprb.flow.read.division import (
+    boundary_velocity,
+    divided,
+    lost_flow,
+    patch_lines,
+    with_types,
+)
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import choose_times, listed
 from foamprb.flow.read.vtkfile import (
@@ -38,6 +47,8 @@ from foamprb.flow.series import series_of
 
 _MOST_TIMES = 10
 """Number of times of a transient flow at which moving patches are looked for."""
+_LONGEST, _SLOWEST, _FASTEST = 10.0, 3600.0, 1e6
+"""Limits of a likely flow: size of the mesh, m, time to cross it, s, and one over this time, 1/s."""
 
 
 def read_mesh_file(
@@ -47,6 +58,7 @@ def read_mesh_file(
     time: float | str = "latestTime",
     gradient: str = "",
     division: Division | None = None,
+    scale: float = 1.0,
 ) -> MeshFlow:
     """Read a mesh with velocities.
 
@@ -65,6 +77,8 @@ def read_mesh_file(
         ∂u_j/∂x_i, as OpenFOAM writes ``grad(U)``; empty to reconstruct the gradient.
     division
         Division of a boundary without named patches.
+    scale
+        Factor of the lengths in the file, m; velocities stay in m/s.
 
     Raises
     ------
@@ -72,10 +86,10 @@ def read_mesh_file(
         The file cannot be read, holds no three-dimensional cells, or lacks the velocity.
     """
     path = Path(path)
-    grid, mesh, surfaces, note = open_file(path, velocity, time, division)
-    field = _NodalVelocity(path, mesh, grid, surfaces, velocity, gradient)
-    u, l, correction = field(grid, surfaces, path)
-    return MeshFlow(mesh, u, l, [note, *field.notes], correction=correction)
+    file = open_file(path, velocity, time, division, scale)
+    field = _NodalVelocity(path, file, velocity, gradient, scale)
+    u, l, correction = field(file.grid, file.surfaces, path)
+    return MeshFlow(file.mesh, u, l, [*file.notes, *field.notes], correction=correction)
 
 
 def read_mesh_series(
@@ -86,6 +100,7 @@ def read_mesh_series(
     *,
     gradient: str = "",
     division: Division | None = None,
+    scale: float = 1.0,
 ) -> MeshFlow:
     """Prepare the flow of a file at several times, which are read when needed; one time gives a steady flow.
 
@@ -97,7 +112,7 @@ def read_mesh_series(
         See :func:`~foamprb.flow.read.times.choose_times`.
     period
         Duration after which the flow repeats itself, s.
-    velocity, gradient, division
+    velocity, gradient, division, scale
         See :func:`read_mesh_file`.
 
     Raises
@@ -110,24 +125,23 @@ def read_mesh_series(
     names = choose_times(path, known, times) if known else ()
     if len(names) < 2:
         time = names[0] if names else "latestTime"
-        return read_mesh_file(path, velocity, time=time, gradient=gradient, division=division)
-    grid, mesh, surfaces, note = open_file(path, velocity, names[0], division, among=names)
-    field = _NodalVelocity(path, mesh, grid, surfaces, velocity, gradient)
-    topology = _topology(grid, surfaces)
+        return read_mesh_file(path, velocity, time=time, gradient=gradient, division=division, scale=scale)
+    file = open_file(path, velocity, names[0], division, scale, among=names)
+    field = _NodalVelocity(path, file, velocity, gradient, scale)
+    topology = _topology(file.grid, file.surfaces)
 
     def read(name: str) -> tuple[Any, ...]:
-        whole, now = grid_and_surfaces(read_file(path, name), path)
-        cells = solid_cells(whole, path)[0]
-        join_components(velocity, cells, *(surface for _, surface in now))
-        later = _topology(cells, now)
+        now = _contents(path, name, velocity, scale)
+        later = _topology(now.grid, now.surfaces)
         if topology.keys() != later.keys() or not all(np.array_equal(topology[k], later[k]) for k in later):
             raise InputError(
                 f"{path}: the mesh of time {name} is not that of time {names[0]}; only meshes at rest can be "
                 "read."
             )
-        return field(cells, now, f"{path}, time {name}")
+        return field(now.grid, now.surfaces, f"{path}, time {name}")
 
-    return series_of(path, mesh, list(names), read, period, [note, *field.notes], conservative=True)
+    notes = [*file.notes, *field.notes]
+    return series_of(path, file.mesh, list(names), read, period, notes, conservative=True)
 
 
 class _NodalVelocity:
@@ -137,11 +151,9 @@ class _NodalVelocity:
     ----------
     path
         The file, for messages.
-    mesh
-        Its mesh.
-    grid, surfaces
-        Data read from it.
-    velocity, gradient
+    file
+        Its contents.
+    velocity, gradient, scale
         See :func:`read_mesh_file`.
 
     Raises
@@ -150,22 +162,19 @@ class _NodalVelocity:
         There is no such array.
     """
 
-    def __init__(
-        self,
-        path: Path,
-        mesh: Mesh,
-        grid: Any,
-        surfaces: Sequence[tuple[str, Any]],
-        velocity: str,
-        gradient: str,
-    ) -> None:
+    def __init__(self, path: Path, file: MeshFile, velocity: str, gradient: str, scale: float) -> None:
+        mesh, grid = file.mesh, file.grid
         self._path, self._mesh, self._velocity, self._gradient = path, mesh, velocity, gradient
+        self._scale = scale
         self.notes: list[str] = []
         self._reconstruct: Reconstruction | None = None
         faces = np.zeros(len(mesh.boundary_centres), dtype=bool)
         if velocity in grid.cell_data:
-            given = [velocity in surface.cell_data for _, surface in surfaces]
-            self._valued: list[int] = np.flatnonzero(given).tolist()
+            self._valued = [
+                index
+                for index, (_, surface) in enumerate(file.surfaces)
+                if velocity in surface.cell_data and mesh.patches[index].type not in VALUELESS
+            ]
             for index in self._valued:
                 faces[mesh.patch_start[index] : mesh.patch_start[index + 1]] = True
             self._reconstruct = Reconstruction(mesh, valued=faces)
@@ -180,11 +189,7 @@ class _NodalVelocity:
                 )
             self.notes = ["Velocities are point values; their gradient is first-order accurate."]
         else:
-            names = sorted({*grid.cell_data.keys(), *grid.point_data.keys()})
-            raise InputError(
-                f"{path}: no array {velocity}. {suggestion(velocity, names)} Three scalars are read by "
-                '-velocity "(Ux Uy Uz)".'
-            )
+            raise InputError(f"{path}: {_other_names(grid, velocity)}")
         self._conserve = Conservation(mesh, faces)
 
     def __call__(
@@ -212,9 +217,20 @@ class _NodalVelocity:
         slopes = None
         if self._gradient:
             given = _array(grid.cell_data, self._gradient, 9, path, "at cell")
-            slopes = given.reshape(-1, 3, 3).transpose(0, 2, 1)
+            slopes = given.reshape(-1, 3, 3).transpose(0, 2, 1) / self._scale
         u, l = self._reconstruct(cells, boundary, slopes)
         return u, l, self._conserve(u, l, where=where)
+
+
+def _other_names(grid: Any, velocity: str) -> str:
+    """Return a message that names the arrays that may be the velocity."""
+    data = {**grid.point_data, **grid.cell_data}
+    vectors = [shlex.quote(name) for name, values in data.items() if np.shape(values)[1:] == (3,)]
+    if vectors:
+        return f"no array {velocity}. Another one is read by -velocity NAME: {listed(vectors)}."
+    return (
+        f'no array {velocity}. {suggestion(velocity, data)} Three scalars are read by -velocity "(Ux Uy Uz)".'
+    )
 
 
 def _array(data: Any, name: str, components: int, path: Path, where: str) -> Floats:
@@ -249,39 +265,103 @@ def _topology(grid: Any, surfaces: Sequence[tuple[str, Any]]) -> dict[str, NDArr
     return {**arrays, "kinds": np.asarray(grid.celltypes), "points": np.asarray(grid.points)}
 
 
+class _Contents(NamedTuple):
+    """Contents of a file at a time."""
+
+    whole: Any
+    """All cells."""
+    grid: Any
+    """Those with volume."""
+    surfaces: list[tuple[str, Any]]
+    """Surfaces by name."""
+    notes: list[str]
+
+
+def _contents(path: Path, time: float | str, velocity: str, scale: float) -> _Contents:
+    """Read the contents of a file at a time, with lengths in m."""
+    whole, surfaces = grid_and_surfaces(read_file(path, time), path)
+    if scale != 1.0:
+        for part in (whole, *(surface for _, surface in surfaces)):
+            part.points = np.asarray(part.points) * scale
+    grid, notes = solid_cells(whole, path)
+    join_components(velocity, grid, *(surface for _, surface in surfaces))
+    return _Contents(whole, grid, surfaces, notes)
+
+
+class MeshFile(NamedTuple):
+    """Mesh and contents of a file at a time."""
+
+    grid: Any
+    """Cells."""
+    mesh: Mesh
+    surfaces: list[tuple[str, Any]]
+    """Patches that the file names."""
+    patches: list[str]
+    """Description of each patch."""
+    remarks: list[str]
+    """Further notes for the user, and warnings."""
+
+    @property
+    def notes(self) -> list[str]:
+        """Return lines about the patches and all remarks."""
+        return [
+            "Patches, as the velocity shows them:",
+            *(f"    {line}" for line in self.patches),
+            *self.remarks,
+        ]
+
+
 def open_file(
     path: Path,
     velocity: str,
     time: float | str,
     division: Division | None,
+    scale: float,
     among: Sequence[str] = (),
-) -> tuple[Any, Mesh, list[tuple[str, Any]], str]:
-    """Return the cells of a file, their mesh, the patches that the file names, and a note for the user.
+) -> MeshFile:
+    """Read a file at a time, with the types of its patches.
 
     A patch on which the fluid is at rest at this time may move at other times, ``among`` which some are read.
     """
-    whole, named = grid_and_surfaces(read_file(path, time), path)
-    grid, notes = solid_cells(whole, path)
-    join_components(velocity, grid, *(surface for _, surface in named))
+    first = _contents(path, time, velocity, scale)
+    grid, surfaces, remarks = first.grid, first.surfaces, first.notes
     require_numbers(np.asarray(grid.points, dtype=np.float64), path, "point")
-    moving = _moving(named, velocity)
-    for name in np.unique(np.linspace(0, len(among) - 1, min(len(among), _MOST_TIMES)).astype(int)):
-        if len(moving) < len(named):
-            now = grid_and_surfaces(read_file(path, among[name]), path)[1]
-            join_components(velocity, *(surface for _, surface in now))
-            moving |= _moving(now, velocity)
-    surfaces = [PatchSurface(name, "patch" if name in moving else "wall", surface) for name, surface in named]
-    if not surfaces:
-        mesh, note = divided(grid, whole, division or Division(), path)
-    elif division is not None:
-        raise InputError(f"{path}: the file names its patches, {listed([s.name for s in surfaces])}.")
-    else:
-        mesh = build_mesh(grid, surfaces, source=str(path))
-        note = f"The patches are those of the file: {patch_names(mesh)}."
+    named = [PatchSurface(name, "patch", surface) for name, surface in surfaces]
+    if named and division is not None:
+        raise InputError(f"{path}: the file names its patches, {listed([s.name for s in named])}.")
+    poly = poly_of_grid(grid, named or None, str(path))
+    mesh = assemble(poly, str(path))
     require_volumes(mesh, path)
-    if not surfaces:
+    later = np.unique(np.linspace(0, len(among) - 1, min(len(among), _MOST_TIMES)).astype(int))
+    others = (_contents(path, among[k], velocity, scale) for k in later if among[k] != time)
+    u = boundary_velocity(mesh, [(at.grid, at.surfaces) for at in (first, *others)], velocity)
+    if named:
+        mesh = with_types(mesh, u)
+    else:
+        mesh, u, warnings = divided(poly, mesh, first.whole, division or Division(), u, path)
+        remarks = [*warnings, *remarks]
         require_joined(mesh, path)
-    return grid, mesh, named, " ".join([note, *notes])
+    if u is None:
+        remarks.append(f"Openings are unknown: {_other_names(grid, velocity)}")
+    else:
+        remarks += [*lost_flow(mesh, u), *_doubtful_units(mesh, grid, velocity)]
+    return MeshFile(grid, mesh, surfaces, patch_lines(mesh, u), remarks)
+
+
+def _doubtful_units(mesh: Mesh, grid: Any, velocity: str) -> list[Caveat]:
+    """Return a warning if the size of the mesh, or the time to cross it, is unlikely in m and s."""
+    data = grid.cell_data if velocity in grid.cell_data else grid.point_data
+    size = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
+    speed = float(np.linalg.norm(data[velocity], axis=1).max())
+    if size <= _LONGEST and (speed == 0.0 or 1.0 / _FASTEST <= size / speed <= _SLOWEST):
+        return []
+    return [
+        Caveat(
+            f"the mesh is {size:.3g} m across, which the fluid of up to {speed:.3g} m/s crosses in "
+            f"{size / speed if speed else math.inf:.3g} s: -scale 1e-3 reads lengths in mm, -scale 1e-6 "
+            "lengths in um; velocities are in m/s."
+        )
+    ]
 
 
 _COMPONENTS = re.compile(r"\(\s*(\S+)\s+(\S+)\s+(\S+)\s*\)")
@@ -295,13 +375,3 @@ def join_components(velocity: str, *data: Any) -> None:
             arrays[velocity] = np.stack(
                 [np.asarray(arrays[name]).reshape(-1) for name in match.groups()], axis=1
             )
-
-
-def _moving(surfaces: Sequence[tuple[str, Any]], velocity: str) -> set[str]:
-    """Return the names of the surfaces on which the fluid moves; the others are walls."""
-    moving = set()
-    for name, surface in surfaces:
-        given = [data[velocity] for data in (surface.cell_data, surface.point_data) if velocity in data]
-        if given and np.any(np.asarray(given[0]) != 0.0):
-            moving.add(name)
-    return moving

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from foamprb.flow.read.fluid import ViscosityField
 
@@ -66,6 +66,18 @@ class FlowSource:
     """Read also these fields, for sampling."""
     reader: str = ""
     """``vtk`` to read a case's mesh by VTK's OpenFOAM reader, in single precision."""
+    scale: float | None = None
+    """Factor of the lengths in a mesh file, m; by default 1."""
+
+    @property
+    def length_scale(self) -> float:
+        """Return the factor of the lengths in a mesh file, m."""
+        return 1.0 if self.scale is None else self.scale
+
+    @property
+    def of_file(self) -> dict[str, Any]:
+        """Return the options of reading a mesh file, beside its velocity."""
+        return {"gradient": self.gradient, "division": self.division, "scale": self.length_scale}
 
     @property
     def options(self) -> str:
@@ -78,6 +90,7 @@ class FlowSource:
             "gradient": self.gradient,
             "patchArray": divided.array,
             "featureAngle": divided.feature_angle,
+            "scale": self.scale,
             "reader": self.reader,
         }
         words = "".join(f" -{name} {shlex.quote(str(value))}" for name, value in given.items() if value)

@@ -1,4 +1,4 @@
-"""A boundary divided at its edges, or by an array, and what is said of it."""
+"""A boundary divided by the velocity, at its edges or by an array, and the types of its patches."""
 
 from __future__ import annotations
 
@@ -9,22 +9,46 @@ import pytest
 from mesh_shapes import block, corners, grid, pipe
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.mesh.cells import poly_of_grid
+from foamprb.flow.mesh.mesh import assemble, build_mesh
 from foamprb.flow.read import division
-from foamprb.flow.read.division import divided, patch_names
+from foamprb.flow.read.division import boundary_velocity, divided, lost_flow
 from foamprb.flow.read.source import Division
 
 FILE = Path("flow.vtu")
 
 
+def divide(shape, by=Division(), whole=None):  # noqa: B008
+    poly = poly_of_grid(shape, None, "flow.vtu")
+    mesh = assemble(poly, "flow.vtu")
+    u = boundary_velocity(mesh, [(shape, [])], "U")
+    return divided(poly, mesh, shape if whole is None else whole, by, u, FILE)
+
+
+def with_flow(shape, u, where):
+    places = shape.points if where == "points" else shape.cell_centers().points
+    data = shape.point_data if where == "points" else shape.cell_data
+    data["U"] = u(np.asarray(places, dtype=float).T)
+    return shape
+
+
+def along_x(u):
+    return np.stack([u, 0.0 * u, 0.0 * u], axis=1)
+
+
+def patches_of(shape, by=Division()):  # noqa: B008
+    mesh = divide(shape, by)[0]
+    return {patch.name: patch.type for patch in mesh.patches}
+
+
 @pytest.mark.parametrize(("angle", "count"), [(89.0, 6), (91.0, 1)])
 @pytest.mark.parametrize("kind", ["hexahedra", "mixed"])
 def test_a_box_has_six_sides_up_to_a_right_angle(angle, count, kind):
-    shape = block(2, 0.0, kind)
-    mesh, note = divided(shape, shape, Division(feature_angle=angle), FILE)
-    assert len(mesh.patches) == count
-    assert note == f"The boundary is divided into {patch_names(mesh)}."
-    assert [patch.name for patch in mesh.patches] == [f"boundary{k}" for k in range(count)]
+    mesh, _, warnings = divide(block(2, 0.0, kind), Division(feature_angle=angle))
+    assert not warnings
+    assert [patch.name for patch in mesh.patches] == (
+        [f"wall{k}" for k in range(6)] if count == 6 else ["wall"]
+    )
     for first, last in zip(mesh.patch_start[:-1], mesh.patch_start[1:], strict=True):
         n = mesh.boundary_areas[first:last] / np.linalg.norm(mesh.boundary_areas[first:last], axis=1)[:, None]
         assert np.allclose(n, n[0]) == (count == 6)
@@ -33,17 +57,89 @@ def test_a_box_has_six_sides_up_to_a_right_angle(angle, count, kind):
 @pytest.mark.parametrize(("angle", "count"), [(20.0, 18), (25.0, 3)])
 def test_a_pipe_of_sixteen_sides_is_round_from_their_angle_on(angle, count):
     """Sides turn by 22.5 degrees."""
-    shape = pipe(4)
-    mesh, _ = divided(shape, shape, Division(feature_angle=angle), FILE)
-    assert len(mesh.patches) == count
+    assert len(divide(pipe(4), Division(feature_angle=angle))[0].patches) == count
 
 
-def test_without_a_division_the_boundary_is_one_wall():
-    shape = block(2, 0.2)
-    mesh, note = divided(shape, shape, Division(), FILE)
-    assert [tuple(patch)[:2] for patch in mesh.patches] == [("boundary", "wall")]
-    assert note == "The file names no patches: the whole boundary is one wall, named boundary."
-    assert patch_names(mesh) == "boundary (wall, 24 faces)"
+@pytest.mark.parametrize("where", ["cells", "points"])
+def test_the_flow_of_a_pipe_shows_its_ends(where):
+    shape = with_flow(pipe(6), lambda x: along_x(1.0 - x[1] ** 2 - x[2] ** 2), where)
+    mesh, u, _ = divide(shape)
+    assert patches_of(shape) == {"opening0": "patch", "wall": "wall", "opening1": "patch"}
+    flux = np.add.reduceat(u.fluxes(mesh)[0], mesh.patch_start[:-1])
+    assert flux == pytest.approx([-np.pi / 2, 0.0, np.pi / 2], rel=0.1, abs=1e-9)
+    assert not lost_flow(mesh, u)
+
+
+@pytest.mark.parametrize("where", ["cells", "points"])
+def test_half_a_channel_ends_at_a_symmetry_plane(where):
+    """The profile is widest at y = 0; nothing changes along z."""
+    shape = with_flow(block(8, 0.0), lambda x: along_x(1.0 - x[1] ** 2), where)
+    mesh = divide(shape)[0]
+    types = {}
+    for patch, first in zip(mesh.patches, mesh.patch_start[:-1], strict=True):
+        types[tuple(np.round(mesh.boundary_areas[first] * 64.0).astype(int).tolist())] = patch.type
+    assert types == {
+        (-1, 0, 0): "patch", (1, 0, 0): "patch", (0, -1, 0): "symmetryPlane", (0, 1, 0): "wall",
+        (0, 0, -1): "symmetryPlane", (0, 0, 1): "symmetryPlane",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("where", ["cells", "points"])
+def test_a_wall_that_moves_along_itself_is_a_wall(where):
+    """Couette flow, whose ends are open."""
+    shape = with_flow(block(6, 0.0), lambda x: along_x(x[1]), where)
+    assert sorted(patches_of(shape).values()) == ["patch"] * 2 + ["symmetryPlane"] * 2 + ["wall"]
+
+
+@pytest.mark.parametrize("where", ["cells", "points"])
+def test_a_closed_cavity_has_no_opening(where):
+    """Velocities that are continued from the cells to the corners cross the walls there."""
+
+    def eddy(place):
+        x, y, z = place
+        s, c = np.sin(np.pi * np.array([x, y])), np.cos(np.pi * np.array([x, y]))
+        return np.stack([s[0] ** 2 * s[1] * c[1], -(s[1] ** 2) * s[0] * c[0], 0.0 * z], axis=1)
+
+    assert sorted(patches_of(with_flow(block(12, 0.0), eddy, where)).values()) == ["symmetryPlane"] * 2 + [
+        "wall"
+    ]
+
+
+def test_an_opening_in_a_wall_is_a_patch_of_its_own():
+    """A jet through the floor, and all of the lid opposite."""
+
+    def jet(place):
+        x, y, z = place
+        r2 = (x - 0.5) ** 2 + (y - 0.5) ** 2
+        w = np.where(z < 1e-9, np.maximum(1.0 - r2 / 0.0625, 0.0), 0.1113)
+        inside = np.minimum.reduce([x, 1.0 - x, y, 1.0 - y]) > 1e-9
+        return np.stack([0.0 * w, 0.0 * w, w * inside], axis=1)
+
+    shape = with_flow(block(16, 0.0), jet, "points")
+    mesh, u, _ = divide(shape)
+    assert sorted(patch.name for patch in mesh.patches) == ["opening0", "opening1", "wall"]
+    area = {
+        patch.name: np.linalg.norm(mesh.boundary_areas[a:b], axis=1).sum()
+        for patch, a, b in zip(mesh.patches, mesh.patch_start, mesh.patch_start[1:], strict=False)
+    }
+    assert area["opening0"] == pytest.approx(np.pi / 16, rel=0.25)
+    assert area["opening1"] == pytest.approx(1.0)
+    assert not lost_flow(mesh, u)
+    mesh.patches = tuple(
+        patch._replace(type="wall") if patch.name == "opening0" else patch for patch in mesh.patches
+    )
+    assert len(lost_flow(mesh, u)) == 1
+
+
+def test_the_type_of_a_patch_is_that_of_all_times():
+    """A flow at rest at the first time."""
+    shape = with_flow(block(4, 0.0), lambda x: along_x(x[1] * (1.0 - x[1])), "points")
+    still = with_flow(block(4, 0.0), lambda x: along_x(0.0 * x[1]), "points")
+    poly = poly_of_grid(still, None, "flow.vtu")
+    mesh = assemble(poly, "flow.vtu")
+    u = boundary_velocity(mesh, [(still, []), (shape, [])], "U")
+    patches = divided(poly, mesh, still, Division(), u, FILE)[0].patches
+    assert [patch.type for patch in patches].count("patch") == 2
 
 
 def test_cells_that_meet_in_an_edge_alone_are_noted():
@@ -52,9 +148,8 @@ def test_cells_that_meet_in_an_edge_alone_are_noted():
     middle = points[hexes].mean(axis=1)
     chosen = hexes[(middle[:, 2] < 0.5) & ((middle[:, 0] < 0.5) == (middle[:, 1] < 0.5))]
     shape = grid(points, [(12, chosen)])
-    _, note = divided(shape, shape, Division(), FILE)
-    assert note.endswith("At 1 edges more than two boundary faces meet: the domain touches itself there, or "
-                         "cells name points that are not theirs.")  # fmt: skip
+    (warning,) = divide(shape)[2]
+    assert warning.startswith("At 1 edges more than two boundary faces meet: the domain touches itself there")
     edges, face = division._boundary_edges(build_mesh(shape))
     assert len(edges) == len(face) == 48
     assert np.bincount(face).tolist() == [4] * 12
@@ -67,9 +162,9 @@ def test_too_many_patches_are_refused(monkeypatch):
         monkeypatch.setattr(division, "_MOST_PATCHES", most)
         if refused:
             with pytest.raises(InputError, match=r"the boundary falls into 6 patches; at most 5\."):
-                divided(shape, shape, Division(feature_angle=30.0), FILE)
+                divide(shape, Division(feature_angle=30.0))
         else:
-            divided(shape, shape, Division(feature_angle=30.0), FILE)
+            divide(shape, Division(feature_angle=30.0))
 
 
 def by_array(values, kinds=(12, 9), names=None):
@@ -79,7 +174,7 @@ def by_array(values, kinds=(12, 9), names=None):
     whole.cell_data["part"] = np.asarray(values)
     for name, value in (names or {}).items():
         whole.field_data[name] = np.array(value)
-    return divided(grid(points, [(12, hexes)]), whole, Division(array="part"), FILE)[0]
+    return divide(grid(points, [(12, hexes)]), Division(array="part"), whole)[0]
 
 
 def test_values_on_surface_cells_name_the_patches():

@@ -15,7 +15,7 @@ from vtkmodules.vtkIOHDF import vtkHDFWriter
 from vtkmodules.vtkIOParallel import vtkEnSightWriter
 
 from foamprb.errors import InputError
-from foamprb.flow.base import Patch
+from foamprb.flow.base import Caveat, Patch
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read import vtk_guard
@@ -130,7 +130,7 @@ def test_a_velocity_may_be_three_scalars(where, tmp_path):
     flow = read_mesh_file(tmp_path / "flow.vtu", "(u_x u_y u_z)")
     np.testing.assert_allclose(flow.sample(x, flow.locate(x), 0.0)[0], x @ GRADIENT.T, atol=1e-5)
     with pytest.raises(
-        InputError, match=r"no array U\. .* Three scalars are read by -velocity .\(Ux Uy Uz\)"
+        InputError, match=r"no array U\. Allowed: .*\. Three scalars are read by -velocity .\(Ux Uy Uz\)"
     ):
         read_mesh_file(tmp_path / "flow.vtu")
 
@@ -366,6 +366,24 @@ def test_a_given_gradient_is_taken(tmp_path, random):
         read_mesh_file(tmp_path / "flow.vtu", gradient="U")
 
 
+def test_lengths_are_scaled_and_velocities_are_not(tmp_path, random):
+    """A gradient in the file is one over its lengths."""
+    shape = flowing("prisms")
+    shape.cell_data["grad(U)"] = np.tile(GRADIENT.T.reshape(-1), (shape.n_cells, 1))
+    shape.points *= 1e6
+    shape.cell_data["grad(U)"] *= 1e-6
+    shape.save(tmp_path / "flow.vtu")
+    x = random.random((20, 3))
+    for gradient in ("", "grad(U)"):
+        flow = read_mesh_file(tmp_path / "flow.vtu", scale=1e-6, gradient=gradient)
+        u, l = flow.sample(x, flow.locate(x), 0.0)
+        assert u == pytest.approx(x @ GRADIENT.T, abs=1e-5)
+        assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
+        assert not any("-scale" in note for note in flow.notes)
+    notes = read_mesh_file(tmp_path / "flow.vtu").notes
+    assert sum(isinstance(note, Caveat) and "the mesh is 1.73e+06 m across" in note for note in notes) == 1
+
+
 @pytest.mark.parametrize("suffix", [".vtkhdf", ".vtu"])
 @pytest.mark.parametrize("kind", ["hexahedra", "polyhedra", "mixed"])
 def test_kinds_of_cells_in_vtk_files(suffix, kind, tmp_path, random):
@@ -390,7 +408,7 @@ def test_a_cell_that_names_a_wrong_point_is_told_by_the_boundary(tmp_path):
         for division in (None, Division(feature_angle=30.0)):
             flow = read_mesh_file(tmp_path / "flow.vtu", division=division)
             assert flow.mesh.inverted == 0
-            assert ("more than two boundary faces meet" in flow.notes[0]) == wrong
+            assert any("more than two boundary faces meet" in note for note in flow.notes) == wrong
 
 
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9, 0.97])

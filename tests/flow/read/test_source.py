@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 
 import numpy as np
@@ -14,6 +15,7 @@ from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.source import Division, FlowSource
+from foamprb.view.results import open_run
 
 
 @pytest.fixture
@@ -28,7 +30,13 @@ def test_info_of_a_mesh_file(flow_file, capsys):
     assert main(["info", "-flow", str(flow_file), "-featureAngle", "30"]) == 0
     said = capsys.readouterr().out
     assert "hexahedron                   27" in said
-    assert "boundary5                     9 faces  wall" in said
+    assert "wall5                         9 faces  wall" in said
+    assert "Openings are unknown: no array U. Another one is read by -velocity NAME: velocity." in said
+    assert main(["info", "-flow", str(flow_file), "-velocity", "velocity"]) == 0
+    said = capsys.readouterr().out
+    assert (
+        "opening5                      9 faces  opening         1 m2, 1 m3/s out, about (0.5 0.5 1)" in said
+    )
     assert "velocity             at cells, (3,)" in said
 
 
@@ -38,7 +46,7 @@ def test_the_settings_of_one_folder_on_the_mesh_file_of_another(flow_file, tmp_p
     settings = case / "constant/softCloudProperties"
     text = settings.read_text()
     begin, end = text.index("        patches"), text.index("        touching")
-    text = text[:begin] + "patches ( boundary { type rebound; } );\n" + text[end:]
+    text = text[:begin] + 'patches ( "opening.*" { type rebound; } );\n' + text[end:]
     begin, end = text.index("        // 300 particles"), text.index("    patchInteractionModel")
     settings.write_text(text[:begin] + "    }\n\n" + text[end:])
     (case / "constant/softCloudPositions").write_text("((0.5 0.5 0.5))")
@@ -49,6 +57,30 @@ def test_the_settings_of_one_folder_on_the_mesh_file_of_another(flow_file, tmp_p
     assert "Dry run: 5 particles" in said
     assert main(["run", *arguments, "-region", "air"]) == 1
     assert "a mesh file has no regions, but the region is air" in capsys.readouterr().err
+
+
+def test_followers_leave_a_duct_of_micrometres_through_its_outlet(tmp_path, capsys):
+    """The scale is an entry of the settings, which the run uses, and a record of the run, which views use."""
+    shape = block(8, 0.0)
+    shape.points *= 1000.0
+    y, z = 1e-3 * np.asarray(shape.points)[:, 1:].T
+    shape.point_data["U"] = np.outer(y * (1.0 - y) * z * (1.0 - z), [0.1, 0.0, 0.0])
+    file, case = tmp_path / "duct.vtu", tmp_path / "case"
+    shape.save(file)
+    (case / "constant").mkdir(parents=True)
+    where = ["-case", str(case), "-flow", str(file)]
+    assert main(["init", *where, "-scale", "1e-6"]) == 0
+    assert "opening1                     64 faces  opening         1e-06 m2" in capsys.readouterr().out
+    settings = case / "constant/softCloudProperties"
+    text = settings.read_text()
+    assert re.search(r"opening1 +{ type escape; }", text)
+    assert re.search(r"wall +{ type stick; }", text)
+    assert re.search(r"endTime +([0-9.]+)", text)[1] == "1"
+    settings.write_text(re.sub("parcelsPerSecond +[0-9.e+]+", "parcelsPerSecond 100", text))
+    assert main(["run", *where]) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"stuck +0\n +escaped +19\n +opening1 +19\n", said), said
+    assert open_run(case).source(FlowSource(file)).length_scale == 1e-6
 
 
 def test_the_settings_of_a_region_go_before_those_of_the_case(tmp_path, capsys):
@@ -79,4 +111,6 @@ def test_the_boundary_of_a_case_is_not_divided(tmp_path):
     write_case(tmp_path)
     with pytest.raises(InputError, match="a case has its own patches"):
         read_flow(tmp_path, source=FlowSource(division=Division(feature_angle=30.0)))
+    with pytest.raises(InputError, match="only the lengths of a mesh file"):
+        read_flow(tmp_path, source=FlowSource(scale=1e-3))
     assert read_flow(tmp_path).mesh.n_cells == 8
