@@ -114,8 +114,8 @@ class Medium(NamedTuple):
 
     mu: Any
     """Viscosity, Pa s, or a model of it (:mod:`foamprb.cloud.viscosity`)."""
-    rho: float
-    """kg/m³."""
+    rho: Any
+    """kg/m³, a number; at each of some particles, (n,), where it varies."""
     gravity: Vector = (0.0, 0.0, 0.0)
     """m/s²."""
     coefficients: Any = ()
@@ -127,6 +127,11 @@ class Medium(NamedTuple):
 def viscosity_at(_block: Any, _i: int, medium: Medium) -> Scalar:
     """Return μ_f at the barycentre of lane i, Pa s: a constant; a model of it binds its own function."""
     return medium.mu
+
+
+def local_fluid(_block: Any, _i: int, medium: Medium) -> Medium:
+    """Return the medium with the density at lane i, a constant; see :func:`viscosity_at`."""
+    return medium
 
 
 REBOUND_NUMBERS = 21

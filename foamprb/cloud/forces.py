@@ -19,7 +19,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, get_type_hints
 from foamprb.body.drag import reduced_gravity
 from foamprb.body.lift import DUCTS, balances, duct_coefficient, duct_lift, hinges
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, scale_vector
-from foamprb.cloud.block import Medium, at, choose3, load3
+from foamprb.cloud.block import Medium, at, choose3, load3, local_fluid
 from foamprb.cloud.layout import LANES
 from foamprb.compile.link import bound
 from foamprb.dictionary.constraints import (
@@ -416,7 +416,7 @@ def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
     x = choose3(gone > 0.0, load3(block, at.new_x, i), load3(block, at.x, i))
     t = block[at.t * LANES + i] + gone * block[at.dt * LANES + i]
     R, rho = block[at.R * LANES + i], block[at.rho * LANES + i]
-    return Inputs(J, rho, load3(block, at.DuDt, i), medium, x, R, t)
+    return Inputs(J, rho, load3(block, at.DuDt, i), local_fluid(block, i, medium), x, R, t)
 
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on its loads: without these,

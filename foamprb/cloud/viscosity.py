@@ -1,8 +1,9 @@
 """Viscosity of a fluid in which it varies, at the barycentres of particles.
 
-``Medium.mu`` is a number, or one of the models below: a law of the shear rate, or a field of the flow. In a
-loop a model is the first of the surroundings. It stores μ_f in rows of its own, from which
-:func:`foamprb.cloud.block.viscosity_at` then reads it. Elsewhere :func:`viscosity_of` evaluates it.
+``Medium.mu`` is a number, or one of the models below: a law of the shear rate, a field of the flow, or two
+phases, whose density varies, too. In a loop a model is the first of the surroundings. It stores μ_f in rows
+of its own, from which :func:`foamprb.cloud.block.viscosity_at` then reads it. Elsewhere :func:`viscosity_of`
+evaluates it.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ __all__ = [
     "CrossPowerLaw",
     "FieldViscosity",
     "HerschelBulkley",
+    "PhaseMixture",
     "PowerLaw",
     "RateViscosity",
     "VaryingViscosity",
@@ -60,13 +62,28 @@ class FieldRows(NamedTuple):
     mu_slope: Annotated[int, Row(3, "Pa s/m", "its gradient")]
 
 
+class MixtureRows(NamedTuple):
+    """Viscosity and density, and the volume fraction of the first phase at the start of a step."""
+
+    mu_f: Annotated[int, Row(1, "Pa s", "where the shape is evaluated", 1.0)]
+    rho_f: Annotated[int, Row(1, "kg/m3", "density there", 1.0)]
+    fraction: Annotated[int, Row(1, "1", "where the step starts, in the middle of its time", 1.0)]
+    fraction_slope: Annotated[int, Row(3, "1/m", "its gradient")]
+
+
 fluid: Any = offsets(FieldRows)
-"""Offsets of the rows; those of both declarations begin alike."""
+"""Offsets of the rows; those of all declarations begin alike."""
 
 
 def felt_viscosity(block: Any, i: int, _medium: Medium) -> Scalar:
     """Return μ_f at the barycentre of lane i, Pa s."""
     return block[fluid.mu_f * LANES + i]
+
+
+def mixed_fluid(block: Any, i: int, medium: Medium) -> Medium:
+    """Return the medium with ρ_f at the barycentre of lane i."""
+    rho = block[fluid.rho_f * LANES + i]
+    return Medium(medium.mu, rho, medium.gravity, medium.coefficients, medium.surroundings)
 
 
 def law(_rate: Scalar) -> Scalar:
@@ -87,12 +104,15 @@ def sample_field(
 ) -> None:
     """Store the field and its gradient at the position of lane i."""
     block = s.block
-    # Half-way in time, so that the error of a constant value is of second order.
-    t = block[at.t * LANES + i] + (0.5 * block[at.dt * LANES + i] if remaining > 0.0 else 0.0)
-    mu, slope = viscosity(flow, s.host[i], load3(block, at.x, i), t)
+    mu, slope = viscosity(flow, s.host[i], load3(block, at.x, i), _middle(block, i, remaining))
     c = coefficients[0]
     block[fluid.mu_there * LANES + i] = c * mu
     store3(block, fluid.mu_slope, i, (c * slope[0], c * slope[1], c * slope[2]))
+
+
+def _middle(block: Any, i: int, remaining: float) -> float:
+    """Return the middle of the time of a step, so that the error of a constant value is of second order."""
+    return block[at.t * LANES + i] + (0.5 * block[at.dt * LANES + i] if remaining > 0.0 else 0.0)  # type: ignore[no-any-return]
 
 
 @traced
@@ -104,6 +124,29 @@ def evaluate_field(block: Any, _medium: Medium, share: float, _coefficients: Any
         way = inner(minus(load3(block, at.new_x, i), load3(block, at.x, i)), load3(block, fluid.mu_slope, i))
         there = mu + select(share > 0.0, share * way, 0.0)
         block[fluid.mu_f * LANES + i] = np.maximum(0.5 * mu, np.minimum(2.0 * mu, there))
+
+
+def sample_fraction(
+    flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, _coefficients: Any
+) -> None:
+    """Store the volume fraction and its gradient at the position of lane i."""
+    block = s.block
+    a, slope = viscosity(flow, s.host[i], load3(block, at.x, i), _middle(block, i, remaining))
+    block[fluid.fraction * LANES + i] = a
+    store3(block, fluid.fraction_slope, i, slope)
+
+
+@traced
+def evaluate_mixture(block: Any, _medium: Medium, share: float, coefficients: Any) -> None:
+    """Compute μ_f and ρ_f of all lanes on their way."""
+    for i in range(LANES):
+        # At the start of a step new_x is not known.
+        way = minus(load3(block, at.new_x, i), load3(block, at.x, i))
+        more = select(share > 0.0, share * inner(way, load3(block, fluid.fraction_slope, i)), 0.0)
+        a = np.maximum(0.0, np.minimum(1.0, block[fluid.fraction * LANES + i] + more))
+        mu, other_mu, rho, other_rho = coefficients
+        block[fluid.mu_f * LANES + i] = other_mu + a * (mu - other_mu)
+        block[fluid.rho_f * LANES + i] = other_rho + a * (rho - other_rho)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,6 +267,54 @@ class FieldViscosity(VaryingViscosity):
         return np.asarray(self.factor * values.viscosity)
 
 
+@dataclass(frozen=True, kw_only=True)
+class PhaseMixture(VaryingViscosity):
+    """Viscosity and density of two phases, weighted with the fraction of the first, a field of the flow."""
+
+    mu: tuple[float, float]
+    """Of the phases, Pa s."""
+    rho: tuple[float, float]
+    """Of the phases, kg/m³."""
+    mean: float
+    """Mean viscosity over the cells, Pa s."""
+
+    rows: ClassVar = {"fluid": MixtureRows}
+    traits: ClassVar = Traits(kernels=("viscosity",))
+    update: ClassVar = staticmethod(sample_fraction)
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
+        """Return also the evaluation of the fraction, and the density."""
+        return {**super().bindings(inertia), "prepare": evaluate_mixture, "local_fluid": mixed_fluid}
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+        """Return viscosities and densities."""
+        return tuple(map(float, (*self.mu, *self.rho)))
+
+    def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:  # noqa: ARG002
+        """See :meth:`VaryingViscosity.of`."""
+        return _weighted(self.mu, flow.viscosity(x, hosts, t))
+
+    def at_rate(self, rate: float) -> float:  # noqa: ARG002
+        """See :meth:`VaryingViscosity.at_rate`."""
+        return self.mean
+
+    def at_nodes(self, values: NodeValues) -> Floats:
+        """See :meth:`VaryingViscosity.at_nodes`."""
+        return _weighted(self.mu, values.viscosity)
+
+    def density_at_nodes(self, values: NodeValues) -> Floats:
+        """Return ρ_f at nodes of a flow, kg/m³."""
+        return _weighted(self.rho, values.viscosity)
+
+    def density_of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], t: float) -> Floats:
+        """Return ρ_f, (n,), kg/m³, at points in their hosts, at time t, s."""
+        return _weighted(self.rho, flow.viscosity(x, hosts, t))
+
+
+def _weighted(values: tuple[float, float], fraction: Floats) -> Floats:
+    return np.asarray(values[1] + fraction * (values[0] - values[1]))
+
+
 def model_of(mu: float | VaryingViscosity) -> tuple[VaryingViscosity, ...]:
     """Return the model of a viscosity, none for a constant."""
     return (mu,) if isinstance(mu, VaryingViscosity) else ()
@@ -254,19 +345,23 @@ def viscosity_of(
 def medium_at(medium: Medium, flow: Sampled, p: Particles, t: float) -> Medium:
     """Return the medium with the viscosity at particles at time t, s: (n,), or the number if constant.
 
-    Where the flow is unknown, it is the median.
+    Likewise the density of a mixture. Where the flow is unknown, they are the medians.
     """
     if not isinstance(medium.mu, VaryingViscosity):
         return medium
     inside = np.flatnonzero((p.host >= 0) & np.isfinite(p.x).all(axis=1))
-    mu = np.full(p.size, medium.mu.at_rate(1.0))
+    mu, rho = np.full(p.size, medium.mu.at_rate(1.0)), np.full(p.size, medium.rho)
     if len(inside):
         x, hosts = p.x[inside], p.host[inside]
         l = flow.sample(x, hosts, t)[1].reshape(-1, 9)
         values = viscosity_of(medium.mu, flow, x, hosts, l, t)
         mu[:] = np.median(values)
         mu[inside] = values
-    return medium._replace(mu=mu)
+        if isinstance(medium.mu, PhaseMixture):
+            values = medium.mu.density_of(flow, x, hosts, t)
+            rho[:] = np.median(values)
+            rho[inside] = values
+    return medium._replace(mu=mu, rho=rho)
 
 
 def viscosity_at_rate(mu: float | VaryingViscosity, rate: float | None) -> float:

@@ -20,7 +20,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloud.surroundings.base import Surrounding, Survey
-from foamprb.cloud.viscosity import VaryingViscosity, medium_at, model_of
+from foamprb.cloud.viscosity import PhaseMixture, VaryingViscosity, medium_at, model_of
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
@@ -139,8 +139,8 @@ def _viscosity(settings: Settings, cloud: Cloud) -> dict[str, Any]:
     fluid = settings.fluid
     if fluid.varying is None:
         return {"nu": fluid.nu, "mu": fluid.mu}
-    ends = np.array(cloud.flow.ends_at_nodes(partial(_viscosity_in, fluid.varying))[0])
-    return {"nu": (ends / fluid.rho).tolist(), "mu": ends.tolist(), "viscosity": fluid.origin}
+    mu, nu = cloud.flow.ends_at_nodes(partial(_viscosities_in, fluid.varying, fluid.rho))
+    return {"nu": list(nu), "mu": list(mu), "viscosity": fluid.origin}
 
 
 def write_record(path: Path, description: Mapping[str, Any]) -> None:
@@ -190,8 +190,9 @@ def _speeds_and_rates(values: NodeValues) -> tuple[Floats, Floats]:
     return np.linalg.norm(values.u, axis=1), np.asarray(shear_rate(tuple(values.l.T)))
 
 
-def _viscosity_in(law: VaryingViscosity, values: NodeValues) -> tuple[Floats]:
-    return (law.at_nodes(values),)
+def _viscosities_in(law: VaryingViscosity, rho: float, values: NodeValues) -> tuple[Floats, Floats]:
+    mu = law.at_nodes(values)
+    return mu, mu / (law.density_at_nodes(values) if isinstance(law, PhaseMixture) else rho)
 
 
 def _times(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:

@@ -6,8 +6,10 @@ import logging
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,24 +20,21 @@ from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.dictionary.constraints import Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
-from foamprb.flow.base import Caveat, Patch
+from foamprb.flow.base import Caveat, Floats, Patch, PatchFaces
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.patches import PatchKind
-from foamprb.flow.read.case import is_only_decomposed
-from foamprb.flow.read.caveats import turbulence_fields
+from foamprb.flow.read.case import is_only_decomposed, regions
+from foamprb.flow.read.caveats import pseudo_time, turbulence_fields
 from foamprb.flow.read.flows import check_region, open_case, read_flow
 from foamprb.flow.read.fluid import (
+    FILES,
     CaseViscosity,
     apparent_viscosity,
-    density_of_state,
+    find_density,
     fluid_file,
-    is_gas,
-    mean_density,
-    mean_pressure,
-    mean_temperature,
+    mean_field,
     phase_values,
     phases_of,
-    read_density,
     read_viscosity,
 )
 from foamprb.flow.read.mrf import read_rotations
@@ -60,8 +59,10 @@ _CAPILLARY, _MOST_CAPILLARY = 0.1, 0.4
 
 Extension may tear softer bodies apart.
 """
-_TEMPERATURE, _PRESSURE = 300.0, 1e5
-"""Temperature of a fluid, K, and its pressure, Pa, if they matter and the case does not have them."""
+_ROUND_OFF = 1e-6
+"""Speed over √(g L), and rate times L over the speed, below which they are round-off."""
+_LEAST_WAY = 1e-4
+"""Way in the solver's time, in cells, below which a fluid is at rest."""
 _PATHS, _MOVES, _MOVE = 200, 400, 0.5
 """Number of paths, of moves along each, and length of a move in cells."""
 
@@ -118,7 +119,10 @@ def write_template(case: Path, source: FlowSource | None = None, output: Path | 
             f"{file if file.exists() else present} exists and is not changed. Check it with "
             f"foamprb run -dry-run{source.options}, or rename it to get a new one."
         )
-    flow = read_flow(case, "latestTime", source)
+    if not source.region and source.file is None and (names := regions(case)):
+        log.info("The case has the regions %s: -region NAME. These settings are for the mesh beside them.",
+                 ", ".join(names))  # fmt: skip
+    flow = read_flow(case, "latestTime", _with_fractions(case, source))
     for note in flow.notes if source.file else ():
         log.log(logging.WARNING if isinstance(note, Caveat) else logging.INFO, "%s", note)
     text = template(case, flow, source)
@@ -137,10 +141,14 @@ def write_template(case: Path, source: FlowSource | None = None, output: Path | 
 def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     """Return the text of a dictionary for the flow of a case."""
     scales = scales_of(flow)
-    rho, nu, fluid = _fluid(case, source, scales.shear)
-    rho0 = 1050.0 if rho > 500.0 else 1000.0
+    if _is_at_rest(case, flow, source, scales):
+        scales = replace(scales, speed=0.0)
+    fluid = _fluid(case, flow, source, scales)
+    for line in fluid.remarks:
+        log.info("    %s", " ".join(line.removeprefix("// ").split()))
+    rho0 = 1000.0 if fluid.rho is not None and fluid.rho <= 500.0 else 1050.0
     rotating = _rotating(case, flow, source)
-    d = diameter(scales, nu, rho0 / rho if len(rotating) > 1 else 0.0)
+    d = diameter(scales, fluid.nu or math.inf, rho0 / fluid.rho if fluid.rho and len(rotating) > 1 else 0.0)
     step, interval, end = times(scales)
     scale = [f"scale {source.scale:g}; // {_said('solution', 'scale')}"] if source.scale else []
     text = f"""\
@@ -159,16 +167,16 @@ solution
     deltaT {step:g}; // {_said("solution", "deltaT", "a fifth of a cell in the flow")}
     endTime {end:g}; // {_said("solution", "endTime")}
     writeInterval {interval:g}; // {_said("solution", "writeInterval")}
-{_lines([*scale, *_faults(flow), *(rotating or _transient(case, source))])}}}
+{_lines([*scale, *_faults(flow), *(rotating or _transient(case, source)), *fluid.options])}}}
 
 constantProperties
 {{
     rho0 {rho0:g}; // {_said("constantProperties", "rho0")}
-{_lines(fluid)}
+{_lines(fluid.lines)}
     solid
     {{
         type neoHooke; // all types: foamprb help solid
-{_lines(_stiffness(flow, scales, rho * nu), 8)}    }}
+{_lines(_stiffness(flow, scales, fluid.mu), 8)}    }}
 }}
 
 subModels
@@ -242,12 +250,30 @@ def scales_of(flow: MeshFlow) -> FlowScales:
     )
 
 
+def _is_at_rest(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) -> bool:
+    """Return True if the velocities are round-off: against waves by gravity, or in the solver's time."""
+    try:
+        g = float(np.linalg.norm(read_gravity(case, source.region)))
+    except InputError:
+        g = 0.0
+    if scales.speed < _ROUND_OFF * math.sqrt(g * float(np.linalg.norm(flow.bounds[1] - flow.bounds[0]))):
+        return True
+    time = "" if source.file is not None or pseudo_time(case, source.region) else flow.at_nodes()[0]
+    return 0.0 < float(time or 0.0) * scales.speed < _LEAST_WAY * scales.cell
+
+
+def _inflow(faces: PatchFaces) -> Floats:
+    """Return the inflow through the triangles of a patch, m³/s; 0 where the fluid leaves."""
+    rates: Floats = np.einsum("tvi,ti->t", faces.velocity, faces.normals).clip(0.0) * faces.areas / 3.0
+    return rates
+
+
 def rates_on_paths(flow: MeshFlow, scales: FlowScales) -> NDArray[np.float64]:
     """Return the largest shear rate on some paths of the fluid, 1/s, from the inlet or from all cells."""
     random = np.random.default_rng(1)
     if scales.inlet:
         faces = flow.patch_faces(scales.inlet, 0.0)
-        inflow = np.einsum("tvi,ti->t", faces.velocity, faces.normals).clip(0.0) * faces.areas
+        inflow = _inflow(faces)
         rows = random.choice(len(inflow), _PATHS, p=inflow / inflow.sum())
         x, hosts = faces.vertices[rows].mean(axis=1), faces.hosts[rows]
     else:
@@ -318,53 +344,85 @@ def _rounded(value: float) -> float:
     return float(f"{value:.1e}")
 
 
-def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, list[str]]:
-    """Return density and kinematic viscosity of the fluid, and entries for values that the case lacks.
+class _Fluid(NamedTuple):
+    """Fluid of a case, as far as the case has it."""
 
-    ``rate`` is the shear rate, 1/s, at which a fluid that is not Newtonian is taken.
-    """
-    phases = _phases(case, source, rate)
-    if phases:
+    rho: float | None
+    """kg/m³."""
+    nu: float | None
+    """m²/s."""
+    mu: float | None
+    """Pa s."""
+    lines: list[str]
+    """Lines of ``constantProperties``."""
+    remarks: list[str]
+    """About values that are assumed or missing, and phases, for the log."""
+    options: list[str]
+    """Lines of ``solution``."""
+
+
+def _unknown(key: str, unit: str, why: str) -> str:
+    """Return the comment in place of an entry that the case does not have."""
+    return f"// {key:12s}unknown: {why}; set {key}, {unit}"
+
+
+def _fluid(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) -> _Fluid:
+    """Return the fluid of a case; one that is not Newtonian at the mean shear rate."""
+    phases = _phases(case, flow, source, scales)
+    if phases is not None:
         return phases
     file = fluid_file(case, source.region)
-    where = "" if file is None else f"constant/{file.relative_to(case / 'constant')}"
+    where = f"constant/{FILES[0]}" if file is None else f"constant/{file.relative_to(case / 'constant')}"
+    time = None if source.file else "latestTime"
     nu: float | None = None
     mu: float | None = None
-    lines: list[str] = []
-    try:
+    lines = [_unknown("nu", "m2/s, or mu, Pa s", f"{where} has none that is read")]
+    with suppress(InputError):
         if file is not None:
-            time = None if source.file else "latestTime"
-            viscosity = read_viscosity(file, case, None, source.region, time)
-            nu, mu, lines = _typical(viscosity, rate, where)
-    except InputError as error:
-        assert file is not None
-        try:
-            T, origin = _temperature(case, source.region)
-            nu, mu, temperature = read_viscosity(file, case, T)[:3]
-            if temperature is None:
-                raise error
-            lines.append(f"TInf {T:g}; // {_said('constantProperties', 'TInf')}{origin}")
-        except InputError:
-            nu, what = _viscosity_of_model(file, case, rate, _temperature(case, source.region)[0])
-            lines.append(
-                f"nu {nu:g}; // m2/s, kinematic viscosity; {what or f'{where} has no constant value'}"
-            )
-    if nu is None and mu is None:
-        nu = 1e-6
-        lines.append("nu 1e-06; // m2/s, kinematic viscosity; not in the case: like water")
-    rho, origin = _density(case, file, source.region, where)
-    if rho is not None:
-        lines.append(f"// {'rhoInf':12s}{rho:g}: from {origin}")
+            nu, mu, lines = _viscosity(file, case, source.region, time, scales.shear, where)
+    density = None
+    with suppress(InputError):
+        density = find_density(case, source.region, file, "latestTime")
+    if density is not None:
+        rho: float | None = density[0]
+        lines.append(f"// {'rhoInf':12s}{rho:.4g}: from {density[1]}")
+    elif nu is None:
+        rho = None
+        lines.append(_unknown("rhoInf", "kg/m3", f"{where} has none that is read"))
     else:
-        rho, origin = _density_of_state(case, file, source.region)
-        if rho is None:
-            # Gases have about 1e-5 m²/s, or 1e-5 Pa s.
-            water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
-            rho, origin = (
-                (1000.0, "not in the case: like water") if water else (1.2, "not in the case: like air")
-            )
-        lines.append(f"rhoInf {rho:g}; // kg/m3, density of the fluid; {origin}")
-    return rho, nu if nu is not None else float(mu or 0.0) / rho, lines
+        # Solvers of incompressible flow have none. Gases have about 1e-5 m²/s.
+        rho, like = (1.2, "air") if 5e-6 <= nu <= 1e-4 else (1000.0, "water")
+        lines.append(f"rhoInf {rho:g}; // kg/m3, assumed: the case has no density; like {like}")
+    if rho is not None:
+        nu, mu = (nu, nu * rho) if nu is not None else (mu / rho if mu is not None else None, mu)
+    remarks = [line for line in lines if "unknown: " in line or "assumed: " in line]
+    return _Fluid(rho, nu, mu, lines, remarks, [])
+
+
+def _viscosity(
+    file: Path, case: Path, region: str, time: str | None, rate: float, where: str
+) -> tuple[float | None, float | None, list[str]]:
+    """Return a viscosity, m²/s or else Pa s, and its entry or a comment.
+
+    Raises
+    ------
+    InputError
+        It is unknown.
+    """
+    try:
+        return _typical(read_viscosity(file, case, None, region, time), rate, where)
+    except InputError:
+        mean = mean_field(case, region, "latestTime", "T")
+        if mean is None:
+            raise
+        T = float(f"{mean[0]:.4g}")
+        if (law := apparent_viscosity(read_dictionary(file, case), rate, T)) is not None:
+            nu = float(f"{law[1]:.4g}")
+            return nu, None, [f"nu {nu:g}; // m2/s, {law[0]} of {where} at {rate:.3g} 1/s, {T:g} K"]
+        nu_of_T, mu, temperature = read_viscosity(file, case, T)[:3]
+        if temperature is None:
+            raise
+        return nu_of_T, mu, [f"TInf {T:g}; // {_said('constantProperties', 'TInf')}, mean of T at {mean[1]}"]
 
 
 def _typical(
@@ -376,95 +434,99 @@ def _typical(
         nu, at = viscosity.law(rate), f"at {rate:.3g} 1/s"
     elif viscosity.field is not None:
         nu, mu = (viscosity.field.mean, None) if viscosity.field.kinematic else (None, viscosity.field.mean)
-    name = f"// {'nu' if nu else 'mu':12s}"
+    name, value, unit = ("mu", mu, "Pa s") if nu is None else ("nu", nu, "m2/s")
     comment = (
-        f"local, by {viscosity.origin}; {nu or mu:.4g} {at}"
+        f"local, by {viscosity.origin}; {value:.4g} {unit} {at}"
         if viscosity.origin
-        else f"{nu or mu:g}: from {where}"
+        else f"{value:g}: from {where}"
     )
-    return nu, mu, [name + comment]
+    return nu, mu, [f"// {name:12s}{comment}"]
 
 
-def _temperature(case: Path, region: str, *phases: str) -> tuple[float, str]:
-    """Return the mean temperature of a phase or of the fluid, K, and its source for a comment."""
-    for field in (*(f"T.{phase}" for phase in phases), "T"):
-        try:
-            mean = mean_temperature(case, region, "latestTime", field)
-        except InputError:
-            mean = None
-        if mean is not None:
-            return float(f"{mean[0]:.4g}"), f", mean of {field} at {mean[1]}"
-    return _TEMPERATURE, ""
+def _fraction_fields(case: Path, source: FlowSource) -> dict[str, str]:
+    """Return the fields of the volume fractions of phases at the latest time, by phase."""
+    if source.file is not None:
+        return {}
+    phases: Sequence[str] = ()
+    with suppress(InputError):
+        phases = tuple(phases_of(case, source.region))
+    if not phases:
+        return {}
+    opened = open_case(case, source)
+    fields = opened.fields(opened.select_time("latestTime"))
+    return {name: f"alpha.{name}" for name in phases if fields.get(f"alpha.{name}") == "volScalarField"}
 
 
-def _pressure(case: Path, region: str) -> float:
-    """Return the mean pressure of the fluid, Pa."""
+def _with_fractions(case: Path, source: FlowSource) -> FlowSource:
+    """Return the source of a flow with the volume fractions of its phases."""
+    return replace(source, sampled=tuple(_fraction_fields(case, source).values()))
+
+
+def _shares(flow: MeshFlow, scales: FlowScales, phases: Sequence[str]) -> dict[str, float]:
+    """Return the shares of phases in the volume that is released from: the inflow, or all cells.
+
+    The fraction of one phase may follow from the others; else nothing is known without fields.
+    """
+    if scales.inlet:
+        faces = flow.patch_faces(scales.inlet, 0.0)
+        values = flow.fields(0.0, 0.0).at(faces.vertices.mean(axis=1), faces.hosts, 0.0)
+        fractions, weights = {name: field.array for name, field in values.items()}, _inflow(faces)
+    else:
+        table = flow.field_table[flow.mesh.n_points :]
+        fractions = {column.name: table[:, k] for k, column in enumerate(flow.field_columns)}
+        weights = np.maximum(flow.mesh.volumes, 0.0)
+    shares = {
+        name: float(np.average(fractions[f"alpha.{name}"].clip(0.0, 1.0), weights=weights))
+        for name in phases
+        if f"alpha.{name}" in fractions
+    }
+    others = [name for name in phases if name not in shares]
+    if len(others) > 1:
+        return {}
+    return shares | {name: 1.0 - sum(shares.values()) for name in others}
+
+
+def _phases(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) -> _Fluid | None:
+    """Return the phase of the velocity, such as ``U.air``, or that with the most volume at the release.
+
+    The others are in comments. Returns None without phases.
+    """
     try:
-        mean = mean_pressure(case, region, "latestTime")
+        phases = phases_of(case, source.region)
     except InputError:
-        mean = None
-    return _PRESSURE if mean is None else mean[0]
-
-
-def _phases(case: Path, source: FlowSource, rate: float) -> tuple[float, float, list[str]] | None:
-    """Return the result of :func:`_fluid` for one of several phases; the others are in comments."""
-    phases = _known_phases(case, source, rate)
+        return None
     if not phases:
         return None
-    lines = []
-    for index, (name, nu, rho) in enumerate(phases):
-        start, why = ("// ", "") if index else ("", ", in which the particles move")
-        lines += [f"{start}nu {nu:g}; // m2/s, of {name}{why}", f"{start}rhoInf {rho:g}; // kg/m3, of {name}"]
-    return phases[0][2], phases[0][1], lines
-
-
-def _known_phases(case: Path, source: FlowSource, rate: float) -> list[tuple[str, float, float]]:
-    """Return name, viscosity, m²/s, and density, kg/m³, of each of several phases.
-
-    The phase of the velocity, such as ``U.air``, or else the first goes first.
-    """
-    phases = []
-    try:
-        for name, phase in phases_of(case, source.region).items():
-            T, p = _temperature(case, source.region, name)[0], _pressure(case, source.region)
-            nu, rho = phase_values(phase, rate, p, T)
-            if nu is not None and rho is not None:
-                phases.append((name, float(f"{nu:.4g}"), float(f"{rho:.4g}")))
-    except InputError:
-        return []
-    name_of_source = source.velocity.partition(".")[2]
-    return sorted(phases, key=lambda phase: phase[0] != name_of_source)
-
-
-def _viscosity_of_model(file: Path, case: Path, rate: float, T: float) -> tuple[float, str]:
-    """Return the viscosity of the selected model, m²/s, at a rate (1/s) and a temperature, and its source."""
-    try:
-        root = read_dictionary(file, case)
-    except InputError:
-        return 1e-6, ""
-    if law := apparent_viscosity(root, rate, T):
-        return float(f"{law[1]:.4g}"), f"{law[0]} at {rate:.3g} 1/s"
-    return (1.5e-5, "not constant: like air") if is_gas(root) else (1e-6, "")
-
-
-def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[float | None, str]:
-    try:
-        if file is not None and (rho := read_density(file, case)) is not None:
-            return rho, where
-        field = mean_density(case, region, "latestTime")
-    except InputError:
-        return None, ""
-    return (field[0], f"the field rho at time {field[1]}") if field else (None, "")
-
-
-def _density_of_state(case: Path, file: Path | None, region: str) -> tuple[float | None, str]:
-    """Return the density by the equation of state of the fluid, kg/m³, and its source for a comment."""
-    T, p = _temperature(case, region)[0], _pressure(case, region)
-    try:
-        rho = None if file is None else density_of_state(read_dictionary(file, case), p, T)
-    except InputError:
-        rho = None
-    return (None, "") if rho is None else (float(f"{rho:.4g}"), f"equationOfState at {p:.4g} Pa, {T:.4g} K")
+    shares = _shares(flow, scales, tuple(phases))
+    of_velocity = source.velocity.partition(".")[2]
+    main = of_velocity if of_velocity in phases else max(shares, key=lambda name: shares[name], default="")
+    time = flow.at_nodes()[0]
+    where = (
+        f"{100.0 * shares[main]:.4g} % of the {'inflow' if scales.inlet else 'volume'}"
+        if main in shares
+        else ""
+    )
+    why = f", {where} at time {time}" if where else ", of the velocity" if main else ""
+    lines, rho, nu = list[str](), None, None
+    for name in sorted(phases, key=lambda name: name != main):
+        pair = phase_values(case, source.region, name, phases[name], scales.shear, "latestTime")
+        start = "" if name == main else "// "
+        for key, value, unit in zip(("nu", "rhoInf"), pair, ("m2/s", "kg/m3"), strict=True):
+            if value is None:
+                lines.append(_unknown(key, unit, f"{name} has none that is read"))
+            else:
+                lines.append(f"{start}{key} {value:.4g}; // {unit}, of {name}{'' if start else why}")
+        if name == main:
+            nu, rho = pair
+    if not main:
+        lines.insert(0, f"// unknown: the phase of the particles; no field alpha.{next(iter(phases))}")
+    options = []
+    if len(phases) == 2 and shares and shares.get(main, 0.0) < 0.999:
+        options = [
+            f"// mixture true; // local nu and rho of {' and '.join(phases)}, in place of nu and rhoInf"
+        ]
+    said = f"Particles move in {main}{why}." if main else "The phase of the particles is unknown."
+    return _Fluid(rho, nu, nu * rho if nu and rho else None, lines, [said], options)
 
 
 def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
@@ -486,15 +548,24 @@ def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     ]
 
 
-def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float) -> list[str]:
-    """Return the entries of the stiffness by the rates on paths of the fluid."""
-    largest = rates_on_paths(flow, scales)
+def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float | None) -> list[str]:
+    """Return the entries of the stiffness by the rates on paths of the fluid; of a viscosity, Pa s."""
+    largest = rates_on_paths(flow, scales) if scales.speed > 0.0 else np.zeros(1)
+    length = float(np.linalg.norm(flow.bounds[1] - flow.bounds[0]))
+    if largest.max() * length <= _ROUND_OFF * scales.speed:
+        largest = np.zeros(1)
     rate = float(np.median(largest)) or 1.0
-    where = "the largest on half of the paths" if largest.any() else "as the fluid is at rest"
-    at = f"{rate:.2g} 1/s, {where}"
-    modulus = _rounded(mu * max(rate / _CAPILLARY, np.quantile(largest, 0.9) / _MOST_CAPILLARY))
-    said = f"Pa; Ca = {mu * rate / modulus:.2g} at {at}"
-    return ["poissonsRatio 0.499; // nearly incompressible", f"shearModulus {modulus:g}; // {said}"]
+    where = "the largest on half of the paths"
+    if not largest.any():
+        where = "as the flow is uniform" if scales.speed > 0.0 else "as the fluid is at rest"
+    lines = ["poissonsRatio 0.499; // nearly incompressible"]
+    over_mu = max(rate / _CAPILLARY, float(np.quantile(largest, 0.9)) / _MOST_CAPILLARY)
+    if mu is None:
+        return [*lines, f"Ca {_rounded(rate / over_mu):g}; // capillary number",
+                f"referenceShearRate {_rounded(rate):g}; // 1/s, {where}"]  # fmt: skip
+    modulus = _rounded(mu * over_mu)
+    said = f"Pa; Ca = {mu * rate / modulus:.2g} at {rate:.2g} 1/s, {where}"
+    return [*lines, f"shearModulus {modulus:g}; // {said}"]
 
 
 def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:

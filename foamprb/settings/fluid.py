@@ -11,7 +11,7 @@ from typing import Annotated
 from foamprb.cloud.block import Medium
 from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.shapes import Shape
-from foamprb.cloud.viscosity import RATE_LAWS, FieldViscosity, VaryingViscosity
+from foamprb.cloud.viscosity import RATE_LAWS, FieldViscosity, PhaseMixture, VaryingViscosity
 from foamprb.dictionary.constraints import Meaning, NoEffect, Positive, Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
@@ -23,9 +23,9 @@ from foamprb.flow.read.fluid import (
     FILES,
     CaseViscosity,
     ViscosityField,
+    find_density,
     fluid_file,
-    mean_density,
-    read_density,
+    read_mixture,
     read_viscosity,
 )
 
@@ -109,6 +109,7 @@ def read_fluid(
     properties: ConstantProperties | None,
     time: float | str | None = "latestTime",
     transient: bool = False,
+    mixture: bool = False,
 ) -> Fluid:
     """Read ρ_f and ν: from ``constantProperties``, the case's dictionary of the fluid, or fields.
 
@@ -122,12 +123,16 @@ def read_fluid(
         Time of the fields; None to read none.
     transient
         Whether the flow is read at all times.
+    mixture
+        Whether ν and ρ_f are those of two phases at the local volume fraction.
 
     Raises
     ------
     InputError
         If there are mistakes, in ``constantProperties`` or in the other file, all of them.
     """
+    if mixture:
+        return _mixed(case, region, constant, time, transient)
     file = fluid_file(case, region)
     viscosity, rho = None, None
     mistakes = Mistakes()
@@ -145,7 +150,12 @@ def read_fluid(
             viscosity = read_viscosity(file, case, T, region, time, transient)
     with mistakes:
         if "rhoInf" not in constant.entries:
-            rho = _density_of_case(case, region, constant, file, time)
+            density = find_density(case, region, file, time)
+            if density is None:
+                also = str(CaseFile(file, case)) if file is not None else f"constant/{FILES[0]}"
+                raise constant.missing("rhoInf", f"Allowed: {Positive.text}; also in {also}.")
+            log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, *density)
+            rho = density[0]
         elif properties:
             rho = properties.rhoInf
     mistakes.raise_any()
@@ -158,6 +168,21 @@ def read_fluid(
     return Fluid(rho, viscosity.nu if viscosity.nu is not None else float(viscosity.mu or 0.0) / rho)
 
 
+def _mixed(case: Path, region: str, constant: Dictionary, time: float | str | None, transient: bool) -> Fluid:
+    """Read the fluid of two phases with local ν and ρ; ``rho`` is the mean over the cells."""
+    for key in ("nu", "mu", "rhoInf"):
+        if key in constant.entries:
+            raise constant.entries[key].mistake(
+                "has no effect with solution/mixture, which takes it from the phases. Allowed: one of both."
+            )
+    names, nu, rho, field = read_mixture(case, region, time, transient)
+    mu = (nu[0] * rho[0], nu[1] * rho[1])
+    a = field.mean
+    model = PhaseMixture(mu=mu, rho=rho, mean=a * mu[0] + (1.0 - a) * mu[1])
+    origin = f"mixture of {' and '.join(names)}, rho {rho[0]:.4g} and {rho[1]:.4g} kg/m3, by {field.name}"
+    return Fluid(a * rho[0] + (1.0 - a) * rho[1], None, model, origin, field)
+
+
 def _varying(viscosity: CaseViscosity, rho: float) -> VaryingViscosity | None:
     """Return the model of a viscosity that varies, None for a constant; ρ is the density, kg/m³."""
     if viscosity.field is not None:
@@ -166,28 +191,6 @@ def _varying(viscosity: CaseViscosity, rho: float) -> VaryingViscosity | None:
     if viscosity.law is not None:
         return RATE_LAWS[viscosity.law.model].of_kinematic(viscosity.law.coefficients, rho)
     return None
-
-
-def _density_of_case(
-    case: Path, region: str, constant: Dictionary, file: Path | None, time: float | str | None
-) -> float:
-    """Read ρ_f, kg/m3, from the dictionary of the fluid or from the field."""
-    density = _find_density(case, region, file, time)
-    if density is None:
-        also = str(CaseFile(file, case)) if file is not None else f"constant/{FILES[0]}"
-        raise constant.missing("rhoInf", f"Allowed: {Positive.text}; also in {also}.")
-    log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, *density)
-    return density[0]
-
-
-def _find_density(
-    case: Path, region: str, file: Path | None, time: float | str | None
-) -> tuple[float, str] | None:
-    """Return the density of the case, kg/m3, and its source; None if the case has no density."""
-    if file is not None and (density := read_density(file, case)) is not None:
-        return density, str(CaseFile(file, case))
-    field = None if time is None else mean_density(case, region, time)
-    return None if field is None else (field[0], f"the field rho at time {field[1]}, its mean")
 
 
 def read_medium(
@@ -225,7 +228,7 @@ def read_medium(
     case = Path(case)
     file = fluid_file(case, region)
     if rho is None:
-        density = _find_density(case, region, file, time)
+        density = find_density(case, region, file, time)
         if density is None:
             raise InputError(f"{case}: the density is not in the case; give rho, kg/m3.")
         rho = density[0]

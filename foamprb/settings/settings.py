@@ -216,7 +216,8 @@ def read_settings(
         constant = _section(root, "constantProperties")
         with mistakes:
             properties = read_entries(ConstantProperties, constant)
-        fluid = read_fluid(case, region, constant, properties, time, bool(solution and solution.transient))
+        transient, mixture = (solution.transient, solution.mixture) if solution else (False, False)
+        fluid = read_fluid(case, region, constant, properties, time, transient, mixture)
     with mistakes:
         sub_models = _section(root, "subModels")
         with mistakes:

@@ -180,6 +180,13 @@ class Solution:
             "lengths in [a mesh file](meshes.md#files) times `scale` are m; `-scale` takes precedence", "1"
         ),
     ] = 1.0
+    mixture: Annotated[
+        bool,
+        Meaning(
+            "viscosity and density of the fluid are those of [two phases](models/carrier.md#two-phases) "
+            "at the particle, by their volume fractions"
+        ),
+    ] = False
     rotatingZones: Annotated[
         Literal["relative", "absolute"],
         Meaning(

@@ -18,6 +18,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.cloud.viscosity import (
     RATE_LAWS,
     FieldViscosity,
+    PhaseMixture,
     PowerLaw,
     medium_at,
     viscosity_at_nodes,
@@ -89,6 +90,63 @@ def test_a_body_falls_through_a_field_that_varies_in_time(mesh):
     b = 3.0 / end
     assert cloud.particles.x[0, 2] == pytest.approx(0.9 - FALL / b * math.log1p(b * end), abs=2e-5)
     assert cloud.flow.viscosity(cloud.particles.x, cloud.particles.host, 100.0) == pytest.approx([1.75])
+
+
+WATER_UNDER_OIL = PhaseMixture(mu=(1e-3, 5e-3), rho=(1000.0, 900.0), mean=3e-3)
+SETTLES = 9.81 * 1e-10 / 18.0
+"""g d²/18 of a body of 10 µm, m³/s²."""
+
+
+def settling(flow, dt):
+    """A body of 10 µm and 1100 kg/m³ in oil over water at rest."""
+    p = spheres([(0.5, 0.5, 0.9)], d=1e-5, rho=1100.0, mu=1e3)
+    medium = foamprb.Medium(WATER_UNDER_OIL, 950.0, (0.0, 0.0, -9.81))
+    walls = [Escape()] * len(flow.patches)
+    return Cloud(p, flow, medium, walls, dt, Models(integrator="stokes"), threads=1)
+
+
+def linear_quotient(b, c, x):
+    """∫₀ˣ (b₀ + b₁ s)/(c₀ + c₁ s) ds."""
+    return b[1] / c[1] * x + (b[0] - b[1] * c[0] / c[1]) / c[1] * math.log1p(c[1] / c[0] * x)
+
+
+def test_a_body_settles_through_an_interface():
+    """Stokes' velocity on either side, and the time to cross a layer in which α rises linearly to 1."""
+    shape = block(4, 0.0)
+    mesh = build_mesh(shape, box_patches(shape))
+    z = mesh.nodes[:, 2]
+    inside = np.where((z > 0.26) & (z < 0.74), -2.0, 0.0)
+    table = np.column_stack([np.clip(1.5 - 2.0 * z, 0.0, 1.0), 0.0 * z, 0.0 * z, inside])
+    cloud = settling(MeshFlow(mesh, *at_rest(mesh), viscosity=table), 100.0)
+    oil, water = SETTLES * 200.0 / 5e-3, SETTLES * 100.0 / 1e-3
+    # With s from the top of the layer down, μ = 5e-3 − 8e-3 s and ρ_s − ρ_f = 200 − 200 s.
+    crossing = linear_quotient((5e-3, -8e-3), (200.0, -200.0), 0.5) / SETTLES
+    cloud.advance(2)
+    assert measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time), OPTIONAL)["U"][
+        0, 2
+    ] == pytest.approx(-oil, rel=1e-6)
+    total = 0.15 / oil + crossing + 0.15 / water
+    cloud.advance(round(total / 100.0) - 2)
+    late = cloud.time - total
+    assert cloud.particles.x[0, 2] == pytest.approx(0.1 - water * late, abs=2e-4)
+    around = medium_at(cloud.medium, cloud.flow, cloud.particles, cloud.time)
+    assert (around.mu[0], around.rho[0]) == pytest.approx((1e-3, 1000.0))
+    assert measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time), OPTIONAL)["U"][
+        0, 2
+    ] == pytest.approx(-water, rel=1e-6)
+
+
+def test_a_body_settles_while_the_fraction_rises(mesh):
+    """From oil to water in 2e5 s: μ = 5e-3 − 4e-3 t/T and ρ_s − ρ_f = 200 − 100 t/T."""
+    end = 2e5
+
+    def read(index):
+        return *at_rest(mesh), np.tile([float(index), 0.0, 0.0, 0.0], (len(mesh.nodes), 1))
+
+    cloud = settling(SeriesFlow(mesh, [0.0, end], read, viscous=True), 500.0)
+    cloud.advance(round(end / 500.0))
+    way = SETTLES * end * linear_quotient((200.0, -100.0), (5e-3, -4e-3), 1.0)
+    assert cloud.particles.x[0, 2] == pytest.approx(0.9 - way, abs=1e-5)
 
 
 @pytest.mark.parametrize(("integrator", "around"), [("paper", ()), ("stokes", (BrownianMotion(T=300.0),))])

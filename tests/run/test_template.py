@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import header, put_scalar, put_zones, write_case
+from foam_writer import header, put_linear, put_scalar, put_zones, write_case
 from paths import PIPE
 
 from foamprb.cli import main
@@ -47,6 +47,13 @@ def test_a_case_is_read_without_vtk(case):
     code = f"import sys; from foamprb.cli import main; {command}; print('vtkmodules' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "False"
+
+
+def write_box(folder):
+    """A case with all that a run needs."""
+    mesh = write_case(folder, perturbation=0.0)
+    (folder / "constant/transportProperties").write_text("nu 1e-6; rho 1000;")
+    return mesh
 
 
 def test_settings_of_a_case_that_cannot_be_written(case, tmp_path, capsys, monkeypatch):
@@ -146,7 +153,7 @@ def test_the_viscosity_of_another_model_is_local(case):
     rate = scales_of(read_flow(case)).shear
     text = write_template(case).read_text()
     nu = 10.0 - 9.99 / (1.0 + (0.4 * rate) ** 3)
-    comment = f"local, by CrossPowerLaw of constant/transportProperties; {nu:.4g} at {rate:.3g} 1/s"
+    comment = f"local, by CrossPowerLaw of constant/transportProperties; {nu:.4g} m2/s at {rate:.3g} 1/s"
     assert f"// nu          {comment}" in text
     fluid = read_settings(case).fluid
     assert fluid.mu.at_rate(rate) == pytest.approx(fluid.rho * nu)
@@ -171,25 +178,73 @@ def test_viscosities_at_four_per_second(tmp_path, model, expected):
     assert nu == pytest.approx(expected)
 
 
-def test_both_phases_of_a_case_are_written(case):
-    (case / "constant/transportProperties").write_text(
-        "phases (water air); water { transportModel Newtonian; nu 1e-06; rho 1000; } "
-        "air { transportModel Newtonian; nu 1.48e-05; rho 1; } sigma 0.07;"
-    )
+TWO = (
+    "phases (air water); water { transportModel Newtonian; nu 1e-06; rho 1000; } "
+    "air { transportModel Newtonian; nu 1.48e-05; rho 1; } sigma 0.07;"
+)
+
+
+def latest(case):
+    return max((each for each in case.iterdir() if each.name.isdigit()), key=lambda each: float(each.name))
+
+
+@pytest.mark.parametrize(
+    ("alpha", "main", "nu", "rho", "share"),
+    [(0.9, "water", 1e-6, 1000.0, "90 %"), (0.2, "air", 1.48e-5, 1.0, "80 %")],
+)
+def test_the_phase_with_most_volume_at_the_release_counts(
+    case, alpha, main, nu, rho, share, caplog, monkeypatch
+):
+    """Not that which the file names first; of one field of two."""
+    monkeypatch.setattr("foamprb.run.template.log.propagate", True)
+    caplog.set_level("INFO")
+    (case / "constant/transportProperties").write_text(TWO)
+    put_scalar(latest(case), "alpha.water", "0 0 0", alpha)
     text = write_template(case).read_text()
-    assert re.search(r"// nu 1.48e-05; +// m2/s, of air", text)
+    said = f"of {main}, {share} of the inflow at time {latest(case).name}"
+    assert re.search(rf"^ +nu +{nu:g}; +// m2/s, {said}$", text, re.MULTILINE)
+    assert f"Particles move in {said.removeprefix('of ')}." in caplog.text
+    assert text.count("\n    // nu ") == 1
     fluid = read_settings(case).fluid
-    assert (fluid.nu, fluid.rho) == (1e-6, 1000.0)
+    assert (fluid.nu, fluid.rho) == (nu, rho)
+    assert "// mixture true; // local nu and rho of air and water" in text
 
 
-def test_the_phases_of_a_list_are_written(case):
-    (case / "constant/transportProperties").write_text(
+def test_the_phase_at_the_inlet_counts_not_the_mean(tmp_path):
+    """Below half the height there is oil; the fluid enters through the lid."""
+    mesh = write_case(tmp_path, perturbation=0.0, times=("1",))
+    (tmp_path / "constant/transportProperties").write_text(
         "phases ( oil { transportModel Newtonian; nu 2e-06; rho 900; } mercury { nu 1.1e-07; rho 13529; } );"
     )
-    text = write_template(case).read_text()
+    put_linear(tmp_path / "1", mesh, "alpha.oil", (0.0, 0.0, 2.0), -0.9, "[0 0 0 0 0 0 0]")
+    text = write_template(tmp_path).read_text()
+    assert re.search(r"^ +patch +lid;", text, re.MULTILINE)
+    assert re.search(r"^ +nu +2e-06; +// m2/s, of oil, \S+ % of the inflow", text, re.MULTILINE)
     assert "// nu 1.1e-07; // m2/s, of mercury" in text
-    fluid = read_settings(case).fluid
-    assert (fluid.nu, fluid.rho) == (2e-6, 900.0)
+
+
+@pytest.mark.parametrize("transient", ["yes", "no"])
+def test_the_mixture_that_is_offered_runs(tmp_path, transient, capsys):
+    mesh = write_case(tmp_path, perturbation=0.0, times=("1", "9"))
+    (tmp_path / "constant/transportProperties").write_text(TWO)
+    for time in ("1", "9"):
+        put_linear(tmp_path / time, mesh, "alpha.water", (0.0, 0.0, 0.5), -1e-9, "[0 0 0 0 0 0 0]")
+    file = write_template(tmp_path)
+    text = re.sub(r"// (mixture true;)", rf"\1 transient {transient};", file.read_text())
+    file.write_text(re.sub(r"\n +(nu|rhoInf) .*", "", text))
+    assert main(["run", "-dry-run", "-case", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "mixture of water and air, rho 1000 and 1 kg/m3, by alpha.water" in said
+    assert ", by alpha.water, 1.48e-05 to 0.000452 Pa s over the nodes" in said
+    assert "phases" not in said
+
+
+def test_without_fractions_no_phase_is_chosen(case):
+    (case / "constant/transportProperties").write_text(TWO)
+    text = write_template(case).read_text()
+    assert "// unknown: the phase of the particles; no field alpha.air" in text
+    with pytest.raises(InputError, match=r"nu is missing.*or solution \{ mixture true; \}"):
+        read_settings(case)
 
 
 MIXTURE = (
@@ -199,17 +254,25 @@ MIXTURE = (
 )
 
 
+def put_state(case):
+    rest = 'boundaryField { ".*" { type zeroGradient; } }'
+    for name, dimensions, value in (
+        ("T", "0 0 0 1 0 0 0", 300),
+        ("T.air", "0 0 0 1 0 0 0", 600),
+        ("p", "1 -1 -2 0 0 0 0", 3e5),
+    ):
+        field = f"dimensions [{dimensions}]; internalField uniform {value}; {rest}"
+        (latest(case) / f"{name}.gz").unlink(missing_ok=True)
+        (latest(case) / name).write_text(header("volScalarField", name) + field)
+
+
 def test_the_phase_of_the_velocity_goes_first(case):
     """Each phase has its own file, density by its equation of state, and temperature."""
     (case / "constant/transportProperties").unlink()
     for name, kind in (("air", "perfectGas"), ("water", "perfectFluid")):
         (case / f"constant/thermophysicalProperties.{name}").write_text(MIXTURE.format(kind=kind))
-    time = max((each for each in case.iterdir() if each.name.isdigit()), key=lambda each: float(each.name))
-    shutil.copy(time / "U.gz", time / "U.water.gz")
-    rest = 'boundaryField { ".*" { type zeroGradient; } }'
-    for name, dimensions, value in (("T.air", "0 0 0 1 0 0 0", 600), ("p", "1 -1 -2 0 0 0 0", 3e5)):
-        field = f"dimensions [{dimensions}]; internalField uniform {value}; {rest}"
-        (time / name).write_text(header("volScalarField", name) + field)
+    shutil.copy(latest(case) / "U.gz", latest(case) / "U.water.gz")
+    put_state(case)
     text = write_template(case, FlowSource(velocity="U.water")).read_text()
     rho = 1027.0 + 3e5 / (3000.0 * 300.0)
     assert re.search(r"rhoInf +1027; +// kg/m3, of water", text)
@@ -218,59 +281,76 @@ def test_the_phase_of_the_velocity_goes_first(case):
 
 
 @pytest.mark.parametrize(
-    ("kind", "rho"), [("perfectGas", 1.161), ("incompressiblePerfectGas", 2.322), ("Boussinesq", 1027.0)]
+    ("kind", "rho"), [("perfectGas", 3.483), ("incompressiblePerfectGas", 2.322), ("Boussinesq", 1027.0)]
 )
 def test_the_density_is_that_of_the_equation_of_state(case, kind, rho):
+    """At the means of p and T, in the settings and in a run."""
     (case / "constant/transportProperties").unlink()
     state = MIXTURE.format(kind=kind).replace("rho 870;", "")
     (case / "constant/thermophysicalProperties").write_text(state)
-    assert "equationOfState at 1e+05 Pa, 300 K" in write_template(case).read_text()
+    put_state(case)
+    assert f"// rhoInf      {rho:.4g}: from " in write_template(case).read_text()
     assert read_settings(case).fluid.rho == pytest.approx(rho, rel=1e-3)
 
 
-def test_a_fluid_that_depends_on_temperature_gets_one(case):
-    (case / "constant/transportProperties").unlink()
-    (case / "constant/thermophysicalProperties").write_text(
-        "thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
-    )
-    assert re.search(r"TInf +300; +// K, temperature of the fluid", write_template(case).read_text())
-    assert read_settings(case).fluid.mu == pytest.approx(1.846e-5, rel=1e-3)
+@pytest.mark.parametrize(
+    ("dictionary", "missing"),
+    [
+        ("DT 0.01;", ["nu", "rhoInf"]),
+        ("mu 1e-3;", ["rhoInf"]),
+        ("thermoType { transport const; } mixture { transport { mu 1e-3; } }", ["rhoInf"]),
+        ("thermoType { mixture reactingMixture; transport sutherland; equationOfState perfectGas; }",
+         ["nu", "rhoInf"]),
+        ("thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }",
+         ["nu", "rhoInf"]),
+        ("thermoType { properties liquid; } mixture { H2O; }", ["nu", "rhoInf"]),
+        ("transportModel strainRateFunction; rho 1000;", ["nu"]),
+    ],
+)  # fmt: skip
+def test_what_the_case_lacks_is_not_invented(case, dictionary, missing):
+    """It is in a comment, and an error of a run that names the entry."""
+    (case / "constant/transportProperties").write_text(dictionary)
+    text = write_template(case).read_text()
+    unknown = re.findall(r"// (\w+) +unknown: constant/transportProperties has none that is read; set", text)
+    assert unknown == missing
+    with pytest.raises(InputError) as caught:
+        read_settings(case)
+    for name in missing:
+        assert ("rhoInf is missing" if name == "rhoInf" else "nu") in str(caught.value)
+    assert ("shearModulus" in text) == ("mu 1e-3" in dictionary)
+    for name, value in (("nu", 1e-6), ("rhoInf", 1000.0)):
+        if name in missing:
+            text = re.sub(rf"// {name} +unknown: .*", f"{name} {value};", text)
+    (case / "constant/softCloudProperties").write_text(text)
+    assert main(["run", "-dry-run", "-case", str(case)]) == 0
+
+
+def test_the_density_of_an_incompressible_solver_is_assumed_and_said(case, caplog, monkeypatch):
+    monkeypatch.setattr("foamprb.run.template.log.propagate", True)
+    caplog.set_level("INFO")
+    for nu, rho, like in ((1e-6, 1000, "water"), (1.5e-5, 1.2, "air")):
+        (case / "constant/transportProperties").write_text(f"transportModel Newtonian; nu {nu};")
+        text = write_template(case).read_text()
+        said = f"kg/m3, assumed: the case has no density; like {like}"
+        assert re.search(rf"rhoInf +{rho}; +// {said}", text)
+        assert f"rhoInf {rho}; // {said}" in caplog.text
+        (case / "constant/softCloudProperties").unlink()
 
 
 def test_the_viscosity_is_that_of_the_local_temperature(case):
     (case / "constant/transportProperties").unlink()
     (case / "constant/thermophysicalProperties").write_text(
-        "thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
+        "rho 1.2; thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
     )
-    time = max((each for each in case.iterdir() if each.name.isdigit()), key=lambda each: float(each.name))
-    (time / "T").write_text(
+    (latest(case) / "T").write_text(
         header("volScalarField", "T") + "dimensions [0 0 0 1 0 0 0]; internalField uniform 977; "
         'boundaryField { ".*" { type zeroGradient; } }'
     )
     mu = 1.458e-6 * np.sqrt(977.0) / (1.0 + 110.4 / 977.0)
-    comment = f"// mu          local, by sutherland at the local T; {mu:.4g} on average"
+    comment = f"// mu          local, by sutherland at the local T; {mu:.4g} Pa s on average"
     assert comment in write_template(case).read_text()
     fluid = read_settings(case).fluid
     assert (fluid.field.name, fluid.mu.mean) == ("T", pytest.approx(mu))
-
-
-def test_a_mixture_of_gases_is_like_air(case):
-    (case / "constant/transportProperties").unlink()
-    (case / "constant/thermophysicalProperties").write_text(
-        "thermoType { mixture reactingMixture; transport sutherland; equationOfState perfectGas; }"
-    )
-    text = write_template(case).read_text()
-    assert re.search(r"nu +1.5e-05; +// m2/s, kinematic viscosity; not constant: like air", text)
-    assert re.search("rhoInf +1.2; .*like air", text)
-
-
-@pytest.mark.parametrize(("mu", "kind"), [("1.8e-05", "1.2; .*like air"), ("0.001", "1000; .*like water")])
-def test_a_dynamic_viscosity_tells_a_gas_from_a_liquid(case, mu, kind):
-    (case / "constant/transportProperties").unlink()
-    (case / "constant/thermophysicalProperties").write_text(
-        f"thermoType {{ transport const; }} mixture {{ transport {{ mu {mu}; }} }}"
-    )
-    assert re.search(f"rhoInf +{kind}", write_template(case).read_text())
 
 
 def scales(**changed):
@@ -319,7 +399,7 @@ def test_round_numbers():
 
 def test_a_coupled_patch_that_particles_cannot_pass_is_left_to_the_user(tmp_path, capsys):
     """OpenFOAM writes cyclicAMI for the field on a cyclicPeriodicAMI patch."""
-    write_case(tmp_path, perturbation=0.0)
+    write_box(tmp_path)
     file = tmp_path / "constant/polyMesh/boundary"
     file.write_text(re.sub(r"(lid // a patch\s*\{ type )\w+", r"\1cyclicPeriodicAMI", file.read_text()))
     file = tmp_path / "1e1/U"
@@ -348,7 +428,7 @@ def test_patches_with_odd_names_and_many_walls_are_matched(case):
 
 @pytest.mark.parametrize(("second", "unit"), [("epsilon", "0 2 -3"), ("omega", "0 0 -1")])
 def test_a_mean_flow_is_offered_the_dispersion_by_its_eddies(tmp_path, second, unit):
-    write_case(tmp_path, perturbation=0.0)
+    write_box(tmp_path)
     put_scalar(tmp_path / "1e1", "k", "0 2 -2", 0.01)
     put_scalar(tmp_path / "1e1", second, unit, 3)
     file = write_template(tmp_path)
@@ -360,7 +440,7 @@ def test_a_mean_flow_is_offered_the_dispersion_by_its_eddies(tmp_path, second, u
 
 
 def test_a_laminar_flow_is_offered_no_eddies(tmp_path):
-    write_case(tmp_path, perturbation=0.0)
+    write_box(tmp_path)
     put_scalar(tmp_path / "1e1", "k", "0 2 -2", 0)
     put_scalar(tmp_path / "1e1", "epsilon", "0 2 -3", 0)
     assert "dispersion" not in write_template(tmp_path).read_text()
@@ -371,7 +451,7 @@ def test_a_laminar_flow_is_offered_no_eddies(tmp_path):
     [("3", "upper", "relative"), ("table ((0 1) (1 3))", "upper", "absolute"), ("3", "lower", "absolute")],
 )
 def test_rotating_zones_are_named(tmp_path, omega, zone, expected, capsys):
-    mesh = write_case(tmp_path, perturbation=0.0)
+    mesh = write_box(tmp_path)
     cells = np.flatnonzero(mesh.centres[:, 2] > 0.5)
     put_zones(tmp_path, upper=cells)
     (tmp_path / "constant/MRFProperties").write_text(
@@ -384,7 +464,7 @@ def test_rotating_zones_are_named(tmp_path, omega, zone, expected, capsys):
 
 
 def test_iterations_of_a_steady_solver_are_no_times(tmp_path):
-    write_case(tmp_path, perturbation=0.0)
+    write_box(tmp_path)
     assert "// transient" in write_template(tmp_path).read_text()
     (tmp_path / "constant/softCloudProperties").unlink()
     (tmp_path / "system").mkdir(exist_ok=True)

@@ -182,7 +182,7 @@ class Dispersion(Surrounding):
             return ()
         some = flow.at_some_nodes()
         mu = float(np.median(medium.mu))
-        nu = mu / medium.rho
+        nu = float(np.median(medium.mu / medium.rho))
         k, epsilon = np.maximum(some.turbulence[:, :2], 0.0).T
         worst, usual = flow.ends_at_nodes(_eddies)[2][1], np.median(epsilon)
         warnings = []

@@ -13,7 +13,7 @@ from foamprb.body.drag import oberbeck as drag
 from foamprb.body.lift import lift_force, lifted_slip, vorticity
 from foamprb.body.slip import balanced_slip
 from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, minus, plus, scale_vector, vector_dot
-from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, viscosity_at
+from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, local_fluid, viscosity_at
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import drag_rate
 from foamprb.cloud.integrators.base import Integrator
@@ -30,7 +30,7 @@ def slip_with_lift(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vecto
     steady, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     Q, R = load9(block, at.Q, i), block[at.R * LANES + i]
     w = balanced_slip(Q, drag_rate(block, i, mu, k), steady, f, inertia, Du_Dt, l_f)
-    return lifted_slip(w, Q, scale_vector(R, k), vorticity(l_f), R, medium.rho, mu)
+    return lifted_slip(w, Q, scale_vector(R, k), vorticity(l_f), R, local_fluid(block, i, medium).rho, mu)
 
 
 def acceleration_with_lift(
@@ -47,13 +47,13 @@ def acceleration_with_lift(
     K = scale_vector(mass / mu, rate)
     load = dot_vector(Q, minus(a, load3(block, at.DuDt, i)))
     w0 = vector_dot((load[0] / rate[0], load[1] / rate[1], load[2] / rate[2]), Q)
-    balanced = lifted_slip(w0, Q, K, omega, R, medium.rho, mu)
+    balanced = lifted_slip(w0, Q, K, omega, R, local_fluid(block, i, medium).rho, mu)
     y = block[at.dt * LANES + i] * (rate[0] + rate[1] + rate[2]) * (1.0 / 3.0)
     y = y * y
     share = y * y / (1.0 + y * y)
     w = minus(v, u)
     w = plus(w, scale_vector(share, minus(balanced, w)))
-    return plus(a, scale_vector(1.0 / mass, lift_force(w, omega, R, medium.rho, mu)))
+    return plus(a, scale_vector(1.0 / mass, lift_force(w, omega, R, local_fluid(block, i, medium).rho, mu)))
 
 
 @dataclass(frozen=True, kw_only=True)

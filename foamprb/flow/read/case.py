@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -39,12 +39,16 @@ def find_dictionary(case: Path, region: str, *names: str) -> Dictionary | None:
 
 
 def find_file(case: Path, region: str, *names: str) -> Path | None:
-    """Return the first of some files in ``constant`` or ``system`` of a region, else of the case, or None."""
+    """Return the first of :func:`find_files`, or None."""
+    return next(find_files(case, region, *names), None)
+
+
+def find_files(case: Path, region: str, *names: str) -> Iterator[Path]:
+    """Yield the existing ones of some files in ``constant`` or ``system`` of a region, then of the case."""
     for part in dict.fromkeys((region, "")):
         for path in (case / folder / part / name for name in names for folder in ("constant", "system")):
             if existing(path) is not None:
-                return path
-    return None
+                yield path
 
 
 def active_zones(root: Dictionary) -> list[Dictionary]:
@@ -216,7 +220,13 @@ def field_path(folder: Path, field: str, kind: Kind) -> Path:
     """Return the file of a field in a time directory; InputError if it is missing or of another class."""
     path = existing(folder / field)
     if path is None:
-        raise MissingFieldError(f"{folder}: no field {field}; the fields are {listed(fields_of(folder))}.")
+        regional = sorted(
+            each.parent.name for each in folder.glob(f"*/{field}*") if each.name in (field, f"{field}.gz")
+        )
+        hint = f" These regions have it: {', '.join(regional)}; choose one with -region." if regional else ""
+        raise MissingFieldError(
+            f"{folder}: no field {field}; the fields are {listed(fields_of(folder))}.{hint}"
+        )
     kind_of_file = header(path).get("class", "(none)")
     if kind_of_file != kind.name:
         raise InputError(f"{path}: the class is {kind_of_file}, but {kind.meaning} is a {kind.name}.")

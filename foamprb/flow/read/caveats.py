@@ -42,6 +42,7 @@ def caveats_of_case(
     moving: bool = True,
     turbulent: bool = False,
     relative: bool = False,
+    mixed: bool = False,
     comm: MeshCommunicator = SINGLE_NODE,
 ) -> list[Caveat]:
     """Return warnings from the dictionaries of a case, and from the fields beside the velocity.
@@ -58,12 +59,14 @@ def caveats_of_case(
         True if a model of the eddies acts, so that they need no warning.
     relative
         True if rotating zones are described in the frames of their rotors, so that they need no warning.
+    mixed
+        True if particles are in the local mixture of phases, so that these need no warning.
     comm
         The nodes that hold the mesh.
     """
     caveats = [*_rotating(case, region, relative), *_porous(case, region)]
     caveats += () if turbulent else _turbulent(folder)
-    caveats += [*_compressible(read, comm), *_phases(folder)]
+    caveats += () if mixed else (*_compressible(read, comm), *_phases(folder))
     return [*caveats, *([*_moving(case, region, folder), *_frozen(case, region)] if moving else ())]
 
 
@@ -216,7 +219,8 @@ def _phases(folder: Path) -> Iterator[Caveat]:
     if names:
         yield Caveat(
             f"the flow has several phases ({', '.join(names)}), but to particles the fluid is one, with "
-            "rhoInf and one viscosity everywhere: they cross interfaces as if there were none."
+            "rhoInf and one viscosity everywhere: they cross interfaces as if there were none. "
+            "solution/mixture true takes those of the local mixture of two phases."
         )
 
 

@@ -19,24 +19,48 @@ from foamprb.dictionary.dimensions import DYNAMIC_VISCOSITY, KINEMATIC_VISCOSITY
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.schema import read_entry
-from foamprb.dictionary.tree import Dictionary, DictionaryList, Stream
+from foamprb.dictionary.tree import CaseFile, Dictionary, DictionaryList, Stream
 from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
-from foamprb.flow.read.case import find_dictionary, find_file, word_of
+from foamprb.flow.read.case import find_dictionary, find_file, find_files, word_of
 from foamprb.flow.read.cell_values import cell_values, has_field, solution_times
 from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, Kind
 from foamprb.flow.read.times import pick_time
 
 _NU = Kind("volScalarField", "scalar", (KINEMATIC_VISCOSITY,), "a kinematic viscosity")
 _MU = Kind("volScalarField", "scalar", (DYNAMIC_VISCOSITY,), "a dynamic viscosity")
+FRACTION_FIELD = Kind("volScalarField", "scalar", ((0,) * 7,), "the volume fraction of a phase")
+_MEAN_KINDS = {"rho": DENSITY_FIELD, "p": PRESSURE_FIELD, "T": TEMPERATURE_FIELD}
 _GAS_CONSTANT = 8314.46
 """J/(kmol K)."""
 _MIXTURE_FILE = "thermophysicalProperties"
 _CONSTANT = ("Newtonian", "constant")
+_CONSTANT_TRANSPORT = ("const", "constTransport")
 _GENERALISED, _WITHOUT_K = "generalisedNewtonian", "generalizedNewtonian"
 """Models of ``laminar``; in one of them powerLaw has ν₀ in the place of k."""
 FILES = ("transportProperties", "physicalProperties", _MIXTURE_FILE)
-"""Dictionaries of the fluid, in ``constant`` or a region's part of it; the first that is there counts."""
+"""Dictionaries of the fluid, in ``constant`` or a region's part of it."""
+_VISCOSITIES: dict[str, tuple[Any, ...]] = {
+    "nu": (Viscosity,),
+    "mu": (DynamicViscosity,),
+    "nul": (Viscosity,),
+    "mul": (DynamicViscosity, Viscosity),
+}
+"""Entries of a Newtonian fluid, in the order in which they count, and what they may be.
+
+``mul`` of liquidFilmFoam is kinematic by its dimensions.
+"""
+_DENSITIES = ("rhoInf", "rho", "rhol")
+_FLUID = {
+    *_VISCOSITIES,
+    "transportModel",
+    "viscosityModel",
+    "NewtonianCoeffs",
+    "thermoType",
+    "mixture",
+    "phases",
+}
+"""Entries that make a dictionary that of a fluid."""
 
 
 Values = TypeVar("Values", float, NDArray[np.float64])
@@ -85,8 +109,19 @@ class CaseViscosity(NamedTuple):
 
 
 def fluid_file(case: Path, region: str) -> Path | None:
-    """Return the dictionary of the fluid, of the region or else of the case; None if there is none."""
-    return find_file(case, region, *FILES)
+    """Return the dictionary of the fluid, of the region or else of the case; None if there is none.
+
+    It is the first of :data:`FILES` with an entry about a fluid, or else the first one.
+    """
+    files = tuple(find_files(case, region, *FILES))
+    for file in files:
+        try:
+            entries = read_dictionary(file, case).entries
+        except InputError:
+            return file
+        if _FLUID & entries.keys():
+            return file
+    return files[0] if files else None
 
 
 def read_viscosity(
@@ -130,12 +165,12 @@ def read_viscosity(
     key = "viscosityModel" if generalised or "transportModel" not in root.entries else "transportModel"
     model = word_of(generalised or root, key, "constant")
     if model in _CONSTANT:
-        return CaseViscosity(_nu_of(root), None)
+        return _newtonian(root)
     field = here.viscosity(_NU, "nu", f"{_WITHOUT_K}:nu", f"{_GENERALISED}:nu")
     if field is not None:
         return CaseViscosity(None, None, field=field, origin=f"{model}, the field {field.name}")
     if generalised is not None:
-        law = _generalised_law(generalised, _nu_of(root))
+        law = _generalised_law(generalised, _newtonian(root).nu or math.nan)
         return CaseViscosity(None, None, law=law, origin=f"{model} of {generalised.source}")
     if model not in LAWS:
         allowed = ", ".join((*_CONSTANT, *LAWS))
@@ -171,14 +206,21 @@ def describe_viscosity(case: Path, region: str, fields: Collection[str]) -> list
     return [f"{viscosity.origin}: {numbers}", *written]
 
 
-def _nu_of(root: Dictionary) -> float:
-    """Return the kinematic viscosity of a Newtonian fluid."""
+def _newtonian(root: Dictionary) -> CaseViscosity:
+    """Return the viscosity of a Newtonian fluid."""
     coefficients = root.entries.get("NewtonianCoeffs", root).dictionary()
-    if "nu" not in coefficients.entries:
+    key = next((key for key in _VISCOSITIES if key in coefficients.entries), None)
+    if key is None:
+        phases = "; or solution { mixture true; }" if "phases" in root.entries else ""
         raise coefficients.missing(
-            "nu", f"Allowed: {Positive.text}, m2/s; or nu or mu in constantProperties of the cloud."
+            "nu", f"Allowed: {Positive.text}, m2/s; or nu or mu in constantProperties of the cloud{phases}."
         )
-    return float(read_entry(coefficients, "nu", Annotated[Viscosity, Positive]))
+    *others, kind = _VISCOSITIES[key]
+    for other in others:
+        with suppress(InputError):
+            return CaseViscosity(None, float(read_entry(coefficients, key, Annotated[other, Positive])))
+    value = float(read_entry(coefficients, key, Annotated[kind, Positive]))
+    return CaseViscosity(value, None) if kind is Viscosity else CaseViscosity(None, value)
 
 
 def _law_of(dictionary: Dictionary, model: str, given: Mapping[str, float]) -> RateLaw:
@@ -253,17 +295,20 @@ class _Fields(NamedTuple):
 def _of_mixture(root: Dictionary, temperature: float | None, here: _Fields | None = None) -> CaseViscosity:
     """Return the viscosity of a ``pureMixture``, constant or by Sutherland's law or a polynomial."""
     law = _transport(root)
-    transport = _at(root, "mixture/transport")
-    if law in ("const", "constTransport"):
-        return CaseViscosity(None, float(read_entry(transport, "mu", Annotated[DynamicViscosity, Positive])))
-    if law not in _LAWS:
+    if law not in (*_LAWS, *_CONSTANT_TRANSPORT) or "mixture" not in root.entries:
         field = here.viscosity(_MU, "mu", "thermo:mu") if here else None
         if field is not None:
-            return CaseViscosity(None, None, field=field, origin=f"{law}, the field {field.name}")
+            return CaseViscosity(
+                None, None, field=field, origin=f"{law or 'mixture'}, the field {field.name}"
+            )
+    if law not in (*_LAWS, *_CONSTANT_TRANSPORT):
         raise root.mistake(
-            f"thermoType: the viscosity of transport {law or '(none)'} is not read. Add nu, m2/s, or mu, "
-            "Pa s, to constantProperties of the cloud."
+            f"thermoType: {_not_read(root, law)} Write the field thermo:mu at the time of the flow; or add "
+            "nu, m2/s, or mu, Pa s, to constantProperties of the cloud."
         )
+    transport = _at(root, "mixture/transport")
+    if law in _CONSTANT_TRANSPORT:
+        return CaseViscosity(None, float(read_entry(transport, "mu", Annotated[DynamicViscosity, Positive])))
     by_temperature = _LAWS[law](transport)
     if temperature is None:
         field = here.viscosity(TEMPERATURE_FIELD, "T", law=by_temperature) if here else None
@@ -279,6 +324,15 @@ def _of_mixture(root: Dictionary, temperature: float | None, here: _Fields | Non
     return CaseViscosity(None, mu, temperature)
 
 
+def _not_read(root: Dictionary, law: str) -> str:
+    """Return why the viscosity of a mixture is unknown, as a sentence."""
+    kind, mixture = root.entries.get("thermoType"), root.entries.get("mixture")
+    if isinstance(kind, Dictionary) and word_of(kind, "properties") == "liquid":
+        names = ", ".join(mixture.entries) if isinstance(mixture, Dictionary) else "the liquid"
+        return f"the properties of {names} are in OpenFOAM's code, not in the case."
+    return f"the viscosity of transport {law or '(none)'} is not read."
+
+
 def _sutherland(transport: Dictionary) -> Callable[[Any], Any]:
     """Return μ(T) = A_s √T/(1 + T_s/T)."""
     As, Ts = (float(read_entry(transport, key, Annotated[float, Positive])) for key in ("As", "Ts"))
@@ -291,10 +345,15 @@ def _sutherlands_law(As: float, Ts: float, T: Any) -> Any:
 
 def _polynomial(transport: Dictionary) -> Callable[[Any], Any]:
     """Return μ(T) = Σ c_k T^k."""
-    entries = [entry for key, entry in transport.entries.items() if key.startswith("muCoeffs<")]
+    return partial(_sum_of_powers, _coefficients(transport, "muCoeffs<") or (math.nan,))
+
+
+def _coefficients(dictionary: Dictionary, start: str) -> tuple[float, ...]:
+    """Return the numbers of the first entry whose key begins so; none without such an entry."""
+    entries = [entry for key, entry in dictionary.entries.items() if key.startswith(start)]
     numbers = re.findall(r"[^\s()]+", entries[0].text) if entries and isinstance(entries[0], Stream) else []
     try:
-        return partial(_sum_of_powers, tuple(float(c) for c in numbers) or (math.nan,))
+        return tuple(float(c) for c in numbers)
     except ValueError:
         raise entries[0].mistake(f"is {entries[0]}. Allowed: a list of numbers.") from None
 
@@ -327,7 +386,10 @@ def _at(root: Dictionary, path: str) -> Dictionary:
 
 
 def read_density(file: Path, case: Path) -> float | None:
-    """Read the density, kg/m³: ``rhoInf`` or ``rho``, or that of ``rhoConst``; None if there is none.
+    """Read the density, kg/m³, if the dictionary of the fluid has a constant one; else return None.
+
+    It is ``rhoInf``, ``rho``, ``rhol``, or that of the ``continuousPhase``; or that of a mixture with
+    ``rhoConst`` or ``Boussinesq``.
 
     Raises
     ------
@@ -335,45 +397,86 @@ def read_density(file: Path, case: Path) -> float | None:
         The entry is not a density.
     """
     root = read_dictionary(file, case)
-    for key in ("rhoInf", "rho"):
+    for key in (*_DENSITIES, f"rho.{word_of(root, 'continuousPhase')}"):
         if key in root.entries:
             return float(read_entry(root, key, Annotated[Density, Positive]))
     try:
         state = _at(root, "mixture/equationOfState")
     except InputError:
         return None
-    return float(read_entry(state, "rho", Annotated[Density, Positive])) if "rho" in state.entries else None
+    kind = root.entries.get("thermoType")
+    boussinesq = isinstance(kind, Dictionary) and word_of(kind, "equationOfState") == "Boussinesq"
+    key = "rho0" if boussinesq else "rho"
+    return float(read_entry(state, key, Annotated[Density, Positive])) if key in state.entries else None
 
 
-def mean_density(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
-    """Return the mean of ``rho`` over the cells, kg/m³, and the time's name; None if there is no such field.
+def find_density(
+    case: Path, region: str, file: Path | None, time: float | str | None
+) -> tuple[float, str] | None:
+    """Return the density of the fluid, kg/m³, and its source; None if the case has none.
+
+    It is that of :func:`read_density`, else the mean of the field ``rho``, else by the equation of state.
+
+    Parameters
+    ----------
+    case, region, file
+        The case, a region of its mesh, and the dictionary of the fluid.
+    time
+        Time of the fields; None to read none.
+
+    Raises
+    ------
+    InputError
+        A file is broken, or there is no such time.
+    """
+    if file is not None and (density := read_density(file, case)) is not None:
+        return density, str(CaseFile(file, case))
+    if time is not None and (field := mean_field(case, region, time, "rho")) is not None:
+        return field[0], f"the field rho at time {field[1]}, its mean"
+    barotropic = find_dictionary(case, region, "thermodynamicProperties")
+    if barotropic is not None and "rho0" in barotropic.entries:
+        rho0 = float(read_entry(barotropic, "rho0", Annotated[Density, Positive]))
+        return rho0, f"{barotropic.source}, rho0"
+    if file is None or time is None:
+        return None
+    p, T = _state(case, region, time)
+    of_state = density_of_state(read_dictionary(file, case), p, T)
+    if of_state is None or not math.isfinite(of_state):
+        return None
+    return of_state, f"equationOfState of {CaseFile(file, case)} at the mean p and T, {p:.4g} Pa, {T:.4g} K"
+
+
+def _state(case: Path, region: str, time: float | str, *temperatures: str) -> tuple[float, float]:
+    """Return the means of p, Pa, and T, K, or of the first of other temperatures; NaN if unknown."""
+    means = [math.nan, math.nan]
+    for index, names in enumerate((("p",), (*temperatures, "T"))):
+        # That of an incompressible solver is kinematic.
+        with suppress(InputError):
+            means[index] = (mean_field(case, region, time, *names) or (math.nan,))[0]
+    return means[0], means[1]
+
+
+def mean_field(
+    case: Path, region: str, time: float | str, name: str, *others: str
+) -> tuple[float, str] | None:
+    """Return the mean of ``rho``, ``p`` or ``T`` over the cells, SI, and the time's name.
+
+    Returns None if there is no such field. Of several names, such as ``T.air`` and ``T``, the first counts.
 
     Raises
     ------
     InputError
         The field is broken, or there is no such time.
     """
-    return _mean(case, region, time, "rho", DENSITY_FIELD)
-
-
-def mean_temperature(
-    case: Path, region: str, time: float | str, field: str = "T"
-) -> tuple[float, str] | None:
-    """Return the mean of ``T`` over the cells, K, and the time's name; see :func:`mean_density`."""
-    return _mean(case, region, time, field, TEMPERATURE_FIELD)
-
-
-def mean_pressure(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
-    """Return the mean of ``p`` over the cells, Pa, and the time's name; see :func:`mean_density`."""
-    return _mean(case, region, time, "p", PRESSURE_FIELD)
-
-
-def is_gas(root: Dictionary) -> bool:
-    """Return whether ``thermoType`` is that of a gas."""
-    kind = root.entries.get("thermoType")
-    if not isinstance(kind, Dictionary):
-        return False
-    return word_of(kind, "equationOfState").endswith("Gas") or word_of(kind, "transport") == "sutherland"
+    times = solution_times(case, region)
+    if not times:
+        return None
+    at = times[pick_time(case, times, time)]
+    for field in (name, *others):
+        if has_field(case, region, at, field):
+            mean = float(cell_values(case, region, at, field, _MEAN_KINDS[field.split(".")[0]]).mean())
+            return (mean, at) if 0.0 < mean < math.inf else None
+    return None
 
 
 def density_of_state(root: Dictionary, p: Values, T: Values) -> Values | float | None:
@@ -401,20 +504,13 @@ def density_of_state(root: Dictionary, p: Values, T: Values) -> Values | float |
             return rho0 + p / (R * T)
         case "perfectGas" if W:
             return p * W / (_GAS_CONSTANT * T)
+        case "icoPolynomial" if rho := _coefficients(state, "rhoCoeffs<"):
+            return _sum_of_powers(rho, T)  # type: ignore[no-any-return]
+        case "rPolynomial" if len(c := _coefficients(state, "C")) == 5:
+            return 1.0 / (c[0] + c[1] * T + c[2] * T * T - (c[3] + c[4] * T) * p)
         case "incompressiblePerfectGas" if W and (reference := _number(state, "pRef")):
             return reference * W / (_GAS_CONSTANT * T)
     return None
-
-
-def _mean(case: Path, region: str, time: float | str, field: str, kind: Kind) -> tuple[float, str] | None:
-    names = solution_times(case, region)
-    if not names:
-        return None
-    name = names[pick_time(case, names, time)]
-    if not has_field(case, region, name, field):
-        return None
-    mean = float(cell_values(case, region, name, field, kind).mean())
-    return (mean, name) if 0.0 < mean < math.inf else None
 
 
 def apparent_viscosity(fluid: Dictionary, rate: float, T: float) -> tuple[str, float] | None:
@@ -478,22 +574,80 @@ def surface_tension(case: Path, region: str) -> float | None:
     return None
 
 
-def phase_values(phase: Dictionary, rate: float, p: float, T: float) -> tuple[float | None, float | None]:
-    """Return the viscosity of a phase, m²/s, and its density, kg/m³, if it has them.
+def phase_values(
+    case: Path, region: str, name: str, phase: Dictionary, rate: float, time: float | str
+) -> tuple[float | None, float | None]:
+    """Return the viscosity of a phase, m²/s, and its density, kg/m³; None if the case does not have one.
 
     Parameters
     ----------
-    phase
-        Its dictionary.
-    rate, p, T
-        Shear rate, 1/s, pressure, Pa, and temperature, K.
+    case, region, time
+        The case, a region of its mesh, and the time of p and T, whose means are used.
+    name, phase
+        The phase, and its dictionary.
+    rate
+        Shear rate, 1/s; NaN for a constant viscosity only.
     """
-    if "mixture" in phase.entries:
-        rho = density_of_state(phase, p, T)
+    p, T = _state(case, region, time, f"T.{name}")
+    if "thermoType" not in phase.entries:
+        law = apparent_viscosity(phase, rate, T)
+        return (law[1] if law else _number(phase, "nu")), _number(phase, "rho")
+    rho = density_of_state(phase, p, T)
+    if rho is None or not math.isfinite(rho):
+        return None, None
+    try:
         mu = _of_mixture(phase, T).mu
-        return (mu / rho if mu and rho else None), rho
-    found = apparent_viscosity(phase, rate, T)
-    return (found[1] if found else _number(phase, "nu")), _number(phase, "rho")
+    except InputError:
+        mu = None
+    return (mu / rho if mu else None), rho
+
+
+class Mixture(NamedTuple):
+    """Two phases, and the field of the volume fraction of the first."""
+
+    names: tuple[str, str]
+    nu: tuple[float, float]
+    """m²/s."""
+    rho: tuple[float, float]
+    """kg/m³."""
+    field: ViscosityField
+
+
+def read_mixture(case: Path, region: str, time: float | str | None, transient: bool = False) -> Mixture:
+    """Read the phases of a case with two.
+
+    Parameters
+    ----------
+    case, region, time, transient
+        See :func:`read_viscosity`.
+
+    Raises
+    ------
+    InputError
+        The case has other phases than two; or the viscosity or density of one is not constant; or the field
+        of the fraction is missing at a time.
+    """
+    phases = phases_of(case, region)
+    if len(phases) != 2:
+        listed = ", ".join(phases) or "none"
+        raise InputError(f"{case}: solution/mixture needs a case with two phases; the phases are: {listed}.")
+    values = {}
+    for name, phase in phases.items():
+        nu, rho = phase_values(case, region, name, phase, math.nan, "latestTime" if time is None else time)
+        if nu is None or rho is None:
+            what = "nu" if nu is None else "rho"
+            raise phase.missing(
+                what,
+                f"solution/mixture needs a constant nu and rho of each phase; {name} has none that is read.",
+            )
+        values[name] = nu, rho
+    for names in (tuple(values), tuple(reversed(values))):
+        field = _Fields(case, region, time, transient).viscosity(FRACTION_FIELD, f"alpha.{names[0]}")
+        if field is not None:
+            (nu, rho), (other_nu, other_rho) = (values[name] for name in names)
+            return Mixture((names[0], names[1]), (nu, other_nu), (rho, other_rho), field)
+    fields = " or ".join(f"alpha.{name}" for name in values)
+    raise InputError(f"{case}: solution/mixture needs the field {fields} at each time of the flow.")
 
 
 def _number(dictionary: Dictionary, key: str) -> float | None:

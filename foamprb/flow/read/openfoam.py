@@ -44,6 +44,7 @@ from foamprb.flow.read.checks import (
 )
 from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, Kind, read_field
+from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
@@ -258,7 +259,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     notes = [*case.notes, *whole.notes]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
-    notes += _caveats(case, name, turbulent=source.turbulent, relative=bool(rotations))
+    notes += _caveats(case, name, source, relative=bool(rotations))
     notes += flux
     del conserve
     trim()
@@ -311,7 +312,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
 
     notes = [*notes, *case.notes, *whole.notes]
-    notes += _caveats(case, names[-1], moving=False, turbulent=source.turbulent)
+    notes += _caveats(case, names[-1], source, moving=False)
     zones = partial(case.zones, names[0])
     notes += flux
     return series_of(
@@ -371,8 +372,10 @@ def _at_nodes(
     return arrays
 
 
-def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:
+def _caveats(case: Case, time: str, source: FlowSource, **options: bool) -> list[Caveat]:
     read = partial(case.field, time)
+    mixed = source.viscosity is not None and source.viscosity.kind == FRACTION_FIELD
+    options |= {"turbulent": source.turbulent, "mixed": mixed}
     return caveats_of_case(case.root, case.region, case.folder(time), read, comm=case.comm, **options)
 
 

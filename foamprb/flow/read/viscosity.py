@@ -10,8 +10,8 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.field import FoamField, Kind
-from foamprb.flow.read.fluid import ViscosityField
-from foamprb.flow.read.turbulence import values_of
+from foamprb.flow.read.fluid import FRACTION_FIELD, ViscosityField
+from foamprb.flow.read.turbulence import given_values, values_of
 from foamprb.flow.reconstruct import Reconstruction
 
 __all__ = ["read_viscosity_field"]
@@ -36,7 +36,8 @@ def read_viscosity_field(
 
     Returns
     -------
-    (n_nodes, 4): the viscosity, m²/s if the field is kinematic, else Pa s, and its gradient.
+    (n_nodes, 4): the viscosity, m²/s if the field is kinematic, else Pa s, and its gradient. Of a volume
+    fraction, itself.
 
     Raises
     ------
@@ -44,6 +45,9 @@ def read_viscosity_field(
         The field is missing, broken, has other dimensions, or the viscosity is not positive somewhere.
     """
     field = read(source.name, source.kind)
+    if source.kind == FRACTION_FIELD:
+        # Solvers leave the range by round-off and more.
+        return reconstruct.scalar(*(values[:, 0].clip(0.0, 1.0) for values in given_values(field, whole)))
     cells, boundary = values_of(field, whole)
     if source.law is not None:
         cells, boundary = source.law(cells), source.law(boundary)

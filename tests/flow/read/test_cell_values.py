@@ -12,7 +12,7 @@ from foam_writer import GRADIENT, decompose, header, write_case
 from foamprb.errors import InputError
 from foamprb.flow.read.cell_values import cell_values, has_field, solution_times
 from foamprb.flow.read.field import DENSITY_FIELD, VELOCITY_FIELD
-from foamprb.flow.read.fluid import mean_density
+from foamprb.flow.read.fluid import mean_field
 
 
 @pytest.fixture
@@ -55,10 +55,10 @@ def test_a_part_whose_values_are_alike_counts_with_all_its_cells(parts, addresse
             (folder / "cellProcAddressing").unlink()
     write_density(case, (1.0, np.full(counts[1], 3.0), 5.0))
     mean = np.dot(counts, [1.0, 3.0, 5.0]) / len(centres)
-    assert mean_density(case, "", "latestTime") == (pytest.approx(mean, rel=1e-14), "2")
+    assert mean_field(case, "", "latestTime", "rho") == (pytest.approx(mean, rel=1e-14), "2")
     write_density(case, (1.0, np.full(counts[1] - 1, 3.0), 5.0))
     with pytest.raises(InputError, match=rf"{counts[1] - 1} cells, but the mesh there has {counts[1]}"):
-        mean_density(case, "", "latestTime")
+        mean_field(case, "", "latestTime", "rho")
     assert not has_field(case, "", "0", "rho")
     with pytest.raises(InputError, match="rho: no such file"):
         cell_values(case, "", "0", "rho", DENSITY_FIELD)

@@ -6,15 +6,16 @@ import re
 
 import numpy as np
 import pytest
-from foam_writer import header
+from foam_writer import header, put_scalar
 from transient_case import SETTINGS
 
 from foamprb.body.viscosity import bird_carreau
 from foamprb.errors import InputError
 from foamprb.flow.read.fluid import (
     describe_viscosity,
+    find_density,
     fluid_file,
-    mean_density,
+    mean_field,
     read_density,
     read_viscosity,
 )
@@ -71,7 +72,7 @@ def test_a_polynomial_of_the_temperature(tmp_path):
         ),
         (
             AIR % ("WLF", "rhoConst", "", ""),
-            r"the viscosity of transport WLF is not read. Add nu, m2/s, or mu",
+            r"the viscosity of transport WLF is not read. .*or add nu, m2/s, or mu",
         ),
         (AIR % ("const", "rhoConst", "", "Pr 1;"), r"mixture/transport/mu is missing"),
         (AIR % ("const", "rhoConst", "", "mu -1;"), r"mixture/transport/mu is '-1'"),
@@ -100,6 +101,115 @@ def test_densities(tmp_path):
     assert density("rho [1 -3 0 0 0 0 0] 998;") == 998.0
 
 
+LIQUID = "thermoType { mixture pureMixture; properties liquid; } mixture { H2O; }"
+PLACES = [
+    ("transportProperties", "nu nu [0 2 -1 0 0 0 0] 1e-6; rho 998;", (1e-6, None), 998.0),
+    ("transportProperties", "NewtonianCoeffs { nu 2e-6; } rhoInf 900;", (2e-6, None), 900.0),
+    ("transportProperties", "mu 0.001; rho 800;", (None, 1e-3), 800.0),
+    ("transportProperties", "mu [1 -1 -1 0 0 0 0] 3e-3;", (None, 3e-3), 1000.0),
+    ("transportProperties", "rho 1; nu 1; mu 1; sigma 1;", (1.0, None), 1.0),
+    ("transportProperties", "mug 0; mul [0 2 -1 0 0 0 0] 1e-3; rhog 1; rhol 100;", (1e-3, None), 100.0),
+    ("transportProperties", "mul 2e-3; rhol 850;", (None, 2e-3), 850.0),
+    ("transportProperties", "nul 4e-6; rhol 850;", (4e-6, None), 850.0),
+    ("transportProperties", "continuousPhase air; rho.air 1.2; nu 1.5e-5;", (1.5e-5, None), 1.2),
+    ("physicalProperties", "viscosityModel constant; nu 1e-05 [m^2/s]; rho 1.2;", (1e-5, None), 1.2),
+    ("thermophysicalProperties", AIR % ("const", "rhoConst", "rho 1.2;", "mu 2e-5;"), (None, 2e-5), 1.2),
+    ("thermophysicalProperties", AIR % ("const", "Boussinesq", "rho0 1.1;", "mu 2e-5;"), (None, 2e-5), 1.1),
+    (
+        "thermophysicalProperties",
+        AIR % ("const", "perfectGas", "", "mu 2e-5;"),
+        (None, 2e-5),
+        2e5 * 28.9 / (8314.46 * 400.0),
+    ),
+    (
+        "thermophysicalProperties",
+        AIR % ("const", "perfectFluid", "R 3000; rho0 1027;", "mu 2e-5;"),
+        (None, 2e-5),
+        1027.0 + 2e5 / (3000.0 * 400.0),
+    ),
+    (
+        "thermophysicalProperties",
+        AIR % ("const", "icoPolynomial", "rhoCoeffs<8> (1000 -0.5 0 0 0 0 0 0);", "mu 2e-5;"),
+        (None, 2e-5),
+        800.0,
+    ),
+    (
+        "thermophysicalProperties",
+        AIR % ("const", "rPolynomial", "C (1e-3 1e-6 1e-9 1e-12 1e-15);", "mu 2e-5;"),
+        (None, 2e-5),
+        1.0 / (1e-3 + 4e-4 + 1.6e-4 - 2e-7 - 8e-8),
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "viscosities", "rho"), PLACES)
+def test_the_places_where_openfoam_keeps_a_fluid(name, text, viscosities, rho, tmp_path):
+    """Of a compressible fluid at the means of p and T; of sonicLiquidFoam in thermodynamicProperties."""
+    file = write(tmp_path, f"constant/{name}", text)
+    write(tmp_path, "constant/thermodynamicProperties", "rho0 1000; p0 1e5; psi 4.54e-07;")
+    if "thermoType" in text:
+        (tmp_path / "constant/thermodynamicProperties").unlink()
+    (tmp_path / "2").mkdir()
+    put_scalar(tmp_path / "2", "p", "1 -1 -2", 2e5)
+    put_scalar(tmp_path / "2", "T", "0 0 0", 400.0)
+    (tmp_path / "2/T").write_text((tmp_path / "2/T").read_text().replace("0 0 0 0 0 0 0", "0 0 0 1 0 0 0"))
+    assert fluid_file(tmp_path, "") == file
+    assert read_viscosity(file, tmp_path, time="latestTime")[:2] == viscosities
+    assert find_density(tmp_path, "", file, "latestTime")[0] == pytest.approx(rho, rel=1e-12)
+
+
+def test_a_liquid_of_openfoams_code_is_unknown(tmp_path):
+    file = write(tmp_path, "constant/thermophysicalProperties", LIQUID)
+    with pytest.raises(
+        InputError, match=r"the properties of H2O are in OpenFOAM's code, not in the case\. Wri"
+    ):
+        read_viscosity(file, tmp_path, time="latestTime")
+    assert find_density(tmp_path, "", file, "latestTime") is None
+    (tmp_path / "2").mkdir()
+    put_scalar(tmp_path / "2", "thermo:mu", "1 -1 -1", 9e-4)
+    put_scalar(tmp_path / "2", "rho", "1 -3 0", 997.0)
+    assert read_viscosity(file, tmp_path, time="latestTime").field.mean == 9e-4
+    assert find_density(tmp_path, "", file, "latestTime")[0] == 997.0
+
+
+def test_a_dictionary_without_a_fluid_gives_way(tmp_path):
+    """Such as the transportProperties of a reacting flow, with values of species only."""
+    write(tmp_path, "constant/transportProperties", '".*" { transport { As 1.67212e-6; Ts 170.672; } }')
+    file = write(tmp_path, "constant/thermophysicalProperties", SUTHERLAND)
+    assert fluid_file(tmp_path, "") == file
+
+
+TWO = "phases (water air); water { nu 1e-06; rho 1000; } air { transportModel Newtonian; nu 1.5e-05; rho 1; }"
+
+
+def put_fraction(time, name, value):
+    time.mkdir(exist_ok=True)
+    put_scalar(time, name, "0 0 0", value)
+
+
+def test_a_mixture_of_two_phases(case):
+    """At α = 0.3 of water: ρ = 300.7 kg/m³ and μ = 0.3·1e-3 + 0.7·1.5e-5 Pa s."""
+    write(case, "constant/transportProperties", TWO)
+    change(case, "solution {", "solution { mixture true;")
+    with pytest.raises(InputError, match=r"constantProperties/rhoInf has no effect with solution/mixture"):
+        read_settings(case)
+    change(case, "rhoInf 1000;", "")
+    with pytest.raises(InputError, match=r"needs the field alpha\.water or alpha\.air at each time"):
+        read_settings(case)
+    put_fraction(case / "2", "alpha.air", 0.7)
+    fluid = read_settings(case).fluid
+    assert fluid.rho == pytest.approx(300.7)
+    assert fluid.mu.mean == pytest.approx(3.105e-4)
+    put_fraction(case / "2", "alpha.water", 0.2)
+    assert read_settings(case).fluid.rho == pytest.approx(200.8)
+    write(case, "constant/transportProperties", TWO.replace("nu 1.5e-05", "mu 1"))
+    with pytest.raises(InputError, match=r"air/nu is missing\. solution/mixture needs a constant nu"):
+        read_settings(case)
+    write(case, "constant/transportProperties", "nu 1;")
+    with pytest.raises(InputError, match=r"needs a case with two phases; the phases are: none"):
+        read_settings(case)
+
+
 def test_the_dictionary_of_the_region_and_of_the_solver_counts_first(tmp_path):
     assert fluid_file(tmp_path, "air") is None
     for name in (
@@ -119,11 +229,11 @@ RHO = header("volScalarField", "rho") + (
 
 
 def test_the_mean_of_the_field_is_the_density_of_last_resort(tmp_path):
-    assert mean_density(tmp_path, "", "latestTime") is None
+    assert mean_field(tmp_path, "", "latestTime", "rho") is None
     write(tmp_path, "1/rho", RHO)
     write(tmp_path, "2/rho", RHO.replace("1.1 1.2", "1.5 1.6"))
-    assert mean_density(tmp_path, "", "latestTime") == (pytest.approx(1.45), "2")
-    assert mean_density(tmp_path, "", 1) == (pytest.approx(1.25), "1")
+    assert mean_field(tmp_path, "", "latestTime", "rho") == (pytest.approx(1.45), "2")
+    assert mean_field(tmp_path, "", 1, "rho") == (pytest.approx(1.25), "1")
 
 
 @pytest.fixture
@@ -197,10 +307,10 @@ def test_a_polynomial_must_give_a_viscosity(coefficients, message, tmp_path):
 
 def test_a_mean_that_is_no_density_is_none(tmp_path):
     write(tmp_path, "1/rho", RHO.replace("1.1 1.2 1.3 1.4", "0 0 0 0"))
-    assert mean_density(tmp_path, "", 1) is None
-    assert mean_density(tmp_path / "nothing", "", 1) is None
+    assert mean_field(tmp_path, "", 1, "rho") is None
+    assert mean_field(tmp_path / "nothing", "", 1, "rho") is None
     (tmp_path / "2").mkdir()
-    assert mean_density(tmp_path, "", 2) is None
+    assert mean_field(tmp_path, "", 2, "rho") is None
 
 
 @pytest.mark.parametrize(
