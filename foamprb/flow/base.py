@@ -74,7 +74,7 @@ NO_PLANES = Planes(math.inf, (0.0, 0.0, 0.0), math.inf, (0.0, 0.0, 0.0), math.in
 """Value where no wall is near."""
 
 
-FAULTS = ("movingMesh", "pseudoTime")
+FAULTS = ("movingMesh", "pseudoTime", "unbalanced")
 """Faults of a flow by which fates are worthless: errors, unless ``solution/accept`` names them."""
 
 

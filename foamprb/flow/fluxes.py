@@ -106,6 +106,10 @@ def _of_kind(mesh: Mesh, kind: PatchKind) -> Mask:
     return np.repeat(of_patches, np.diff(mesh.patch_start))
 
 
+class UnbalancedFlowError(InputError):
+    """No fluxes that keep mass are found, or they are not those of the flow."""
+
+
 class Conservation:
     """Operator from u and ∇u at the nodes of a mesh to the correction that keeps volume.
 
@@ -121,7 +125,7 @@ class Conservation:
     """
 
     def __init__(self, mesh: Mesh, valued: Mask | None = None, comm: MeshCommunicator = SINGLE_NODE) -> None:
-        self._comm = comm
+        self._comm, self.n_tets = comm, len(mesh.tets)
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
         self._closed, walls = _of_kind(mesh, PatchKind.MIRROR), _of_kind(mesh, PatchKind.WALL)
         # The flux through an open face may change.
@@ -150,8 +154,8 @@ class Conservation:
 
         Raises
         ------
-        InputError
-            If no fluxes are found that keep mass, or if they are not those of the flow.
+        UnbalancedFlowError
+            If no fluxes are found that keep mass, or if they are not those of the flow; on all nodes.
         """
         mesh = self._mesh
         at, sides = NodalFlow(self._nodes, u, l, self._free), sides_of(mesh)
@@ -172,12 +176,13 @@ class Conservation:
             balance = Balance(mesh, self._pairs, measures, fluxes, *openings, self._comm)
             left, change, iterations = balance(crossing, mass)
             if not (left <= 10.0 * BALANCED and change <= _LARGEST_CHANGE):
-                raise InputError(
-                    f"{where}: no fluxes were found that conserve the fluid in each cell. After {iterations} "
-                    f"iterations the correction of the velocity is {change:.2g} times the flow, and cells "
-                    f"make or lose {left:.2g} times the flow through their faces (root mean squares; "
-                    f"allowed: {_LARGEST_CHANGE:g} and {10.0 * BALANCED:g}). Possible causes: a velocity "
-                    "that is no solution of the flow equations, or cells without volume (see checkMesh)."
+                raise UnbalancedFlowError(
+                    f"the fluxes of {where} cannot be balanced: after {iterations} iterations the "
+                    f"correction of the velocity is {change:.2g} times the flow, and cells make or lose "
+                    f"{left:.2g} times the flow through their faces (root mean squares; allowed: "
+                    f"{_LARGEST_CHANGE:g} and {10.0 * BALANCED:g}). Without the correction followers gather, "
+                    "and stick at walls. Possible causes: a velocity that is no solution of the flow "
+                    "equations, or cells without volume (see checkMesh)."
                 )
         correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
         most = int(np.diff(mesh.cell_start).max(initial=0))

@@ -181,7 +181,7 @@ def prepare(
     source = replace(source, turbulent=turbulent, relative=relative, viscosity=settings.fluid.field)
     readers: list[Any] = [*settings.functions.values(), *settings.forces.values()]
     needed = dict.fromkeys(name for reader in readers for name in reader.needed_fields)
-    source = replace(source, sampled=tuple(needed))
+    source = replace(source, sampled=tuple(needed), accept=settings.solution.accept)
     rotating = bool(rotations_of(case, source))
     compilation = Compilation()
     # A loop whose forces read fields depends on the kinds of these.

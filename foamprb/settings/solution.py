@@ -157,7 +157,8 @@ class Solution:
         Meaning(
             "`( name … )`, faults of the flow with which the run goes on, where it would end with an error: "
             "`movingMesh`, a mesh that moves is read at one time; `pseudoTime`, iterations are taken for "
-            "times",
+            "times; `unbalanced`, the velocity is not corrected to [keep volume](flow.md#volume) where this "
+            "is impossible",
             default="none",
         ),
     ] = ()

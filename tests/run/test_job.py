@@ -17,6 +17,7 @@ from foamprb.cloud.measures import MEASURES, OPTIONAL
 from foamprb.cloud.tracker import Tracker
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError
+from foamprb.flow import fluxes
 from foamprb.results.pvd import read_pvd
 from foamprb.run.job import likely_integrator, prepare
 from foamprb.run.template import write_template
@@ -192,6 +193,17 @@ def test_a_mesh_that_moves_is_an_error_unless_accepted(case):
     assert (
         "// accept ( movingMesh ); // to go on, although the mesh moves" in write_template(case).read_text()
     )
+
+
+def test_fluxes_that_cannot_be_balanced_are_an_error_unless_accepted(case, monkeypatch):
+    monkeypatch.setattr(fluxes, "_LARGEST_CHANGE", -1.0)
+    with pytest.raises(InputError, match=r"cannot be balanced.*accept \( unbalanced \)"):
+        prepare(case)
+    job = prepare(case, overrides={"solution/accept": ["unbalanced"]})
+    assert len(job.cloud.flow.arrays().correction) == 0
+    assert any("cannot be balanced" in line for line in job.description["warnings"])
+    (case / "constant/softCloudProperties").unlink()
+    assert "// accept ( unbalanced ); // to go on, although the fl" in write_template(case).read_text()
 
 
 def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):

@@ -6,6 +6,7 @@ import gzip
 import json
 import re
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,8 +21,10 @@ from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.flow import balance, fluxes
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.flows import read_transient_flow
 from foamprb.flow.read.meshfile import read_mesh_series
 from foamprb.flow.read.openfoam import read_case, read_series
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.series import SeriesFlow
 from foamprb.results.pvd import read_pvd
 from foamprb.run.job import prepare
@@ -48,7 +51,7 @@ def test_the_first_time_without_balanced_fluxes_is_named(kind, first, case, tmp_
     monkeypatch.setattr(balance, "MOST_ITERATIONS", 0)
     for module in (balance, fluxes):
         monkeypatch.setattr(module, "BALANCED", 0.0)
-    flow = read_series(case)
+    flow, source = read_series(case), FlowSource(accept=("unbalanced",))
     if kind == "file":
         mesh = pyvista.ImageData(dimensions=(3, 3, 3)).cast_to_unstructured_grid()
         for k, time in enumerate((0.0, 0.5, 1.0)):
@@ -56,9 +59,13 @@ def test_the_first_time_without_balanced_fluxes_is_named(kind, first, case, tmp_
             mesh.save(tmp_path / f"{k}.vtu")
         files = [{"name": f"{k}.vtu", "time": 0.5 * k} for k in range(3)]
         (tmp_path / "all.vtu.series").write_text(json.dumps({"files": files}))
-        flow = read_mesh_series(tmp_path / "all.vtu.series")
-    with pytest.raises(InputError, match=rf"{first}(/U)?: no fluxes were found"):
+        source = replace(source, file=tmp_path / "all.vtu.series")
+        flow = read_mesh_series(source.file)
+    with pytest.raises(InputError, match=rf"{first}(/U)? cannot be balanced.*accept \( unbalanced"):
         flow.load(0.0, flow.times[-1])
+    accepted = read_transient_flow(case, None, None, source)
+    accepted.load(0.0, 1.0)
+    assert not accepted.loaded().correction[: 2 * len(accepted.mesh.tets)].any()
 
 
 def test_the_time_of_the_run_is_that_of_the_flow(case):

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.dictionary.dimensions import MASS_FLUX
 from foamprb.dictionary.files import existing, read_bytes
@@ -14,11 +17,14 @@ from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.fluxes import Conservation, UnbalancedFlowError
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
 from foamprb.flow.read.field import FoamField, Kind
+
+log = logging.getLogger("foamprb")
 
 _PSEUDO = ("steadyState", "localEuler", "CoEuler", "SLTS")
 """Schemes of ``ddtSchemes`` by which a time is an iteration, with a step of its own in each cell or none."""
@@ -31,6 +37,32 @@ LEAST_LOSS = 1e-3
 """Fraction of the flux by which inflow and outflow must differ for a warning."""
 ROUND_OFF = 1e-9
 """Fraction of the largest velocity times the area of the boundary by which they must differ, too."""
+
+
+def corrected(conserve: Conservation, *values: Any, notes: list[Any]) -> NDArray[np.float32] | None:
+    """Return the correction of a steady flow; None, and a caveat in ``notes``, if there is none."""
+    try:
+        return conserve(*values)
+    except UnbalancedFlowError as error:
+        notes.append(Caveat(str(error), "unbalanced"))
+        return None
+
+
+def corrected_in_time(conserve: Conservation, *values: Any, accept: Sequence[str]) -> NDArray[np.float32]:
+    """Return the correction at a time of a transient flow; zeros if there is none, and this is accepted.
+
+    Raises
+    ------
+    InputError
+        If there is none, and this is not accepted.
+    """
+    try:
+        return conserve(*values)
+    except UnbalancedFlowError as error:
+        if "unbalanced" not in accept:
+            raise InputError(f"{error} Allowed: to go on, solution/accept ( unbalanced ).") from None
+        log.warning("%s", error)
+        return np.zeros((conserve.n_tets, 4), dtype=np.float32)
 
 
 def caveats_of_case(

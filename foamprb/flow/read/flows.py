@@ -110,7 +110,9 @@ def read_transient_flow(case: Path, times: str | None, period: float | None, sou
         from foamprb.flow.read.meshfile import read_mesh_series
 
         _refuse_of_case(source)
-        return read_mesh_series(source.file, times, period, source.velocity, **source.of_file)
+        return read_mesh_series(
+            source.file, times, period, source.velocity, **source.of_file, accept=source.accept
+        )
     return transient_flow(open_case(case, source), times, period, source)
 
 

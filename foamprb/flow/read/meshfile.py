@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError, suggestion
+from foamprb.flow.balance import CONSTANT
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface
@@ -25,6 +26,7 @@ from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.patches import VALUELESS
+from foamprb.flow.read.caveats import corrected, corrected_in_time
 from foamprb.flow.read.checks import require_numbers, require_volumes
 from foamprb.flow.read.division import (
     boundary_velocity,
@@ -88,8 +90,10 @@ def read_mesh_file(
     path = Path(path)
     file = open_file(path, velocity, time, division, scale)
     field = _NodalVelocity(path, file, velocity, gradient, scale)
-    u, l, correction = field(file.grid, file.surfaces, path)
-    return MeshFlow(file.mesh, u, l, [*file.notes, *field.notes], correction=correction)
+    u, l = field(file.grid, file.surfaces)
+    notes: list[str] = [*file.notes, *field.notes]
+    correction = corrected(field.conserve, u, l, CONSTANT, path, notes=notes)
+    return MeshFlow(file.mesh, u, l, notes, correction=correction)
 
 
 def read_mesh_series(
@@ -101,6 +105,7 @@ def read_mesh_series(
     gradient: str = "",
     division: Division | None = None,
     scale: float = 1.0,
+    accept: Sequence[str] = (),
 ) -> MeshFlow:
     """Prepare the flow of a file at several times, which are read when needed; one time gives a steady flow.
 
@@ -114,6 +119,8 @@ def read_mesh_series(
         Duration after which the flow repeats itself, s.
     velocity, gradient, division, scale
         See :func:`read_mesh_file`.
+    accept
+        See :class:`~foamprb.flow.read.source.FlowSource`.
 
     Raises
     ------
@@ -138,7 +145,9 @@ def read_mesh_series(
                 f"{path}: the mesh of time {name} is not that of time {names[0]}; only meshes at rest can be "
                 "read."
             )
-        return field(now.grid, now.surfaces, f"{path}, time {name}")
+        u, l = field(now.grid, now.surfaces)
+        where = f"{path}, time {name}"
+        return u, l, corrected_in_time(field.conserve, u, l, CONSTANT, where, accept=accept)
 
     notes = [*file.notes, *field.notes]
     return series_of(path, file.mesh, list(names), read, period, notes, conservative=True)
@@ -190,14 +199,10 @@ class _NodalVelocity:
             self.notes = ["Velocities are point values; their gradient is first-order accurate."]
         else:
             raise InputError(f"{path}: {_other_names(grid, velocity)}")
-        self._conserve = Conservation(mesh, faces)
+        self.conserve = Conservation(mesh, faces)
 
-    def __call__(
-        self, grid: Any, surfaces: Sequence[tuple[str, Any]], where: object
-    ) -> tuple[Floats, Floats, NDArray[np.float32]]:
-        """Return velocity and gradient at the nodes and the correction, from the data read at any time.
-
-        ``where`` names them in a message.
+    def __call__(self, grid: Any, surfaces: Sequence[tuple[str, Any]]) -> tuple[Floats, Floats]:
+        """Return velocity and gradient at the nodes, from the data read at any time.
 
         Raises
         ------
@@ -206,8 +211,7 @@ class _NodalVelocity:
         """
         name, path, mesh = self._velocity, self._path, self._mesh
         if self._reconstruct is None:
-            u, l = from_points(mesh, _array(grid.point_data, name, 3, path, "at point"))
-            return u, l, self._conserve(u, l, where=where)
+            return from_points(mesh, _array(grid.point_data, name, 3, path, "at point"))
         cells = _array(grid.cell_data, name, 3, path, "at cell")
         boundary = np.zeros((len(mesh.boundary_centres), 3))
         for index in self._valued:
@@ -218,8 +222,7 @@ class _NodalVelocity:
         if self._gradient:
             given = _array(grid.cell_data, self._gradient, 9, path, "at cell")
             slopes = given.reshape(-1, 3, 3).transpose(0, 2, 1) / self._scale
-        u, l = self._reconstruct(cells, boundary, slopes)
-        return u, l, self._conserve(u, l, where=where)
+        return self._reconstruct(cells, boundary, slopes)
 
 
 def _other_names(grid: Any, velocity: str) -> str:

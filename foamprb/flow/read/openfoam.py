@@ -34,7 +34,14 @@ from foamprb.flow.read.case import (
     select_time,
     select_times,
 )
-from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case, pseudo_time, refuse_absolute
+from foamprb.flow.read.caveats import (
+    caveat_of_flux,
+    caveats_of_case,
+    corrected,
+    corrected_in_time,
+    pseudo_time,
+    refuse_absolute,
+)
 from foamprb.flow.read.checks import (
     at_cells,
     notes_of_types,
@@ -255,8 +262,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     trim()
     conserve = Conservation(whole.mesh, comm=case.comm)
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, case.comm)
-    correction = conserve(u, l, mass, case.folder(name) / source.velocity)
-    notes = [*case.notes, *whole.notes]
+    notes: list[Any] = [*case.notes, *whole.notes]
+    correction = corrected(conserve, u, l, mass, case.folder(name) / source.velocity, notes=notes)
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     notes += _caveats(case, name, source, relative=bool(rotations))
@@ -308,7 +315,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
         mass = mass_of(case.root, case.region, whole, names, reads, names.index(name), case.comm)
-        correction = conserve(u, l, mass, case.folder(name) / source.velocity)
+        where = case.folder(name) / source.velocity
+        correction = corrected_in_time(conserve, u, l, mass, where, accept=source.accept)
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
 
     notes = [*notes, *case.notes, *whole.notes]

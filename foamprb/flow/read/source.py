@@ -64,6 +64,8 @@ class FlowSource:
     """Read also a field of the viscosity."""
     sampled: tuple[str, ...] = ()
     """Read also these fields, for sampling."""
+    accept: tuple[str, ...] = ()
+    """Faults of a transient flow with which to go on, of :data:`~foamprb.flow.base.FAULTS`."""
     reader: str = ""
     """``vtk`` to read a case's mesh by VTK's OpenFOAM reader, in single precision."""
     scale: float | None = None
