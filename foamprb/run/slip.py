@@ -18,6 +18,8 @@ __all__ = ["Slip", "SlipRecord", "drag_excess"]
 
 Floats = NDArray[np.float64]
 _CHUNK = 16_384
+_EDGES = np.hstack([0.0, np.logspace(-15.0, 5.0, 2001), np.inf])
+"""Bounds of the classes from which quantiles are taken."""
 
 
 class Slip(NamedTuple):
@@ -43,37 +45,36 @@ def _slip(p: Particles, flow: Sampled, time: float, medium: Medium) -> Slip:
 
 
 class SlipRecord:
-    """Largest values of both numbers over all active particles at the write times of a run."""
+    """Distribution of both numbers over all active particles at the write times of a run."""
 
     def __init__(self) -> None:
-        self.usual = Slip(*np.zeros((2, 1)))
-        """Largest 99 % quantile."""
+        self.counts = np.zeros((2, len(_EDGES) - 1), dtype=np.int64)
+        """Number of samples in each class."""
         self.worst = Slip(*np.zeros((2, 1)))
 
     def add(self, other: SlipRecord) -> None:
         """Add another record."""
-        self.usual = Slip(*np.fmax(self.usual, other.usual))
+        self.counts += other.counts
         self.worst = Slip(*np.fmax(self.worst, other.worst))
 
     @classmethod
     def of(cls, p: Particles, flow: Sampled, time: float, medium: Medium) -> Self:
         """Return the record of the active particles of a cloud at its time, s."""
         record, active = cls(), np.flatnonzero(p.status == Status.ACTIVE)
-        parts = [
-            _slip(p.take(active[start : start + _CHUNK]), flow, time, medium)
-            for start in range(0, len(active), _CHUNK)
-        ]
-        if parts:
-            numbers = np.concatenate(parts, axis=1)
-            record.usual = Slip(*np.nanquantile(numbers, 0.99, axis=1, keepdims=True))
-            record.worst = Slip(*np.nanmax(numbers, axis=1, keepdims=True))
+        for start in range(0, len(active), _CHUNK):
+            slip = _slip(p.take(active[start : start + _CHUNK]), flow, time, medium)
+            record.counts += [np.histogram(values, _EDGES)[0] for values in slip]
+            record.worst = Slip(*np.fmax(record.worst, np.fmax.reduce(slip, axis=1, keepdims=True)))
         return record
 
     def lines(self) -> list[str]:
-        """Return lines with the largest 99 % quantile and value of each number; none without samples."""
+        """Return lines with the 99 % quantile and the largest value of each number; none without samples."""
         names = ("Reynolds number of slip", "Stokes number")
+        # Sums, unlike quantiles, are the same for any distribution of the particles.
+        below = self.counts.cumsum(axis=1)
+        classes = [int(np.searchsorted(row, 0.99 * row[-1])) for row in below]
         return [
-            f"{name:24s} 99 % below {usual[0]:.3g}, at most {worst[0]:.3g}"
-            for name, usual, worst in zip(names, self.usual, self.worst, strict=True)
+            f"{name:24s} 99 % below {min(_EDGES[k + 1], worst[0]):.3g}, at most {worst[0]:.3g}"
+            for name, k, worst in zip(names, classes, self.worst, strict=True)
             if worst[0]
         ]
