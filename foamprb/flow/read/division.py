@@ -34,6 +34,8 @@ _ACROSS, _ROUND_OFF = 0.1, 1e-6
 """Least velocity across a face that is open, over the local velocity and over the largest."""
 _OPEN, _OPEN_GIVEN = 0.5, 0.05
 """Least flux across an opening over that of the speed inside: continued from the cells, or given there."""
+_LEAST_SHARE = 1e-4
+"""Least flux across an opening over that across all patches."""
 _LEAST_FACES, _LEAST_FLUX, _LEAST_AREA = 8, 0.01, 0.1
 """Limits of a part of a smooth surface that becomes a patch of its own.
 
@@ -234,8 +236,10 @@ def _types(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp]) -> list[st
     """Return the types of patches from the patch of each boundary face."""
     areas = np.linalg.norm(mesh.boundary_areas, axis=1)
     total = np.maximum(np.bincount(labels, areas), 1e-300)
-    least = np.where(np.bincount(labels, u.given) > 0, _OPEN_GIVEN, _OPEN)
-    opening = (np.bincount(labels, _open_faces(mesh, u)) > 0) & (_openness(mesh, u, labels) >= least)
+    given = np.bincount(labels, u.given) > 0
+    flux = np.bincount(labels, np.abs(u.fluxes(mesh)).sum(axis=0))
+    opening = (np.bincount(labels, _open_faces(mesh, u)) > 0) & (given | (flux >= _LEAST_SHARE * flux.sum()))
+    opening &= _openness(mesh, u, labels) >= np.where(given, _OPEN_GIVEN, _OPEN)
     vector = np.stack([np.bincount(labels, column) for column in mesh.boundary_areas.T], axis=1)
     normals = vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
     flat = np.linalg.norm(vector, axis=1) > (1.0 - _PLANE) * total

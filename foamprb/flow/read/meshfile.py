@@ -231,9 +231,9 @@ def _other_names(grid: Any, velocity: str) -> str:
     vectors = [shlex.quote(name) for name, values in data.items() if np.shape(values)[1:] == (3,)]
     if vectors:
         return f"no array {velocity}. Another one is read by -velocity NAME: {listed(vectors)}."
-    return (
-        f'no array {velocity}. {suggestion(velocity, data)} Three scalars are read by -velocity "(Ux Uy Uz)".'
-    )
+    missing = f"{velocity} is not a vector." if velocity in data else f"no array {velocity}."
+    others = suggestion(velocity, data.keys() - {velocity})
+    return f'{missing} {others} Three scalars are read by -velocity "(Ux Uy Uz)".'
 
 
 def _array(data: Any, name: str, components: int, path: Path, where: str) -> Floats:

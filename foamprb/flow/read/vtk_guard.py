@@ -44,24 +44,35 @@ def load_pyvista() -> Any:
 
 def times_of(path: Path) -> list[float]:
     """Return the times of a VTK file, rising; empty if it has no times."""
-    return _times(load_pyvista().get_reader(path))
+    return _times(_reader_of(path))
 
 
 def read_vtk(path: Path, step: int | None = None) -> Any:
     """Read a VTK file, at the ``step``-th of its times if it has any."""
     pyvista = load_pyvista()
-    reader = pyvista.get_reader(path)
+    reader = _reader_of(path)
     if step is not None and isinstance(reader, pyvista.HDFReader):
         reader.reader.SetStep(step)
+    elif step is not None and isinstance(reader, pyvista.CGNSReader):
+        reader.reader.UpdateTimeStep(_times(reader)[step])
     elif step is not None:
         reader.set_active_time_value(_times(reader)[step])
     return reader.read()
 
 
+def _reader_of(path: Path) -> Any:
+    pyvista = load_pyvista()
+    reader = pyvista.get_reader(path, force_ext=".xdmf" if path.suffix == ".xmf" else None)
+    if isinstance(reader, pyvista.CGNSReader):
+        # The patches of CGNS need not cover the boundary.
+        reader.load_boundary_patch = False
+    return reader
+
+
 def _times(reader: Any) -> list[float]:
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
-    if not isinstance(reader, load_pyvista().HDFReader):
+    if not isinstance(reader, load_pyvista().HDFReader | load_pyvista().CGNSReader):
         return list(getattr(reader, "time_values", None) or [])
     # Pyvista ignores the times of these files.
     reader.reader.UpdateInformation()

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,7 @@ VTK_SUFFIXES = _PIECES | {
     ".vts",
     ".vtk",
     ".vtkhdf",
+    ".cgns",
     ".pvd",
     ".vtm",
     ".case",
@@ -43,31 +45,84 @@ _SIZES = {1: 1, 3: 2, 5: 3, 8: 4, 9: 4, 10: 4, 11: 8, 12: 8, 13: 6, 14: 5}
 """Number of points of the kinds of cells with a fixed number."""
 _HEAD = re.compile(r"(?!nan|inf)[A-Za-z_]", re.IGNORECASE)
 _DATA = ("CELL_DATA", "POINT_DATA")
+_TABLE = """\
+import numpy as np, pyvista as pv
+x, y, z, u, v, w = np.loadtxt("{name}", {options}, unpack=True)
+cloud = pv.PolyData(np.column_stack([x, y, z]))
+cloud["U"] = np.column_stack([u, v, w])
+cloud.delaunay_3d().save("flow.vtu")"""
+_OTHERS = {
+    (".foam", ".openfoam"): "it stands for an OpenFOAM case. Allowed: -case DIR, without -flow.",
+    (".cas.h5", ".dat.h5", ".cas", ".cas.gz"): "files of Fluent are not read. Export CGNS or EnSight from "
+    "Fluent, or open them in ParaView and save the data as .vtu.",
+}
+"""Hints by the endings of files that are no meshes."""
+_TABLES = {".csv": 'delimiter=",", skiprows=1', ".tsv": "skiprows=1", ".txt": 'comments="%"'}
+"""Options of reading tables by the endings of their names; the last ones are COMSOL's."""
 _NEAR = 1e-3
 """Distance of faces that lie on each other, as a fraction of their size."""
 
 
 def read_file(path: Path, time: float | str) -> Any:
     """Read the contents of a file at a time."""
+    _require_mesh(path)
+    return _read_by_vtk(path, time) if _is_for_vtk(path) else _read_meshio(path)
+
+
+def _is_for_vtk(path: Path) -> bool:
+    """Return whether VTK reads a file; of XDMF's files meshio reads those of one time."""
+    return path.suffix in VTK_SUFFIXES or (
+        path.suffix in (".xdmf", ".xmf") and b"Temporal" in path.read_bytes()
+    )
+
+
+def _require_mesh(path: Path) -> None:
+    """Raise InputError for a missing file, and for one that is no mesh, with a way to make one of it."""
     if not path.is_file():
         raise InputError(f"{path}: no such file.")
-    return _read_by_vtk(path, time) if path.suffix in VTK_SUFFIXES else _read_meshio(path)
+    name = path.name.lower()
+    for endings, hint in _OTHERS.items():
+        if name.endswith(endings):
+            raise InputError(f"{path}: {hint}")
+    if path.suffix in _TABLES:
+        lines = _TABLE.format(name=path.name, options=_TABLES[path.suffix])
+        raise InputError(
+            f"{path}: a table of points is no mesh. If its columns are x y z u v w and the domain is convex, "
+            f"these lines of Python make a mesh of it (docs/tables.md has more):\n\n{lines}\n"
+        )
+    if path.suffix == ".msh" and b"$ParametricNodes" in path.read_bytes():
+        raise InputError(
+            f"{path}: $ParametricNodes is not read. Write the file with Gmsh's option Mesh.SaveParametric 0."
+        )
 
 
 def times_of_file(path: Path) -> list[str]:
     """Return the names of the times of a file, rising; empty if it has no times."""
-    if not path.is_file():
-        raise InputError(f"{path}: no such file.")
+    _require_mesh(path)
     if path.suffix == ".series":
         return list(_series(path))
-    if path.suffix not in VTK_SUFFIXES:
+    if not _is_for_vtk(path):
         return []
     require_survival(path)
+    if path.suffix == ".pvd":
+        _require_single_entries(path)
     times = _by_vtk(path, times_of, path)
     for time in times:
         if not math.isfinite(time):
             raise InputError(f"{path}: the time {time:g} is not finite; the file is damaged.")
     return [f"{time:.12g}" for time in times]
+
+
+def _require_single_entries(path: Path) -> None:
+    """Raise InputError if a list of files has two for one part of one time."""
+    first: dict[tuple[float, int, str], str] = {}
+    for entry in _by_vtk(path, load_pyvista().PVDReader, path).datasets:
+        other = first.setdefault((entry.time, entry.part, entry.group), entry.path)
+        if other != entry.path:
+            raise InputError(
+                f"{path}: the time {entry.time:g} is there twice, as {other} and {entry.path}. Remove one, "
+                "or number the parts of one time (part)."
+            )
 
 
 def _by_vtk(path: Path, function: Callable[..., Any], *arguments: Any) -> Any:
@@ -92,11 +147,34 @@ def _read_by_vtk(path: Path, time: float | str) -> Any:
     data = _by_vtk(path, read_vtk, path, step)
     if path.suffix == ".vtk":
         _require_whole(path)
+    if path.suffix in (".xdmf", ".xmf"):
+        data = _united(data, path)
     if path.suffix in _PIECES:
         # Remove the ghost cells of the pieces.
         ghosts = data.cell_data.get("vtkGhostType")
         data = data if ghosts is None else data.extract_cells(np.flatnonzero(np.asarray(ghosts) == 0))
     return data
+
+
+def _united(data: Any, path: Path) -> Any:
+    """Return one grid, with all arrays, of the series of an XDMF file that have the same points.
+
+    VTK also gives grids that belong to no series, with arrays of the first time.
+    """
+    grids = ElementTree.parse(path).iter("Grid")
+    series = {grid.get("Name") for grid in grids if grid.get("CollectionType") == "Temporal"}
+    blocks = zip(data.keys(), data, strict=True) if isinstance(data, load_pyvista().MultiBlock) else ()
+    of_series = [leaf for name, block in blocks if name in series for leaf in _leaves(name, block)]
+    different: list[Any] = []
+    for _, part in of_series or _leaves("", data):
+        same = (g for g in different if g.n_cells == part.n_cells and np.array_equal(g.points, part.points))
+        grid = next(same, None)
+        if grid is None:
+            different.append(part)
+        else:
+            grid.point_data.update(part.point_data)
+            grid.cell_data.update(part.cell_data)
+    return load_pyvista().MultiBlock(different)
 
 
 def _require_whole(path: Path) -> None:
@@ -143,8 +221,8 @@ def _require_whole(path: Path) -> None:
 
 @contextlib.contextmanager
 def _quiet(path: Path) -> Iterator[None]:
-    """Suppress messages that the HDF5 library prints beneath Python."""
-    if path.suffix != ".vtkhdf":
+    """Suppress messages that the libraries of HDF5 and CGNS print beneath Python."""
+    if path.suffix not in (".vtkhdf", ".cgns"):
         yield
         return
     sys.stderr.flush()

@@ -68,6 +68,7 @@ def test_followers_leave_a_duct_of_micrometres_through_its_outlet(tmp_path, caps
     file, case = tmp_path / "duct.vtu", tmp_path / "case"
     shape.save(file)
     (case / "constant").mkdir(parents=True)
+    (case / "constant/transportProperties").write_text("transportModel Newtonian; nu 1e-06; rho 1000;")
     where = ["-case", str(case), "-flow", str(file)]
     assert main(["init", *where, "-scale", "1e-6"]) == 0
     assert "opening1                     64 faces  opening         1e-06 m2" in capsys.readouterr().out
