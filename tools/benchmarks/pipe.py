@@ -285,18 +285,14 @@ def write_parcels(
 def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int, scheme: str = "paper") -> None:
     """Write ``softCloudProperties``: n particles enter by the inlet, evenly during the first nine tenths."""
     end = steps * dt
-    _dictionary(
+    _write_properties(
         folder / "constant" / "softCloudProperties",
-        f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end / writes:.9g}; "
-        f"integrationSchemes {{ shape {scheme}; }} }}\n"
-        f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; nu {NU}; "
-        "solid { type neoHooke; poissonsRatio 0.499; shearModulus 0.05; } }\n"
-        "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { inlet { "
-        f"type patchInjection; patch inlet; parcelsPerSecond {n / (0.9 * end):.9g}; "
-        f"duration {0.9 * end:.9g}; "
-        f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
-        "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
-        f"{PATCHES} ); }} }}",
+        f"deltaT {dt:g}; endTime {end:.9g}; writeInterval {end / writes:.9g}; "
+        f"integrationSchemes {{ shape {scheme}; }}",
+        AIR,
+        0.05,
+        f"inlet {{ type patchInjection; patch inlet; parcelsPerSecond {n / (0.9 * end):.9g}; "
+        f"duration {0.9 * end:.9g};",
     )
 
 
@@ -308,28 +304,46 @@ def write_default_cloud(
     But for what ``more`` adds to ``solution``.
     """
     end, path = steps * dt, folder / "constant" / f"{cloud}Properties"
-    _dictionary(
+    _write_properties(
         path,
-        f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end:.9g}; {more} }}\n"
-        f"constantProperties {{ rho0 {fluid.rho_s}; rhoInf {fluid.rho}; nu {fluid.nu}; "
-        "solid { type neoHooke; poissonsRatio 0.499; "
-        f"shearModulus {fluid.rho * fluid.nu * WALL_RATE / Ca:.9g}; }} }}\n"
-        "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { all { "
-        'type manualInjection; SOI 0; U0 (0 0 0); positionsFile "softCloudPositions"; '
-        "ignoreOutOfBounds true; sizeDistribution { type fixedValue; fixedValueDistribution { "
-        f"value {D}; }} }} }} }}\n"
-        "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
-        f"{PATCHES} ); }} }}",
+        f"deltaT {dt:g}; endTime {end:.9g}; writeInterval {end:.9g}; {more}",
+        fluid,
+        fluid.rho * fluid.nu * WALL_RATE / Ca,
+        'all { type manualInjection; SOI 0; U0 (0 0 0); positionsFile "softCloudPositions"; '
+        "ignoreOutOfBounds true;",
     )
     return path
 
 
-def positions(n: int, seed: int = 0, reach: float = 0.95) -> Floats:
-    """Return places uniformly distributed over the first third of the pipe, to ``reach`` radii, (n, 3)."""
-    random = np.random.default_rng(seed)
-    r, angle = reach * RADIUS * np.sqrt(random.random(n)), 2.0 * np.pi * random.random(n)
+def _write_properties(path: Path, solution: str, fluid: Fluid, modulus: float, injection: str) -> None:
+    """Write the properties of a cloud of soft particles, by the entries of the solution and the injection."""
+    _dictionary(
+        path,
+        f"solution {{ {solution} }}\n"
+        f"constantProperties {{ rho0 {fluid.rho_s}; rhoInf {fluid.rho}; nu {fluid.nu}; "
+        f"solid {{ type neoHooke; poissonsRatio 0.499; shearModulus {modulus:.9g}; }} }}\n"
+        f"subModels {{ particleForces {{ ellipsoidDrag; gravity; }} injectionModels {{ {injection} "
+        f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
+        f"patchInteractionModel localInteraction; localInteractionCoeffs {{ patches ( {PATCHES} ); }} }}",
+    )
+
+
+def positions(n: int, reach: float = 0.95, inner: float = 0.0) -> Floats:
+    """Return places evenly over the first third of the pipe, from ``inner`` to ``reach`` radii, (n, 3)."""
+    random = np.random.default_rng(0)
+    r = RADIUS * np.sqrt(inner**2 + (reach**2 - inner**2) * random.random(n))
+    angle = 2.0 * np.pi * random.random(n)
     x = LENGTH / 3.0 * (0.01 + 0.99 * random.random(n))
     return np.stack([x, r * np.cos(angle), r * np.sin(angle)], axis=1)
+
+
+def places_in(mesh: Any, n: int) -> Floats:
+    """Return random places in a mesh, as often as there is volume, (n, 3)."""
+    random, corners = np.random.default_rng(0), mesh.nodes[mesh.tets]
+    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
+    rows = random.choice(len(volumes), n, p=volumes / volumes.sum())
+    places: Floats = np.einsum("nk,nki->ni", random.dirichlet(np.ones(4), n), corners[rows])
+    return places
 
 
 def soft_cloud(

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-
 import foamprb
 from benchmarks import pipe
 from benchmarks.records import Options, Row, interleaved, rows
@@ -51,10 +49,7 @@ PLACES = {
 
 def particles(n: int, d: float, low: float, high: float, material: str) -> foamprb.Particles:
     """Return n stiff particles of the fluid's density in the first third of the pipe."""
-    random = np.random.default_rng(0)
-    r = pipe.RADIUS * np.sqrt(low**2 + (high**2 - low**2) * random.random(n))
-    angle, x = 2.0 * np.pi * random.random(n), pipe.LENGTH / 3.0 * (0.01 + 0.99 * random.random(n))
-    places = np.stack([x, r * np.cos(angle), r * np.sin(angle)], axis=1)
+    places = pipe.positions(n, high, low)
     mu = MU * pipe.WALL_RATE / 0.01
     if material == "drop":
         p = foamprb.drops(places, d=d, rho=pipe.RHO, gamma=0.5 * d * mu, eta=MU)

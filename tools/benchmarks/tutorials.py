@@ -97,16 +97,6 @@ def solve(name: str, folder: Path) -> Path:
     return folder
 
 
-def places(case: Path, n: int) -> pipe.Floats:
-    """Return random places in the mesh, (n, 3)."""
-    mesh, random = foamprb.read_case(case).mesh, np.random.default_rng(0)
-    corners = mesh.nodes[mesh.tets]
-    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
-    chosen = random.choice(len(volumes), n, p=volumes / volumes.sum())
-    found: pipe.Floats = np.einsum("nk,nki->ni", random.dirichlet(np.ones(4), n), corners[chosen])
-    return found
-
-
 class Settings(NamedTuple):
     """What ``foamprb init`` has written, and what of it is needed."""
 
@@ -225,7 +215,7 @@ def errors(case: Path, name: str, settings: Settings, x: pipe.Floats) -> dict[st
 def compare(name: str, n: int, steps: int, repeats: int) -> list[Row]:
     """Return cost per particle-step in one tutorial's flow, and over OpenFOAM's, also at equal error."""
     case = solve(name, pipe.scratch_folder() / f"tutorial_{name}")
-    settings, x = first_settings(case), places(case, n)
+    settings, x = first_settings(case), pipe.places_in(foamprb.read_case(case).mesh, n)
     pipe.write_positions(case / "constant" / "softCloudPositions", x)
     pipe.write_parcels(case, x, settings.d, settings.rho, patches_of(case))
 

@@ -1,7 +1,7 @@
 """Errors of u and ∇u between the cell centres of pipe meshes, against the Poiseuille solution.
 
 Usage: python tools/figures/flow_accuracy.py CASE [CASE …], coarsest first; pipes along x with the paper's
-dimensions by default. Each mesh is sampled at random points, in the core (r < 0.9 R) and near the wall, by
+dimensions. Each mesh is sampled at random points, in the core (r < 0.9 R) and near the wall, by
 three methods: foamprb's; OpenFOAM's cellPoint (nodal means on the same tetrahedra, gradient constant in
 each); and VTK's point data (probed; gradient by vtkGradientFilter). Once with the solver's U, once with exact
 values at the cell centres and at rest on the wall.
@@ -10,13 +10,16 @@ values at the cell centres and at rest on the wall.
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import pyvista
-from numpy.typing import NDArray
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from benchmarks.pipe import MEAN, RADIUS, Floats, Ints, poiseuille
 
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import Mesh
@@ -26,28 +29,20 @@ from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.openfoam import Case, velocities
 from foamprb.flow.reconstruct import Reconstruction
 
-Floats = NDArray[np.float64]
 Sampler = Callable[[Floats], tuple[Floats, Floats]]
 COLUMNS = ("u core", "u wall", "∇u core", "∇u wall")
 
 
-class Pipe(NamedTuple):
-    """Pipe along x: radius in m, mean velocity in m/s."""
+def velocity(x: Floats) -> Floats:
+    """Return Poiseuille's u at the points (n, 3), zero outside."""
+    return np.maximum(poiseuille(x), 0.0)
 
-    radius: float
-    mean: float
 
-    def velocity(self, x: Floats) -> Floats:
-        """Return Poiseuille's u at the points (n, 3), zero outside."""
-        u = np.zeros_like(x)
-        u[:, 0] = 2.0 * self.mean * np.maximum(1.0 - (x[:, 1] ** 2 + x[:, 2] ** 2) / self.radius**2, 0.0)
-        return u
-
-    def gradient(self, x: Floats) -> Floats:
-        """Return ∂u_i/∂x_j at the points, (n, 3, 3)."""
-        l = np.zeros((len(x), 3, 3))
-        l[:, 0, 1:] = -4.0 * self.mean / self.radius**2 * x[:, 1:]
-        return l
+def gradient(x: Floats) -> Floats:
+    """Return Poiseuille's ∂u_i/∂x_j at the points, (n, 3, 3)."""
+    l = np.zeros((len(x), 3, 3))
+    l[:, 0, 1:] = -4.0 * MEAN / RADIUS**2 * x[:, 1:]
+    return l
 
 
 def ours(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
@@ -79,7 +74,7 @@ def cell_point(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
     return sample
 
 
-def weighted_mean(mesh: Mesh, points: NDArray[np.int32], sites: Floats, values: Floats) -> Floats:
+def weighted_mean(mesh: Mesh, points: Ints, sites: Floats, values: Floats) -> Floats:
     """Return means at mesh points of values at sites, weighted by inverse distance."""
     weight = 1.0 / np.linalg.norm(mesh.points[points] - sites, axis=1)
     total = np.bincount(points, weight, mesh.n_points)
@@ -106,22 +101,22 @@ def read_vtk(case: Path) -> pyvista.UnstructuredGrid:
     return reader.read()["internalMesh"]
 
 
-def with_point_data(grid: pyvista.UnstructuredGrid, cells: Floats, pipe: Pipe) -> pyvista.UnstructuredGrid:
+def with_point_data(grid: pyvista.UnstructuredGrid, cells: Floats) -> pyvista.UnstructuredGrid:
     """Return the grid with VTK's means of cell values, zero on the wall as in its reader."""
     copy = pyvista.UnstructuredGrid()
     copy.copy_structure(grid)
     copy.cell_data["U"] = cells
     copy = copy.cell_data_to_point_data()
-    on_wall = np.hypot(copy.points[:, 1], copy.points[:, 2]) > (1.0 - 1e-5) * pipe.radius
+    on_wall = np.hypot(copy.points[:, 1], copy.points[:, 2]) > (1.0 - 1e-5) * RADIUS
     copy.point_data["U"][on_wall] = 0.0
     return copy
 
 
-def random_points(mesh: Mesh, pipe: Pipe, number: int) -> Floats:
+def random_points(mesh: Mesh) -> Floats:
     """Return uniformly distributed points in the middle three fifths of the pipe, inside its mesh."""
-    rng = np.random.default_rng(0)
+    rng, number = np.random.default_rng(0), 100_000
     low, high = mesh.points[:, 0].min(), mesh.points[:, 0].max()
-    r, angle = pipe.radius * np.sqrt(rng.random(number)), 2.0 * np.pi * rng.random(number)
+    r, angle = RADIUS * np.sqrt(rng.random(number)), 2.0 * np.pi * rng.random(number)
     x = low + (high - low) * (0.2 + 0.6 * rng.random(number))
     points = np.stack([x, r * np.cos(angle), r * np.sin(angle)], axis=1)
     nothing = np.zeros((mesh.n_points + mesh.n_cells, 3))
@@ -129,12 +124,12 @@ def random_points(mesh: Mesh, pipe: Pipe, number: int) -> Floats:
     return points[flow.locate(points) >= 0]
 
 
-def errors(sample: Sampler, pipe: Pipe, x: Floats) -> list[tuple[float, float]]:
+def errors(sample: Sampler, x: Floats) -> list[tuple[float, float]]:
     """Return rms and maximum of the errors, for each of the columns, in %."""
     u, l = sample(x)
-    core = np.hypot(x[:, 1], x[:, 2]) < 0.9 * pipe.radius
-    of_u = np.linalg.norm(u - pipe.velocity(x), axis=1) / pipe.mean
-    of_l = np.linalg.norm((l - pipe.gradient(x)).reshape(-1, 9), axis=1) / (4.0 * pipe.mean / pipe.radius)
+    core = np.hypot(x[:, 1], x[:, 2]) < 0.9 * RADIUS
+    of_u = np.linalg.norm(u - velocity(x), axis=1) / MEAN
+    of_l = np.linalg.norm((l - gradient(x)).reshape(-1, 9), axis=1) / (4.0 * MEAN / RADIUS)
     parts = [100.0 * error[region] for error in (of_u, of_l) for region in (core, ~core)]
     return [(float(np.sqrt(np.mean(part**2))), float(part.max())) for part in parts]
 
@@ -146,13 +141,7 @@ def main() -> None:
     )
     parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
-    parser.add_argument("-radius", type=float, default=2.1e-3, help="m (default: %(default)s)")
-    parser.add_argument(
-        "-mean", type=float, default=0.484995, help="mean velocity, m/s (default: %(default)s)"
-    )
-    parser.add_argument("-points", type=int, default=100_000, help="sampling points (default: %(default)s)")
     options = parser.parse_args()
-    pipe = Pipe(options.radius, options.mean)
 
     results: dict[tuple[str, str], list[list[tuple[float, float]]]] = {}
     sizes = []
@@ -161,21 +150,21 @@ def main() -> None:
         name = opened.select_time("latestTime")
         whole = opened.mesh(name)
         mesh, (cells, boundary) = whole.mesh, velocities(opened.field(name, "U", VELOCITY_FIELD), whole)
-        x = random_points(mesh, pipe, options.points)
+        x = random_points(mesh)
         sizes.append(mesh.n_cells)
-        exact, exact_boundary = pipe.velocity(mesh.centres), pipe.velocity(mesh.boundary_centres)
+        exact, exact_boundary = velocity(mesh.centres), velocity(mesh.boundary_centres)
         for patch, first, last in zip(mesh.patches, mesh.patch_start, mesh.patch_start[1:], strict=False):
             if patch.type == "wall":
                 exact_boundary[first:last] = 0.0
         grid = read_vtk(case)
         for source, values in (("solver", (cells, boundary)), ("exact", (exact, exact_boundary))):
-            points = grid if source == "solver" else with_point_data(grid, exact, pipe)
+            points = grid if source == "solver" else with_point_data(grid, exact)
             for method, sampler in (
                 ("foamprb", ours(mesh, *values)),
                 ("cellPoint", cell_point(mesh, *values)),
                 ("VTK", vtk_points(points)),
             ):
-                results.setdefault((source, method), []).append(errors(sampler, pipe, x))
+                results.setdefault((source, method), []).append(errors(sampler, x))
 
     print("Errors rms/max; u in % of the mean velocity, ∇u in % of the wall shear rate; order of the rms")
     print(f"{'cells':>8} {'values':7} {'method':10}" + "".join(f"{name:>16}" for name in COLUMNS))

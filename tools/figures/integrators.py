@@ -11,10 +11,15 @@ is the number of evaluations of the traction: one a step for the paper's scheme,
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from validation.report import pyplot
 
 import foamprb
 from foamprb.body.imex import relaxation_time
@@ -99,12 +104,7 @@ def main() -> None:
 
 def plot(rows: list[tuple[str, str, int, float, float]], file: Path) -> None:
     """Plot the error of the deformation gradient against work, one panel per pipe."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
-    figure, panels = plt.subplots(1, 2, figsize=(9, 4), sharey=True, layout="constrained")
+    figure, panels = pyplot().subplots(1, 2, figsize=(9, 4), sharey=True, layout="constrained")
     for panel, pipe in zip(panels, (AIR, WATER), strict=True):
         for integrator in INTEGRATORS:
             chosen = [(n, e) for p, i, n, e, _ in rows if (p, i) == (pipe.name, integrator)]

@@ -20,14 +20,15 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from validation.pipe import CAPILLARY, PRINTED_DISTANCE
+from validation.report import pyplot
 from validation.runs import DIAMETER, MEAN_VELOCITY, PIPE_RADIUS, pipe_cloud
 
 import foamprb
 from foamprb.body.drag import DRAGS
 from foamprb.results.tables import write_table
 
-CAPILLARY = np.array([1e-4, *np.arange(0.05, 1.001, 0.05)])
-RIGID_ANALYTIC, RIGID_PRINTED = 8989.0, 9165.0
+RIGID_ANALYTIC, DT, TOLERANCE = 8989.0, 2e-5, 1e-6
 SURROUNDINGS: dict[str, tuple[foamprb.WallLift, ...]] = {
     "without": (),
     "lift, `mobility no`": (foamprb.WallLift(mobility=False),),
@@ -35,11 +36,11 @@ SURROUNDINGS: dict[str, tuple[foamprb.WallLift, ...]] = {
 }
 
 
-def distances(flow, drag: str, dt: float, tolerance: float) -> np.ndarray:
+def distances(flow, drag: str, tolerance: float) -> np.ndarray:
     """Return the landing distance over the particle's diameter, for each of CAPILLARY."""
     models = foamprb.Models(drag=drag, touching="centre", integrator="rosenbrock", tolerance=tolerance)
-    cloud = pipe_cloud(CAPILLARY, dt, models, flow)
-    cloud.advance(round(1.0 / dt))
+    cloud = pipe_cloud(CAPILLARY, DT, models, flow)
+    cloud.advance(round(1.0 / DT))
     particles = cloud.particles
     if not (particles.status == foamprb.Status.STUCK).all():
         raise SystemExit(f"Not every particle landed: {particles.counts()}")
@@ -70,8 +71,6 @@ def main() -> None:
     parser.add_argument("-lift", action="store_true", help="print the table with wall lift and stop")
     parser.add_argument("cases", type=Path, nargs="*", default=[Path("cases/pipe")], metavar="CASE")
     parser.add_argument("--output", type=Path, default=Path("docs"))
-    parser.add_argument("--dt", type=float, default=2e-5, help="tracking step, s [2e-5]")
-    parser.add_argument("--tolerance", type=float, default=1e-6, help="of a step [1e-6]")
     options = parser.parse_args()
     if options.lift:
         print_lift()
@@ -83,9 +82,9 @@ def main() -> None:
     columns = {"Ca": CAPILLARY}
     for name, flow in flows.items():
         for drag in DRAGS:
-            found = columns[f"{drag}, {name}"] = distances(flow, drag, options.dt, options.tolerance)
+            found = columns[f"{drag}, {name}"] = distances(flow, drag, TOLERANCE)
             if name == "analytic":
-                change = np.abs(found - distances(flow, drag, options.dt, 10 * options.tolerance)).max()
+                change = np.abs(found - distances(flow, drag, 10 * TOLERANCE)).max()
                 print(f"{drag}: {change:.2g} diameters from those of ten times the tolerance")
     options.output.mkdir(parents=True, exist_ok=True)
     write_table(options.output / "distance.csv", columns)
@@ -96,12 +95,7 @@ def main() -> None:
 
 def plot(columns: dict[str, np.ndarray], file: Path) -> None:
     """Plot distance against Ca, one curve for each drag law and flow."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
-    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    figure, axes = pyplot().subplots(figsize=(7, 4.5), layout="constrained")
     colours = dict(zip(DRAGS, ("tab:blue", "tab:orange"), strict=True))
     markers = {drag: iter("osv^") for drag in DRAGS}
     for name, values in columns.items():
@@ -115,7 +109,7 @@ def plot(columns: dict[str, np.ndarray], file: Path) -> None:
         )
         axes.plot(CAPILLARY, values, color=colours[drag], label=name, **style)
     axes.axhline(RIGID_ANALYTIC, color="0.4", lw=0.8, label="rigid sphere, closed form")
-    axes.axhline(RIGID_PRINTED, color="0.4", lw=0.8, ls=":", label="rigid sphere, the paper's print")
+    axes.axhline(PRINTED_DISTANCE, color="0.4", lw=0.8, ls=":", label="rigid sphere, the paper's print")
     axes.set(xlabel="Ca at the wall shear rate", ylabel="landing distance / particle diameter")
     axes.legend(frameon=False)
     figure.savefig(file, dpi=150)

@@ -12,11 +12,16 @@ places, as many as liquid flows there. Writes ``tJunction.csv``, ``tJunctionEdge
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from validation.report import pyplot
 
 import foamprb
 from foamprb.results.tables import write_table
@@ -218,12 +223,7 @@ def main() -> None:
 
 def plot(columns: dict[str, Floats], table: dict[str, Floats], file: Path) -> None:
     """Plot share to the side branch and deformation against the start, and the edges against Ca."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
-    figure, (share, D, edge) = plt.subplots(1, 3, figsize=(12, 3.8), layout="constrained")
+    figure, (share, D, edge) = pyplot().subplots(1, 3, figsize=(12, 3.8), layout="constrained")
     for k, Ca in enumerate(CAPILLARY):
         chosen = columns["Ca"] == Ca
         y, style = 1e6 * columns["y"][chosen], {"color": f"C{k}", "label": f"Ca = {Ca:g}"}

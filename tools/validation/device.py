@@ -109,10 +109,15 @@ def track(table: Axis, integrator: str) -> Track:
     while p.x[:, 0].max() < end:
         t.append(cloud.time)
         x.append(p.x[:, 0].copy())
-        axes = soft.semi_axes(p.F.reshape(-1, 3, 3))
-        D.append((axes[:, 0] - axes[:, 2]) / (axes[:, 0] + axes[:, 2]))
+        D.append(_deformation(p.F.reshape(-1, 3, 3)))
         cloud.advance(1)
     return Track(np.array(t), np.array(x), np.array(D))
+
+
+def _deformation(F: Floats) -> Floats:
+    """Return (a − c)/(a + c) of the longest and the shortest semi-axis, (n,), of F (n, 3, 3)."""
+    a, _, c = soft.semi_axes(F).T
+    return np.asarray((a - c) / (a + c))
 
 
 def _at(x: float, table: Axis) -> tuple[float, float]:
@@ -141,9 +146,7 @@ def nonlinear(table: Axis, mu: float, times: Floats) -> Floats:
     answer = solve_ivp(
         rate, (0.0, float(times[-1])), start, "LSODA", times, rtol=1e-7, atol=absolute, max_step=1e-4
     )
-    F = answer.y[:9].T.reshape(-1, 3, 3)
-    axes = soft.semi_axes(F)
-    return np.asarray((axes[:, 0] - axes[:, 2]) / (axes[:, 0] + axes[:, 2]))
+    return _deformation(answer.y[:9].T.reshape(-1, 3, 3))
 
 
 def small(table: Axis, mu: float, times: Floats) -> Floats:
@@ -158,16 +161,8 @@ def small(table: Axis, mu: float, times: Floats) -> Floats:
         u, g = _at(y[1], table)
         return [(2.5 * MU_F / mu * g - y[0]) / relaxation, u]
 
-    answer = solve_ivp(
-        rate,
-        (0.0, float(times[-1])),
-        [0.0, table.start],
-        "LSODA",
-        times,
-        rtol=1e-8,
-        atol=1e-12,
-        max_step=1e-4,
-    )
+    span, start = (0.0, float(times[-1])), [0.0, table.start]
+    answer = solve_ivp(rate, span, start, "LSODA", times, rtol=1e-8, atol=1e-12, max_step=1e-4)
     return np.asarray(0.75 * answer.y[0])
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Models
 from foamprb.flow.base import Flow
-from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst, worst_of_each
 from validation.references.inertia import RigidHistory, SoftHistory, rigid_sphere
 from validation.runs import (
     DIAMETER,
@@ -59,13 +59,9 @@ def rigid(quick: bool) -> Outcome:
     unit = MU_F * WALL_RATE * DIAMETER**3
     torque, own_torque = abs(ours.torque[:, 0]) / unit, abs(own.torque[1:]) / unit
     spin, own_spin = abs(ours.spin[:, 0]) / WALL_RATE, abs(own.spin[1:]) / WALL_RATE
+    title = "cosine of a half axis with {}, worst of all times"
     rows = [
-        worst(
-            "cosine of a half axis with x₁, worst of all times", cosines[:, 0], expected[:, 0], RIGID, 0.02
-        ),
-        worst(
-            "cosine of a half axis with x₂, worst of all times", cosines[:, 1], expected[:, 1], RIGID, 0.02
-        ),
+        *worst_of_each(title, ("x₁", "x₂"), cosines, expected, RIGID, (0.02, 0.02)),
         worst("|ω_s3|/γ̇_max, worst of all times", spin, own_spin, RIGID, 5e-3),
         worst(f"|ω_s3|/γ̇_max at {end:g} s", spin[-1:], own_spin[-1:], RIGID, 1e-4),
         worst("M/(μ_f γ̇_max d³), worst of all times", torque, own_torque, RIGID, 0.03),
@@ -84,18 +80,13 @@ def rigid(quick: bool) -> Outcome:
     start = times <= 5e-4
     late = times >= max(end - 0.02, 5e-4)
     markers = np.flatnonzero(late)[::2]
-    panels = [
-        Panel(
-            "t [s]",
-            "direction cosine",
-            [
-                Curve(times[late], cosines[late, 0], "foamprb, x₁"),
-                Curve(times[late], cosines[late, 1], "foamprb, x₂", colour=1),
-                Curve(times[markers], expected[markers, 0], "rigid sphere, x₁", "reference"),
-                Curve(times[markers], expected[markers, 1], "rigid sphere, x₂", "reference", 1),
-            ],
-        ),
+    of_axes = [
+        Curve(times[late], cosines[late, 0], "foamprb, x₁"),
+        Curve(times[late], cosines[late, 1], "foamprb, x₂", colour=1),
+        Curve(times[markers], expected[markers, 0], "rigid sphere, x₁", "reference"),
+        Curve(times[markers], expected[markers, 1], "rigid sphere, x₂", "reference", 1),
     ]
+    panels = [Panel("t [s]", "direction cosine", of_axes)]
 
     def pair(y: Floats, own_y: Floats, label: str, shown: Any = slice(None), marks: Any = sparse) -> Panel:
         curves = [
@@ -153,23 +144,14 @@ def soft(quick: bool) -> Outcome:
     rows, figures = [], []
     dt = 5e-6
     fall = _rigid_fall()
-    final_rigid = abs(float(fall.spin[-1]))
+    final_rigid, distance = abs(float(fall.spin[-1])), float(fall.x[-1, 0] / DIAMETER)
     curves: list[Curve] = []
     spins: list[Curve] = []
     differences = {}
     for colour, (drag, stiffness) in enumerate(REFERENCES):
         x, t, spin = _landing(CAPILLARY, drag, dt)
         differences[drag] = x[-1] - x[int(np.argmin(abs(CAPILLARY - 0.25)))]
-        rows.append(
-            Row(
-                f"Ca = 0.0001, {drag}: distance/d",
-                float(x[0]),
-                float(fall.x[-1, 0] / DIAMETER),
-                RIGID,
-                1e-3,
-                True,
-            )
-        )
+        rows.append(Row(f"Ca = 0.0001, {drag}: distance/d", float(x[0]), distance, RIGID, 1e-3, True))
         rows.append(Row(f"Ca = 0.0001, {drag}: time [s]", float(t[0]), float(fall.t[-1]), RIGID, 1e-3, True))
         points = []
         for Ca in stiffness:
@@ -199,35 +181,17 @@ def soft(quick: bool) -> Outcome:
             Curve(known[:, 0], known[:, 2] / final_rigid, f"solve_ivp, {drag}", "reference", colour),
         ]
     rows += [
-        Row(
-            "rigid sphere: distance/d",
-            float(fall.x[-1, 0] / DIAMETER),
-            8989.0,
-            "closed form",
-            1.0,
-            note="reference",
-        ),
+        Row("rigid sphere: distance/d", distance, 8989.0, "closed form", 1.0, note="reference"),
         Row("rigid sphere: time [s]", float(fall.t[-1]), 0.2327, "closed form", 1e-4, note="reference"),
-        Row(
-            "rigid sphere: distance/d",
-            float(fall.x[-1, 0] / DIAMETER),
-            PRINTED_DISTANCE,
-            "the paper, Sect. 5.4.2",
-            relative=True,
-            note="not reproduced",
-        ),
         *(
-            Row(
-                f"distance of Ca = 1 less that of 0.25, over d, {drag}",
-                float(value),
-                9866.0,
-                "the paper, Sect. 5.4.2",
-                relative=True,
-                note="not reproduced",
+            Row(quantity, value, printed, "the paper, Sect. 5.4.2", relative=True, note="not reproduced")
+            for quantity, value, printed in (
+                ("rigid sphere: distance/d", distance, PRINTED_DISTANCE),
+                *((f"distance of Ca = 1 less that of 0.25, over d, {drag}", float(value), 9866.0)
+                  for drag, value in differences.items()),
             )
-            for drag, value in differences.items()
         ),
-    ]
+    ]  # fmt: skip
     rows += _of_third_order()
     ends = np.array([CAPILLARY[0], CAPILLARY[-1]])
     curves += [
@@ -312,37 +276,23 @@ def _trajectories(dt: float) -> list[Figure]:
     times = np.linspace(0.0, 0.32, 161)[1:]
     ours = history(pipe_cloud(Ca, dt, _models()), times)
     unit = DIAMETER / SETTLING
-    path: list[Curve] = []
-    along: list[Curve] = []
-    down: list[Curve] = []
+    axes = ("x₁/d", "x₂/d"), ("t v_set/d", "v₁/v_set"), ("t v_set/d", "v₂/v_set")
+    panels = [Panel(*names, []) for names in axes]
     for i, c in enumerate(Ca):
-        own = _rigid_fall() if i == 0 else _soft(c, "oberbeck")
-        label = f"foamprb, Ca = {c:g}"
-        own_label = "solve_ivp (rigid for 1e-4)" if i == 0 else ""
-        keep = own.t > 0.0
-        path += [
-            Curve(ours.x[:, i, 0] / DIAMETER, ours.x[:, i, 1] / DIAMETER, label, colour=i),
-            Curve(own.x[::4, 0] / DIAMETER, own.x[::4, 1] / DIAMETER, own_label, "reference", i),
-        ]
-        along += [
-            Curve(ours.t / unit, ours.v[:, i, 0] / SETTLING, label, colour=i),
-            Curve(own.t[keep][::4] / unit, own.v[keep][::4, 0] / SETTLING, own_label, "reference", i),
-        ]
-        down += [
-            Curve(ours.t / unit, ours.v[:, i, 1] / SETTLING, label, colour=i),
-            Curve(own.t[keep][::4] / unit, own.v[keep][::4, 1] / SETTLING, own_label, "reference", i),
-        ]
-    return [
-        Figure(
-            "pipe-paths",
-            "Fig. 13: trajectories and velocities, exact pipe, drag oberbeck.",
-            [
-                Panel("x₁/d", "x₂/d", path),
-                Panel("t v_set/d", "v₁/v_set", along),
-                Panel("t v_set/d", "v₂/v_set", down),
-            ],
+        reference = _rigid_fall() if i == 0 else _soft(c, "oberbeck")
+        later = reference.t > 0.0
+        t, v = reference.t[later][::4] / unit, reference.v[later][::4] / SETTLING
+        paths = ours.x[:, i] / DIAMETER, reference.x[::4] / DIAMETER
+        curves = (
+            (*paths[0].T[:2], *paths[1].T[:2]),
+            *((ours.t / unit, ours.v[:, i, k] / SETTLING, t, v[:, k]) for k in range(2)),
         )
-    ]
+        for panel, (x, y, x_reference, y_reference) in zip(panels, curves, strict=True):
+            label = "solve_ivp (rigid for 1e-4)" if i == 0 else ""
+            panel.curves.append(Curve(x, y, f"foamprb, Ca = {c:g}", colour=i))
+            panel.curves.append(Curve(x_reference, y_reference, label, "reference", i))
+    caption = "Fig. 13: trajectories and velocities, exact pipe, drag oberbeck."
+    return [Figure("pipe-paths", caption, panels)]
 
 
 def openfoam(quick: bool) -> Outcome:
@@ -370,19 +320,9 @@ def openfoam(quick: bool) -> Outcome:
                     f"Ca = {c:g}, {drag}: distance/d", float(x[i]), value, f"{source}, exact pipe", 5e-3, True
                 )
             )
-        curves += [
-            Curve(Ca, x, f"foamprb, OpenFOAM's flow, {drag}", colour=colour),
-            Curve(
-                np.array(list(own)),
-                np.array(list(own.values())),
-                f"solve_ivp, exact pipe, {drag}",
-                "reference",
-                colour,
-            ),
-        ]
-    figure = Figure(
-        "pipe-openfoam",
-        "Landing distance in cases/pipe (coarse mesh, 9216 cells).",
-        [Panel("Ca at the wall shear rate", "x₁ max/d", curves)],
-    )
-    return Outcome(rows, [figure], [])
+        at, exact = np.array(list(own.items())).T
+        curves.append(Curve(Ca, x, f"foamprb, OpenFOAM's flow, {drag}", colour=colour))
+        curves.append(Curve(at, exact, f"solve_ivp, exact pipe, {drag}", "reference", colour))
+    panel = Panel("Ca at the wall shear rate", "x₁ max/d", curves)
+    caption = "Landing distance in cases/pipe (coarse mesh, 9216 cells)."
+    return Outcome(rows, [Figure("pipe-openfoam", caption, [panel])], [])
