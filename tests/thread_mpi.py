@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
+
+from foamprb.distributed.node import MpiTeam
 
 
 class Rows:
@@ -46,9 +49,13 @@ class Comm:
     def _of_all(self, value: Any) -> list[Any]:
         self._slots[self.rank] = value
         self._barrier.wait()
-        found = list(self._slots)
+        values = list(self._slots)
         self._barrier.wait()
-        return found
+        return values
+
+    def end(self) -> None:
+        """End all processes that wait for others."""
+        self._barrier.abort()
 
     def Dup(self) -> Comm:
         return self
@@ -68,12 +75,15 @@ class Comm:
     def Alltoallv(self, outgoing: list[Any], incoming: list[Any]) -> None:
         array, (received, places), row = incoming
         target = array.reshape(-1).view(np.uint8)
-        for rank, (given, (sent, starts), own) in enumerate(self._of_all(outgoing)):
-            start, end = own.size * starts[self.rank], own.size * (starts[self.rank] + sent[self.rank])
+        for rank, (array, (sent, starts), kind) in enumerate(self._of_all(outgoing)):
+            start, end = kind.size * starts[self.rank], kind.size * (starts[self.rank] + sent[self.rank])
             place = row.size * places[rank]
-            assert own.size * sent[self.rank] == row.size * received[rank]
-            target[place : place + end - start] = given.reshape(-1).view(np.uint8)[start:end]
+            assert kind.size * sent[self.rank] == row.size * received[rank]
+            target[place : place + end - start] = array.reshape(-1).view(np.uint8)[start:end]
         self._barrier.wait()
+
+    def sendrecv(self, parcel: Any, to: int, source: int) -> Any:  # noqa: ARG002
+        return self._of_all(parcel)[source]
 
     def send(self, letter: Any, rank: int) -> None:
         self.team[rank].letters.append(letter)
@@ -87,21 +97,28 @@ class Comm:
 def processes(n: int) -> list[Comm]:
     """Return n processes that exchange data."""
     slots, barrier = [None] * n, threading.Barrier(n, timeout=20.0)
-    found = [Comm(rank, slots, barrier) for rank in range(n)]
-    for comm in found:
-        comm.team = found
-    return found
+    team = [Comm(rank, slots, barrier) for rank in range(n)]
+    for comm in team:
+        comm.team = team
+    return team
 
 
-def together(works: list[Callable[[], Any]]) -> list[Any]:
-    """Return what each of some works finds on its process, all at the same time; raise the error of one."""
-    found, errors = [None] * len(works), []
+def on_nodes(n: int, work: Callable[[MpiTeam], Any]) -> list[Any]:
+    """Return the results of a function on n nodes; raise the first error."""
+    team = processes(n)
+    return together([partial(work, MpiTeam(comm)) for comm in team], team[0].end)
+
+
+def together(works: list[Callable[[], Any]], fail: Callable[[], None] = lambda: None) -> list[Any]:
+    """Return the results of functions that run at the same time; raise the error of one."""
+    results, errors = [None] * len(works), []
 
     def run(rank: int) -> None:
         try:
-            found[rank] = works[rank]()
+            results[rank] = works[rank]()
         except Exception as error:
             errors.append(error)
+            fail()
 
     threads = [threading.Thread(target=run, args=(rank,)) for rank in range(len(works))]
     for thread in threads:
@@ -110,4 +127,4 @@ def together(works: list[Callable[[], Any]]) -> list[Any]:
         thread.join()
     if errors:
         raise next((e for e in errors if not isinstance(e, threading.BrokenBarrierError)), errors[0])
-    return found
+    return results

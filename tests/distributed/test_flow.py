@@ -13,7 +13,7 @@ import pytest
 from foam_writer import decompose, header, write_case
 from hypothesis import given
 from hypothesis import strategies as st
-from threads_team import together
+from thread_mpi import on_nodes
 from transient_case import scaled
 
 from foamprb.cloud.block import Medium
@@ -54,7 +54,7 @@ def distributed(case, times, source=FlowSource()):  # noqa: B008
         part = flow_of(PartCase(case, "", team, 2), times, source)
         return part, summary_of(part)
 
-    found = together(2, read)
+    found = on_nodes(2, read)
 
     def call(function, *arguments):
         if function is Worker.load_part:
@@ -65,9 +65,9 @@ def distributed(case, times, source=FlowSource()):  # noqa: B008
                 assert part.loaded_fields().columns == part.field_columns
                 return until, part.rate
 
-            return together(2, load)
+            return on_nodes(2, load)
         assert function is Worker.call_flow
-        return together(2, lambda team: getattr(found[team.rank][0], arguments[0])(*arguments[1:]))
+        return on_nodes(2, lambda team: getattr(found[team.rank][0], arguments[0])(*arguments[1:]))
 
     return distributed_flow(call, lambda *_: [summary for _, summary in found], 0.0)
 
@@ -272,7 +272,7 @@ def test_an_error_on_one_node_is_raised_on_all():
             read(team)
         return team.exchange([team.rank, team.rank])
 
-    assert together(2, work) == [[0, 1], [0, 1]]
+    assert on_nodes(2, work) == [[0, 1], [0, 1]]
 
 
 def test_an_error_that_is_caught_holds_no_arrays_of_its_callers():
@@ -289,7 +289,7 @@ def test_an_error_that_is_caught_holds_no_arrays_of_its_callers():
         gc.enable()
         return found() is None
 
-    assert together(1, work) == [True]
+    assert on_nodes(1, work) == [True]
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import shutil
 import numpy as np
 import pytest
 from foam_writer import decompose, header, write_case
-from threads_team import together
+from thread_mpi import on_nodes
 
 from foamprb.distributed.fragment import IndivisibleMeshError
 from foamprb.distributed.partcase import PartCase
@@ -33,7 +33,7 @@ def written(tmp_path_factory):
 
 
 def read(case, n, depth=1):
-    return together(n, lambda team: steady_flow(PartCase(case, "", team, depth), "1", FlowSource()))
+    return on_nodes(n, lambda team: steady_flow(PartCase(case, "", team, depth), "1", FlowSource()))
 
 
 def test_nodes_read_the_flow_of_the_whole(written, random):
@@ -81,7 +81,7 @@ def test_nodes_take_folders_by_their_cells(written, tmp_path):
     for k, n in enumerate((1, 1, 1, 9)):
         path = case / f"processor{k}/constant/polyMesh/cellProcAddressing"
         path.write_text(f"{header('labelList', path.name)}{n}\n(\n")
-    selected = together(2, lambda team: PartCase(case, "", team, 1).processors.selected)
+    selected = on_nodes(2, lambda team: PartCase(case, "", team, 1).processors.selected)
     assert selected == [range(3), range(3, 4)]
 
 
@@ -121,7 +121,7 @@ def test_all_nodes_refuse_cases_that_they_cannot_share(name, written, tmp_path):
             PartCase(case, "", team, 1).mesh("1")
         return True
 
-    assert together(2, work) == [True, True]
+    assert on_nodes(2, work) == [True, True]
 
 
 FAULTS = {
@@ -149,4 +149,4 @@ def test_a_fault_of_one_field_is_reported_by_all_nodes(fault, written, tmp_path)
             opened.field("1", "U", VELOCITY_FIELD)
         return True
 
-    assert together(2, work) == [True, True]
+    assert on_nodes(2, work) == [True, True]

@@ -13,7 +13,7 @@ from mesh_shapes import (
     pipe,
     pipe_patches,
 )
-from threads_team import together
+from thread_mpi import on_nodes
 
 from foamprb.compile.link import link
 from foamprb.distributed.fragment import CellSearch, Fragment, IndivisibleMeshError
@@ -162,7 +162,7 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         np.testing.assert_array_equal(sampled, flow.sample(points[found], hosts[found], 0.0)[0])
         return sub, (u, l, at_points, also), correction, found, numbers
 
-    results = together(3, work)
+    results = on_nodes(3, work)
     located = np.concatenate([found for *_, found, _ in results])
     np.testing.assert_array_equal(np.sort(located), np.flatnonzero(hosts >= 0))
     np.testing.assert_array_equal(np.concatenate([numbers for *_, numbers in results]), hosts[located])
@@ -190,7 +190,7 @@ def test_a_path_out_of_the_layers_of_a_node_is_noted():
         u = np.zeros((sub.mesh.n_points + sub.mesh.n_cells, 3))
         return PartFlow(Halo(sub, team), sub.mesh, u, np.zeros((len(u), 3, 3)))
 
-    flow, _ = together(2, work)
+    flow, _ = on_nodes(2, work)
     arrays = flow.arrays()
     host, start = flow.locate(np.array([[0.48, 0.01, 0.02]]))[0], (0.48, 0.01, 0.02)
     for end, patch, strayed in ((0.57, -1, 0), (0.1, -1, 0), (-0.1, 0, 0), (0.6, -2, 1)):
@@ -214,7 +214,7 @@ def test_a_node_holds_the_walls_near_its_cells(random):
             ends.append(arrays.nodes[len(u) :, 0].max())
         return flow, ends
 
-    flow, ends = together(2, work)[0]
+    flow, ends = on_nodes(2, work)[0]
     assert ends[0] < 0.9 < ends[1] == 1.0
     u = np.zeros((len(mesh.nodes), 3))
     whole = MeshFlow(mesh, u, np.zeros((len(u), 3, 3)))
@@ -247,7 +247,7 @@ def test_all_nodes_refuse_meshes_that_they_cannot_share(poly, reason):
             part_of(poly, owned, team, layers=1 + RINGS)
         return True
 
-    assert together(2, work) == [True, True]
+    assert on_nodes(2, work) == [True, True]
 
 
 def test_sums_depend_on_no_order(random):
@@ -255,5 +255,5 @@ def test_sums_depend_on_no_order(random):
     parts = np.split(random.permutation(values), [10, 500])
     alone = total_of(values)
     assert alone == pytest.approx(values.sum(), rel=1e-12)
-    sums = together(3, lambda team: total_of(parts[team.rank], lambda v: team.exchange([v] * 3)))
+    sums = on_nodes(3, lambda team: total_of(parts[team.rank], lambda v: team.exchange([v] * 3)))
     assert sums == [alone] * 3

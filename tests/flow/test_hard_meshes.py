@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from hard_meshes import FLUSH, HARD, N, cut, flow_in, from_hosts, seen, shaken, try_walks
 from mesh_shapes import block, grid
+from walking import walked
 
-from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.folds import FLAT, FOLDED, SOUND
-from foamprb.flow.meshflow import LONG
 from foamprb.flow.walk import REACHED, is_sound, sample_ahead, walk
 
 
@@ -116,19 +115,10 @@ def test_what_leaves_through_a_pile_of_flat_cells_has_its_host_behind_all_of_the
 def test_a_line_in_the_planes_of_faces_ends_in_the_tetrahedron_that_holds_its_goal(seed, start, goal):
     """With the fused products of a processor such a line met a face too far on, or was lost at another."""
     flow = flow_in(HARD["slivers"](seed))
-    found = np.empty((1, 2), dtype=np.int32)
     x0, x1 = np.array([start]), np.array([goal])
-    link(arrive, separate=LONG)(flow.arrays(), flow.locate(x0).astype(np.int32), x0, x1, found)
-    assert found[0, 1] == REACHED
-    assert from_hosts(flow, found[:, 0], x1) < FLUSH
-
-
-def arrive(flow, hosts, start, end, found):
-    for i in range(start.shape[0]):
-        host, _, patch, _ = walk(
-            flow, hosts[i], (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
-        )
-        found[i, 0], found[i, 1] = host, patch
+    hosts, _, patches, _ = walked(flow, flow.locate(x0).astype(np.int32), x0, x1)
+    assert patches[0] == REACHED
+    assert from_hosts(flow, hosts, x1) < FLUSH
 
 
 def test_the_tree_finds_no_place_outside_in_a_fold(random):

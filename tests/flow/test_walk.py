@@ -17,6 +17,7 @@ from mesh_shapes import (
     period,
     rings,
 )
+from walking import walked
 
 from foamprb.compile.link import link
 from foamprb.errors import InputError
@@ -37,20 +38,6 @@ from foamprb.flow.walk import (
 )
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
-
-
-def follow(flow, hosts, start, end, found, fractions):
-    for i in range(start.shape[0]):
-        host, fraction, patch, triangle = walk(
-            flow, hosts[i], (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
-        )
-        found[i, 0], found[i, 1], found[i, 2], fractions[i] = host, patch, triangle, fraction
-
-
-def walked(flow, hosts, start, end):
-    found, fractions = np.empty((len(start), 3), dtype=np.int32), np.empty(len(start))
-    link(follow, separate=LONG)(flow.arrays(), hosts, start, end, found, fractions)
-    return found[:, 0], fractions, found[:, 1], found[:, 2]
 
 
 def at_rest(mesh):

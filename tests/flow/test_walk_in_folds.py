@@ -5,29 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from mesh_shapes import corners, grid
+from walking import walked
 
-from foamprb.compile.link import link
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.meshflow import LONG, MeshFlow
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.walk import REACHED, walk
 
 # Six tetrahedra of each cube, along its main diagonal.
 PATHS = ((1, 2), (2, 3), (3, 7), (7, 4), (4, 5), (5, 1))
 SHIFT = (0.375, 0.3125, 0.25)
-
-
-def follow(flow, hosts, start, end, found, fractions):
-    for i in range(start.shape[0]):
-        host, fraction, patch, _ = walk(
-            flow, hosts[i], (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
-        )
-        found[i, 0], found[i, 1], fractions[i] = host, patch, fraction
-
-
-def walked(flow, hosts, start, end):
-    found, fractions = np.empty((len(start), 2), dtype=np.int32), np.empty(len(start))
-    link(follow, separate=LONG)(flow.arrays(), hosts, start, end, found, fractions)
-    return found[:, 0], fractions, found[:, 1]
 
 
 def at_rest(shape):
@@ -72,7 +58,7 @@ def test_a_walk_between_places_outside_a_fold_goes_through_it(kind, random):
     once = np.flatnonzero(covered.sum(axis=1) == 1)
     assert len(once) > 1000
     a, b = random.choice(once, (2, 20_000))
-    hosts, fractions, patches = walked(flow, covered.argmax(axis=1)[a].astype(np.int32), x[a], x[b])
+    hosts, fractions, patches, _ = walked(flow, covered.argmax(axis=1)[a].astype(np.int32), x[a], x[b])
     assert np.all(patches == REACHED)
     assert np.all(fractions == 1.0)
     assert np.array_equal(hosts, covered.argmax(axis=1)[b])
@@ -114,7 +100,7 @@ def test_a_path_that_touches_the_rim_of_a_wall_goes_on_inside(along, random):
         d = np.array([across, -0.3, up])
         d = d if along == 0 else np.array([-d[1], -d[0], d[2]]) * -1.0
         start, end = rim - d, rim + 0.9 * d
-        hosts, fractions, patches = walked(flow, flow.locate(start), start, end)
+        hosts, fractions, patches, _ = walked(flow, flow.locate(start), start, end)
         assert np.all(patches == REACHED)
         assert np.all(fractions == 1.0)
         assert np.all(flow.locate(end) >= 0)

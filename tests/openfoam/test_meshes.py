@@ -11,7 +11,7 @@ import sys
 import numpy as np
 import pytest
 from paths import ROOT
-from threads_team import together
+from thread_mpi import on_nodes
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, read_case, read_mesh_file, spheres
 from foamprb.cli import main
@@ -154,7 +154,7 @@ def test_nodes_read_a_case_with_cut_cyclic_patches(tool, cases, tmp_path, random
     x = random.uniform(*whole.bounds, (300, 3))
     hosts = whole.locate(x)
     u = whole.sample(x, hosts, 0.0)[0]
-    parts = together(2, lambda team: steady_flow(PartCase(case, "", team, 1), "latestTime", FlowSource()))
+    parts = on_nodes(2, lambda team: steady_flow(PartCase(case, "", team, 1), "latestTime", FlowSource()))
     assert sum(np.isin(np.arange(300), part.locate_own(x)[0]) for part in parts).all()
     for part in parts:
         rows, numbers, _ = part.locate_own(x)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from benchmarks import pipe, tutorials
 
-from foamprb import Status, execute, prepare
+from foamprb import Status, execute, prepare, read_case
 
 pytestmark = pytest.mark.openfoam
 
@@ -16,7 +16,7 @@ def case(tmp_path_factory):
     if not tutorials.EXAMPLES.is_dir():
         pytest.skip("OpenFOAM's tutorials are not here")
     case = tutorials.solve("TJunction", tmp_path_factory.mktemp("tutorials") / "TJunction")
-    pipe.write_positions(case / "constant" / "softCloudPositions", tutorials.places(case, 3000))
+    pipe.write_positions(case / "constant" / "softCloudPositions", pipe.places_in(read_case(case).mesh, 3000))
     return case
 
 
