@@ -130,13 +130,9 @@ class DistributedFlow:
         self._summarise(summaries)
         self._deepen(self._layers)
         first = self.summaries[0]
-        self.patches, self.bounds, self.width, self.notes = (
-            first.patches,
-            first.bounds,
-            first.width,
-            first.notes,
-        )
-        self.mesh = WholeCounts(first.counts[0], first.counts[1], range(first.counts[2]))
+        self.patches, self.bounds, self.width, self.notes = first[:4]
+        n_cells, n_points, n_tets = first.counts
+        self.mesh = WholeCounts(n_cells, n_points, range(n_tets))
         self.field_columns = first.columns
 
     def _deepen(self, layers: int) -> None:

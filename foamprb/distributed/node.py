@@ -182,19 +182,19 @@ class Part:
         arrays: MeshArrays = self._in_space
         return arrays
 
-    def open(
-        self,
-        root: Path,
-        region: str,
-        times: FlowTimes,
-        source: FlowSource,
-        depth: int,
-        load: Labels | None,
-    ) -> Summary | None:
-        """Read the flow; return a summary on the first process of the node."""
+    def open(self, root: Path, times: FlowTimes, source: FlowSource, *layers: Any) -> Summary | None:
+        """Read the flow; return a summary on the first process of the node.
+
+        Parameters
+        ----------
+        root, times, source
+            The case, the times of the flow, and the names of its fields.
+        layers
+            Least number of layers, and loads of the folders; see :class:`PartCase`.
+        """
 
         def read(team: MpiTeam) -> Summary:
-            flow = flow_of(PartCase(root, region, team, depth, load), times, source)
+            flow = flow_of(PartCase(root, source.region, team, *layers), times, source)
             assert isinstance(flow, PartFlow)
             self.flow = flow
             flow.move(self._publisher.move)
@@ -234,7 +234,7 @@ class Part:
             assert isinstance(self.flow, PartSeries)
             until = self.flow.load(start, end)
             now = SharedAtTimes(self.flow.loaded(), self.flow.loaded_fields())
-            return (until, self.flow.rate), self._publisher.renew(now)
+            return (until, self.flow.rate), self._publisher.publish(now)
 
         loaded, placed = self._tell(self._lead(load))
         self._loaded, self.sampled = self.shared.find(placed)

@@ -183,7 +183,7 @@ class Ranks(Communicator):
         """Return the flow with a part on each node; None if it cannot be divided."""
 
         def open_parts(depth: int, load: NDArray[np.int64] | None) -> list[Any]:
-            return self.call(Worker.open_part, case, source.region, times, source, depth, load)
+            return self.call(Worker.open_part, case, times, source, depth, load)
 
         started = clock.perf_counter()
         try:

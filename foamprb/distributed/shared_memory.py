@@ -87,6 +87,10 @@ class Windows:
         self.node.Barrier()
         self._windows[key].Sync()
 
+    def sync(self, key: int) -> None:
+        """Separate earlier writes to an array from later reads, on both sides of a barrier."""
+        self._windows[key].Sync()
+
     def free(self, key: int) -> None:
         """Free a window; later reads are invalid."""
         del self.arrays[key]
@@ -96,10 +100,14 @@ class Windows:
 
     def find(self, tree: Any) -> Any:
         """Replace each :class:`Place` in a tree by this rank's array."""
-        return _map(
-            tree,
-            lambda leaf: self.arrays[leaf.key].reshape(leaf.shape) if isinstance(leaf, Place) else leaf,
-        )
+
+        def array(leaf: Any) -> Any:
+            if not isinstance(leaf, Place):
+                return leaf
+            self.sync(leaf.key)
+            return self.arrays[leaf.key].reshape(leaf.shape)
+
+        return _map(tree, array)
 
 
 class Publisher:
@@ -132,7 +140,7 @@ class Publisher:
     def move(self, array: Array, old: Array | None = None) -> Array:
         """Put an array into shared memory for good, in place of an ``old`` one.
 
-        If it changes, :meth:`renew` lets the others see it.
+        Processes of the computer see its changes at once.
         """
         before = None if old is None else self._own.pop(_extent(old), None)
         if before is not None:
@@ -167,18 +175,6 @@ class Publisher:
             self._order("free", key)
         return placed
 
-    def renew(self, tree: Any) -> Any:
-        """Return a tuple with a :class:`Place` for each array that was moved and may have changed."""
-
-        def place(leaf: Any) -> Any:
-            key = self._own.get(_extent(leaf)) if _is_large(leaf) else None
-            if key is None:
-                return leaf
-            self._order("spread", key)
-            return Place(key, leaf.shape)
-
-        return _map(tree, place)
-
     def publish(self, tree: Any) -> Any:
         """Make the arrays in a tuple known to all processes; those of the call before are forgotten.
 
@@ -199,6 +195,8 @@ class Publisher:
             if key is None:
                 key = self._update(leaf, changed)
                 used.add(key)
+            else:
+                self._windows.sync(key)
             return Place(key, leaf.shape)
 
         placed = _map(tree, place)

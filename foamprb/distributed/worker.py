@@ -28,7 +28,6 @@ from foamprb.distributed.shared_memory import Windows, wait_for_all
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.results.checkpoint import FUNCTIONS, PARTICLES, part_file, write_arrays
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
@@ -228,19 +227,11 @@ class Worker(Rank):
         """Return the state of the particles."""
         return ShareState(np.bincount(self.particles.status, minlength=len(Status)))
 
-    def open_part(
-        self,
-        root: Path,
-        region: str,
-        times: FlowTimes,
-        source: FlowSource,
-        depth: int,
-        load: NDArray[np.int64] | None,
-    ) -> Summary | None:
-        """Read the flow on the cells of this node; return a summary on its first process."""
+    def open_part(self, *source: Any) -> Summary | None:
+        """Read the flow on the cells of this node; see :meth:`Part.open`."""
         self.close_part()
         self._part = Part(self._MPI, self.windows)
-        return self._part.open(root, region, times, source, depth, load)
+        return self._part.open(*source)
 
     def close_part(self) -> None:
         """Free the flow on the cells of this node."""
