@@ -23,6 +23,7 @@ from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
 from foamprb.flow.read.field import FoamField, Kind
+from foamprb.flow.read.fluid import FRACTION_FIELD
 
 log = logging.getLogger("foamprb")
 
@@ -30,11 +31,17 @@ _PSEUDO = ("steadyState", "localEuler", "CoEuler", "SLTS")
 """Schemes of ``ddtSchemes`` by which a time is an iteration, with a step of its own in each cell or none."""
 _AT_REST = frozenset({"staticFvMesh", "dynamicRefineFvMesh"})
 """Types of meshes whose points keep their places."""
+_LEAST_DIFFERENCE = 0.05
+"""Fraction by which densities must differ for a warning."""
+_LEAST_PHASE = 1e-3
+"""Fraction of the cells that a phase must fill for a warning."""
 _ZERO = re.compile(rb"internalField\s+uniform\s+0(?:\.0*)?\s*;")
 _VARIES = re.compile(rb"internalField\s+nonuniform")
 _HEAD = 1 << 16
 LEAST_LOSS = 1e-3
 """Fraction of the flux by which inflow and outflow must differ for a warning."""
+_MOST_LOSS = 0.5
+"""The fraction from which on fates are worthless."""
 ROUND_OFF = 1e-9
 """Fraction of the largest velocity times the area of the boundary by which they must differ, too."""
 
@@ -98,8 +105,8 @@ def caveats_of_case(
     """
     caveats = [*_rotating(case, region, relative), *_porous(case, region)]
     caveats += () if turbulent else _turbulent(folder)
-    caveats += () if mixed else (*_compressible(read, comm), *_phases(folder))
-    return [*caveats, *([*_moving(case, region, folder), *_frozen(case, region)] if moving else ())]
+    caveats += () if mixed else (*_compressible(read, comm), *_phases(folder, read, comm))
+    return [*caveats, *(_moving(case, region, folder) if moving else ())]
 
 
 def refuse_absolute(case: Path, region: str, folder: Path, velocity: str) -> None:
@@ -127,12 +134,9 @@ def _time_scheme(case: Path, region: str) -> str:
     return next((word for word in words if word != "bounded"), "")
 
 
-def _frozen(case: Path, region: str) -> Iterator[Caveat]:
-    if _time_scheme(case, region) not in ("", *_PSEUDO):
-        yield Caveat(
-            "the flow is one instant of an unsteady solver (ddtSchemes), which stands still for the "
-            "particles: right if it is steady by then. solution/transient true follows all times."
-        )
+def is_unsteady(case: Path, region: str) -> bool:
+    """Return whether the times of a case are those of an unsteady solver."""
+    return _time_scheme(case, region) not in ("", *_PSEUDO)
 
 
 def caveat_of_flux(
@@ -141,9 +145,12 @@ def caveat_of_flux(
     boundary: Floats,
     read: Callable[[str, Kind], FoamField],
     velocity: str,
+    unsteady: bool,
     comm: MeshCommunicator = SINGLE_NODE,
 ) -> list[Caveat]:
     """Return a warning if inflow and outflow differ.
+
+    The balance of a phase is not that of the fluid, and a compressible fluid accumulates in unsteady flows.
 
     Parameters
     ----------
@@ -155,16 +162,17 @@ def caveat_of_flux(
         (n_boundary, 3) velocity at the boundary faces, m/s, used where there is no ``phi``.
     read
         Reads a field at the time.
-    velocity
-        Name of the velocity; ``phi`` is the flux of ``U`` only.
+    velocity, unsteady
+        Name of the velocity, whose flux is ``phi`` if it is ``U`` or ``Urel``; True for an unsteady flow.
     comm
         The nodes that hold the mesh.
     """
     mesh = whole.mesh
     of_all = comm.of_all
-    phi = _flux(read, whole.patches, of_all) if velocity == "U" else None
-    if phi is None and varies(comm.extremes(densities(read))):
-        # Without phi the flux of mass is unknown.
+    phi = _flux(read, whole.patches, of_all) if velocity in ("U", "Urel") else None
+    compressible = varies(comm.extremes(densities(read))) or (phi is not None and phi[2] == "kg/s")
+    # Without phi the flux of mass is unknown.
+    if "." in velocity or (compressible and (unsteady or phi is None)):
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
     flux = phi[0] if phi else np.einsum("ni,ni->n", boundary, mesh.boundary_areas)
@@ -172,13 +180,15 @@ def caveat_of_flux(
     flux, areas = flux[comm.own_boundary], areas[comm.own_boundary]
     outflow, inflow = sum(of_all(float(flux[flux > 0.0].sum()))), sum(of_all(float(-flux[flux < 0.0].sum())))
     round_off = ROUND_OFF * sum(of_all(float(areas.sum()))) * max(of_all(float(speeds.max(initial=0.0))))
-    if abs(outflow - inflow) <= max(LEAST_LOSS * max(outflow, inflow), round_off):
+    lost, most = abs(outflow - inflow), max(outflow, inflow)
+    if lost <= max(LEAST_LOSS * most, round_off):
         return []
     return [
         Caveat(
             f"the flow does not conserve {'mass' if unit == 'kg/s' else 'volume'}: {inflow:.6g} {unit} enter "
             f"and {outflow:.6g} {unit} leave (from {source}). Has the solver converged at this time? "
-            "Particles follow a flow that loses or makes fluid."
+            "Particles follow a flow that loses or makes fluid.",
+            "unbalanced" if lost > _MOST_LOSS * most else "",
         )
     ]
 
@@ -238,22 +248,28 @@ def is_not_zero(path: Path) -> bool:
 
 def _compressible(read: Callable[[str, Kind], FoamField], comm: MeshCommunicator) -> Iterator[Caveat]:
     low, high = comm.extremes(densities(read))
-    if varies((low, high)):
+    if high - low > _LEAST_DIFFERENCE * high:
         yield Caveat(
             f"the fluid's density is from {low:.4g} to {high:.4g} kg/m3 (there is rho), but "
             "to particles it is constant, rhoInf."
         )
 
 
-def _phases(folder: Path) -> Iterator[Caveat]:
+def _phases(folder: Path, read: Callable[[str, Kind], FoamField], comm: MeshCommunicator) -> Iterator[Caveat]:
     paths = sorted(path for path in folder.glob("alpha.*") if path.is_file() and ".orig" not in path.name)
     names = [path.name.removesuffix(".gz") for path in paths if _VARIES.search(read_bytes(path, _HEAD))]
-    if names:
+    if any(_LEAST_PHASE < _mean(read(name, FRACTION_FIELD), comm) < 1.0 - _LEAST_PHASE for name in names):
         yield Caveat(
             f"the flow has several phases ({', '.join(names)}), but to particles the fluid is one, with "
             "rhoInf and one viscosity everywhere: they cross interfaces as if there were none. "
             "solution/mixture true takes those of the local mixture of two phases."
         )
+
+
+def _mean(field: FoamField, comm: MeshCommunicator) -> float:
+    """Return the mean of fractions over the cells."""
+    values = field.cells[:, 0].clip(0.0, 1.0)
+    return comm.total(values) / comm.total(np.ones(len(values)))
 
 
 def _moving(case: Path, region: str, folder: Path) -> Iterator[Caveat]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -39,6 +41,7 @@ from foamprb.flow.read.caveats import (
     caveats_of_case,
     corrected,
     corrected_in_time,
+    is_unsteady,
     pseudo_time,
     refuse_absolute,
 )
@@ -65,6 +68,8 @@ from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import SeriesFlow, series_of
 from foamprb.memory import trim
 
+_STEADY = 0.01
+"""Change of the velocity, over itself and at the last rate since time 0, below which a flow is steady."""
 PRECISION_NOTE = (
     "Coordinates have passed through single precision in VTK's OpenFOAM reader: a relative error of up to "
     "6e-8 of their distance from the origin."
@@ -248,12 +253,13 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     whole = case.mesh(name)
     whole = with_walls(whole, field, case.comm)
     cells, boundary = velocities(field, whole)
-    flux = caveat_of_flux(whole, cells, boundary, partial(case.field, name), source.velocity, case.comm)
+    read, unsteady = partial(case.field, name), is_unsteady(case.root, case.region)
+    flux = caveat_of_flux(whole, cells, boundary, read, source.velocity, unsteady, case.comm)
     rotating: list[RotatingZone] = []
     if rotations:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
-    read, kinds = partial(case.field, name), kinds_of(source.sampled, case.fields, (name,))
+    kinds = kinds_of(source.sampled, case.fields, (name,))
     reconstruct = Reconstruction(whole.mesh, comm=case.comm)
     u, l, *more = _at_nodes(case, name, source, whole, reconstruct, cells, boundary)
     sampled = read_sampled(read, source.sampled, kinds, whole, reconstruct) if source.sampled else None
@@ -266,7 +272,10 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     correction = corrected(conserve, u, l, mass, case.folder(name) / source.velocity, notes=notes)
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
-    notes += _caveats(case, name, source, relative=bool(rotations))
+    caveats = _caveats(case, name, source, relative=bool(rotations))
+    if unsteady and all(caveat.fault != "movingMesh" for caveat in caveats):
+        caveats += _instant(case, name, source.velocity, cells, whole.mesh)
+    notes += caveats
     notes += flux
     del conserve
     trim()
@@ -301,7 +310,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     whole = case.mesh(names[0])
     whole = with_walls(whole, field, case.comm)
     first = velocities(field, whole)
-    flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity, case.comm)
+    read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
+    flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady, case.comm)
     reconstruct = Reconstruction(whole.mesh, comm=case.comm)
     conserve = Conservation(whole.mesh, comm=case.comm)
 
@@ -385,6 +395,22 @@ def _caveats(case: Case, time: str, source: FlowSource, **options: bool) -> list
     mixed = source.viscosity is not None and source.viscosity.kind == FRACTION_FIELD
     options |= {"turbulent": source.turbulent, "mixed": mixed}
     return caveats_of_case(case.root, case.region, case.folder(time), read, comm=case.comm, **options)
+
+
+def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) -> list[Caveat]:
+    """Return a warning that an unsteady flow stands still, unless it has become steady."""
+    text = "the flow is one instant of an unsteady solver (ddtSchemes), which stands still for the particles"
+    earlier = [time for time in case.times() if 0.0 < float(time) < float(name)]
+    with suppress(InputError):
+        if earlier and case.mesh_folder(earlier[-1]) == case.mesh_folder(name):
+            changes = cells - at_cells(case.field(earlier[-1], velocity, VELOCITY_FIELD), mesh)
+            squares = (case.comm.total(np.einsum("ci,ci->c", v, v)) for v in (changes, cells))
+            change = math.sqrt(next(squares) / max(next(squares), 1e-300))
+            if change * float(name) < _STEADY * (float(name) - float(earlier[-1])):
+                return []
+            text += f": its velocity changed by {100.0 * change:.3g} % since {earlier[-1]} s"
+            return [Caveat(f"{text}. solution/transient true follows all times.")]
+    return [Caveat(f"{text}: right if it is steady by then.")]
 
 
 def _refuse_moving(case: Case, time: str) -> None:
