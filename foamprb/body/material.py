@@ -161,6 +161,8 @@ def unknown(*_: Scalar) -> Any:
     return nan
 
 
+STEADY_CAPILLARY = 0.3
+"""Approximate largest μ_f γ̇/μ_s at which a neo-Hookean sphere has a steady shape in uniaxial extension."""
 _STEP = 1e-30
 
 

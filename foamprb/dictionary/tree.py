@@ -74,7 +74,7 @@ class Entry:
         """
         beside = f"{self.parent.path}/" if self.parent and self.parent.path else ""
         paths = [beside + name for name in meant]
-        return self.source.mistake(self.line, f"{self.path} {what}", meant=paths)
+        return self.source.mistake(self.line, f"{self.path} {what}".lstrip(), meant=paths)
 
     def missing(self, key: str, allowed: str) -> Mistake:
         """Return the error for a missing key of this dictionary."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
-from foamprb.body.material import MATERIALS
+from foamprb.body.material import MATERIALS, STEADY_CAPILLARY
 from foamprb.body.morphology import drop_growth
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
@@ -18,8 +18,6 @@ from foamprb.cloud.viscosity import medium_at, viscosity_at_nodes
 from foamprb.flow.base import Flow
 from foamprb.flow.nodes import NodeValues
 
-STEADY_CAPILLARY = 0.3
-"""Approximate largest μ_f γ̇/μ_s at which a neo-Hookean sphere has a steady shape in uniaxial extension."""
 _MOST_NODES, _SMALL_SHARE = 20_000, 0.01
 _STIFF = 1e8
 """Approximate largest μ_s Δt/μ_f without shorter steps by round-off, without inertia."""

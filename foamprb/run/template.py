@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
+from foamprb.body.material import STEADY_CAPILLARY
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.dictionary.constraints import Vector3
@@ -54,11 +54,10 @@ PARTICLES = 1000
 """Approximate number of particles in a first run."""
 _TIMES, _MOST_STEPS, _SAMPLES = 50, 5000, 300
 """Number of write times, largest number of steps, and approximate number of points of a path."""
-_CAPILLARY, _MOST_CAPILLARY = 0.1, 0.4
-"""Capillary numbers of the initial stiffness, at the largest rates on half and on 90 % of the paths.
-
-Extension may tear softer bodies apart.
-"""
+_CAPILLARIES = {0.5: 0.1, 0.9: 0.4, 1.0: 2.0}
+"""Capillary numbers of the initial stiffness at the largest rates on these shares of the paths."""
+_STRAIN = 1.0
+"""Largest strain on a path by extension in which a body has no steady shape."""
 _ROUND_OFF = 1e-6
 """Speed over √(g L), and rate times L over the speed, below which they are round-off."""
 _LEAST_WAY = 1e-4
@@ -268,8 +267,23 @@ def _inflow(faces: PatchFaces) -> Floats:
     return rates
 
 
-def rates_on_paths(flow: MeshFlow, scales: FlowScales) -> NDArray[np.float64]:
-    """Return the largest shear rate on some paths of the fluid, 1/s, from the inlet or from all cells."""
+class _Paths(NamedTuple):
+    """Rates on paths of the fluid, 1/s."""
+
+    shear: Floats
+    """(n,), the largest on each path."""
+    extension: Floats
+    """(moves, n), the rate of extension times √3, the shear rate in uniaxial extension; 0 behind the end."""
+    duration: Floats
+    """(moves, n), s."""
+
+    def strain(self, limit: float) -> float:
+        """Return the largest strain on a path where the extension exceeds a limit, 1/s."""
+        return float((np.maximum(self.extension - limit, 0.0) * self.duration).sum(axis=0).max())
+
+
+def rates_on_paths(flow: MeshFlow, scales: FlowScales) -> _Paths:
+    """Return the rates on some paths of the fluid, from the inlet or from all cells."""
     random = np.random.default_rng(1)
     if scales.inlet:
         faces = flow.patch_faces(scales.inlet, 0.0)
@@ -279,18 +293,20 @@ def rates_on_paths(flow: MeshFlow, scales: FlowScales) -> NDArray[np.float64]:
     else:
         x = flow.mesh.centres[random.integers(flow.mesh.n_cells, size=_PATHS)]
         hosts = flow.locate(x)
-    largest = np.zeros(len(x))
+    paths = _Paths(np.zeros(len(x)), *np.zeros((2, _MOVES, len(x))))
     moving = np.flatnonzero(hosts >= 0)
-    for _ in range(_MOVES):
+    for move in range(_MOVES):
         u, l = flow.sample(x[moving], hosts[moving], 0.0)
         rate = np.asarray(shear_rate(tuple(l.reshape(-1, 9).T)))  # type: ignore[arg-type]
-        largest[moving] = np.maximum(largest[moving], rate)
+        paths.shear[moving] = np.maximum(paths.shear[moving], rate)
         speed = np.linalg.norm(u, axis=1)
         step = _MOVE * flow.cell_size(hosts[moving]) / np.maximum(speed, 1e-300)
+        paths.extension[move, moving] = math.sqrt(3.0) * np.linalg.eigvals(l).real.max(axis=1)
+        paths.duration[move, moving] = np.where(speed > 0.0, step, 0.0)
         x[moving] += step[:, None] * u
         hosts[moving] = flow.locate(x[moving])
         moving = moving[(hosts[moving] >= 0) & (speed > 0.0)]
-    return largest
+    return paths
 
 
 def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
@@ -376,10 +392,13 @@ def _fluid(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) -
     time = None if source.file else "latestTime"
     nu: float | None = None
     mu: float | None = None
-    lines = [_unknown("nu", "m2/s, or mu, Pa s", f"{where} has none that is read")]
-    with suppress(InputError):
-        if file is not None:
+    lines, why = list[str](), f"{where} has none that is read"
+    if file is not None:
+        try:
             nu, mu, lines = _viscosity(file, case, source.region, time, scales.shear, where)
+        except InputError as error:
+            why = " ".join(str(error).split(". ")[0].split())
+    lines = lines or [_unknown("nu", "m2/s, or mu, Pa s", why)]
     density = None
     with suppress(InputError):
         density = find_density(case, source.region, file, "latestTime")
@@ -515,13 +534,13 @@ def _phases(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) 
             if value is None:
                 lines.append(_unknown(key, unit, f"{name} has none that is read"))
             else:
-                lines.append(f"{start}{key} {value:.4g}; // {unit}, of {name}{'' if start else why}")
+                lines.append(f"{start}{key} {value:.6g}; // {unit}, of {name}{'' if start else why}")
         if name == main:
             nu, rho = pair
     if not main:
         lines.insert(0, f"// unknown: the phase of the particles; no field alpha.{next(iter(phases))}")
     options = []
-    if len(phases) == 2 and shares and shares.get(main, 0.0) < 0.999:
+    if len(phases) == 2 and shares:
         options = [
             f"// mixture true; // local nu and rho of {' and '.join(phases)}, in place of nu and rhoInf"
         ]
@@ -550,16 +569,18 @@ def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
 
 def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float | None) -> list[str]:
     """Return the entries of the stiffness by the rates on paths of the fluid; of a viscosity, Pa s."""
-    largest = rates_on_paths(flow, scales) if scales.speed > 0.0 else np.zeros(1)
     length = float(np.linalg.norm(flow.bounds[1] - flow.bounds[0]))
-    if largest.max() * length <= _ROUND_OFF * scales.speed:
-        largest = np.zeros(1)
-    rate = float(np.median(largest)) or 1.0
-    where = "the largest on half of the paths"
-    if not largest.any():
-        where = "as the flow is uniform" if scales.speed > 0.0 else "as the fluid is at rest"
+    paths = rates_on_paths(flow, scales) if scales.speed > 0.0 else None
+    largest = np.zeros(0) if paths is None else paths.shear[paths.shear * length > _ROUND_OFF * scales.speed]
+    rate, over_mu, where = 1.0, 1.0 / _CAPILLARIES[0.5], "as the fluid is at rest"
+    if len(largest):
+        rate, where = float(np.median(largest)), "the largest on half of the paths"
+        over_mu = max(float(np.quantile(largest, q)) / Ca for q, Ca in _CAPILLARIES.items())
+        while paths and paths.strain(STEADY_CAPILLARY * over_mu) > _STRAIN:
+            over_mu *= 1.1
+    elif paths:
+        where = "as the flow is uniform"
     lines = ["poissonsRatio 0.499; // nearly incompressible"]
-    over_mu = max(rate / _CAPILLARY, float(np.quantile(largest, 0.9)) / _MOST_CAPILLARY)
     if mu is None:
         return [*lines, f"Ca {_rounded(rate / over_mu):g}; // capillary number",
                 f"referenceShearRate {_rounded(rate):g}; // 1/s, {where}"]  # fmt: skip

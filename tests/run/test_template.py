@@ -8,6 +8,7 @@ import subprocess
 import sys
 from itertools import product
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,8 +22,19 @@ from foamprb.flow.base import Patch
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.fluid import apparent_viscosity
 from foamprb.flow.read.source import Division, FlowSource
+from foamprb.run import template as template_module
 from foamprb.run.job import prepare
-from foamprb.run.template import FlowScales, _nice, diameter, rates_on_paths, scales_of, times, write_template
+from foamprb.run.template import (
+    FlowScales,
+    _nice,
+    _Paths,
+    _stiffness,
+    diameter,
+    rates_on_paths,
+    scales_of,
+    times,
+    write_template,
+)
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import read_settings
 
@@ -275,8 +287,8 @@ def test_the_phase_of_the_velocity_goes_first(case):
     put_state(case)
     text = write_template(case, FlowSource(velocity="U.water")).read_text()
     rho = 1027.0 + 3e5 / (3000.0 * 300.0)
-    assert re.search(r"rhoInf +1027; +// kg/m3, of water", text)
-    assert f"// rhoInf {3e5 * 28.96 / (8314.46 * 600.0):.4g}; // kg/m3, of air" in text
+    assert re.search(r"rhoInf +1027.33; +// kg/m3, of water", text)
+    assert f"// rhoInf {3e5 * 28.96 / (8314.46 * 600.0):.6g}; // kg/m3, of air" in text
     assert read_settings(case).fluid.nu == pytest.approx(1e-3 / rho, rel=1e-3)
 
 
@@ -311,7 +323,7 @@ def test_what_the_case_lacks_is_not_invented(case, dictionary, missing):
     """It is in a comment, and an error of a run that names the entry."""
     (case / "constant/transportProperties").write_text(dictionary)
     text = write_template(case).read_text()
-    unknown = re.findall(r"// (\w+) +unknown: constant/transportProperties has none that is read; set", text)
+    unknown = re.findall(r"// (\w+) +unknown: constant/transportProperties.*; set", text)
     assert unknown == missing
     with pytest.raises(InputError) as caught:
         read_settings(case)
@@ -362,10 +374,73 @@ def scales(**changed):
 def test_stiffness_is_that_for_the_rates_where_the_fluid_goes(case):
     """In a pipe of wall rate γ̇_w half of the fluid passes where the rate is below γ̇_w √(1 − 1/√2)."""
     flow = read_flow(case)
-    found = rates_on_paths(flow, scales_of(flow))
+    found = rates_on_paths(flow, scales_of(flow)).shear
     wall = scales_of(flow).most_shear
     assert np.median(found) == pytest.approx(wall * np.sqrt(1.0 - np.sqrt(0.5)), rel=0.25)
     assert found.max() < 1.1 * wall
+
+
+def stiffness(monkeypatch, shear, extension, duration):
+    """The modulus over the viscosity by given rates on paths."""
+    paths = _Paths(*map(np.asarray, (shear, extension, duration)))
+    monkeypatch.setattr(template_module, "rates_on_paths", lambda *_: paths)
+    flow = SimpleNamespace(bounds=np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]))
+    (line,) = (line for line in _stiffness(flow, scales(), 1.0) if "shearModulus" in line)
+    return float(line.split()[1].rstrip(";")), line
+
+
+def test_stiffness_is_that_for_the_worst_path(monkeypatch):
+    """Ca is at most 2 in shear; extension above Ca 0.3 may strain a body by 1 on its way."""
+    still = np.zeros((1, 100)), np.zeros((1, 100))
+    shear = np.full(100, 10.0)
+    assert stiffness(monkeypatch, shear, *still)[0] == 100.0
+    shear[7] = 1000.0
+    assert stiffness(monkeypatch, shear, *still)[0] == 500.0
+    extension, duration = still
+    extension[0, 7], duration[0, 7] = 900.0, 0.01
+    # (900 − 0.3 G) 0.01 = 1 for G = 2667, on a scale of steps of 10 %.
+    G, line = stiffness(monkeypatch, shear, extension, duration)
+    assert 2667.0 <= G <= 2667.0 * 1.15
+    assert "at 10 1/s, the largest on half of the paths" in line
+    assert "as the flow is uniform" in stiffness(monkeypatch, np.full(100, 1e-9), *still)[1]
+
+
+def put_uniform(case, u):
+    for file in case.glob("[0-9]*/U"):
+        file.write_text(
+            header("volVectorField", "U") + f"dimensions [0 1 -1 0 0 0 0]; internalField uniform ({u} 0 0); "
+            f'boundaryField {{ ".*" {{ type fixedValue; value uniform ({u} 0 0); }} }}'
+        )
+
+
+@pytest.mark.parametrize(
+    ("u", "time", "g", "rests"),
+    [(1e-7, "10", 9.81, True), (1e-7, "10", 0.0, True), (1e-4, "10", 9.81, False), (1e-4, "0.1", 0.0, True)],
+)
+def test_a_fluid_at_rest_is_told_by_scale(tmp_path, u, time, g, rests):
+    """Against √(g L) of waves, and by its way in the solver's time; here L is 1.7 m and a cell 0.5 m."""
+    write_case(tmp_path, perturbation=0.0, times=(time,))
+    put_uniform(tmp_path, u)
+    (tmp_path / "constant/g").write_text(
+        header("uniformDimensionedVectorField", "g") + f"dimensions [0 1 -2 0 0 0 0]; value (0 0 {-g});"
+    )
+    text = write_template(tmp_path).read_text()
+    assert (re.search(r"endTime +1;", text) is not None) == rests
+    assert ("as the fluid is at rest" if rests else "as the flow is uniform") in text
+
+
+def test_the_regions_beside_the_mesh_are_named(tmp_path, capsys):
+    """As splitMeshRegions leaves them without -overwrite."""
+    write_box(tmp_path)
+    for name in ("air", "heater"):
+        shutil.copytree(tmp_path / "constant/polyMesh", tmp_path / "constant" / name / "polyMesh")
+    assert main(["init", "-case", str(tmp_path)]) == 0
+    assert "The case has the regions air, heater: -region NAME." in capsys.readouterr().out
+    (tmp_path / "constant/softCloudProperties").unlink()
+    (tmp_path / "1e1/air").mkdir()
+    (tmp_path / "1e1/U").rename(tmp_path / "1e1/air/U")
+    assert main(["init", "-case", str(tmp_path)]) == 1
+    assert "no field U; the fields are p. These regions have it: air; choose" in capsys.readouterr().err
 
 
 def test_times_are_multiples_of_each_other():
