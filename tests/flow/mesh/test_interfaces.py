@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from mesh_shapes import interfaces
+import pytest
+from mesh_shapes import interfaces, joined_boxes
 
-from foamprb.flow.mesh.interfaces import overlaps, pairs_within
+from foamprb.flow.mesh.interfaces import face_pairs, overlaps, pairs_within
 
 
 def test_pairs_of_spheres_are_those_that_meet(random):
@@ -21,6 +22,25 @@ def test_pairs_of_spheres_are_those_that_meet(random):
     found[rows, columns] = True
     assert len(rows) == expected.sum()
     np.testing.assert_array_equal(found, expected)
+
+
+def test_unequal_faces_share_the_areas_that_lie_on_each_other():
+    """Squares of a quarter and a third: along each axis the parts are those of two rulers."""
+    mesh = joined_boxes([4, 3], [("cyclicAMI", 0, 0, 1)])
+    pairs, n = face_pairs(mesh), len(mesh.boundary_centres)
+    shared = np.zeros((n, n))
+    shared[pairs.faces, pairs.others] = pairs.parts
+    here, there = mesh.couplings[0].faces, mesh.couplings[0].partners
+    others = np.unique(mesh.couplings[1].faces)
+    assert set(there) <= set(others)
+    length = np.ones((len(here), len(others)))
+    for axis in (1, 2):
+        one, other = (mesh.boundary_centres[faces, axis] for faces in (here, others))
+        low = np.maximum.outer(one - 1.0 / 8.0, other - 1.0 / 6.0)
+        high = np.minimum.outer(one + 1.0 / 8.0, other + 1.0 / 6.0)
+        length *= np.maximum(high - low, 0.0)
+    assert shared[np.ix_(here, others)] == pytest.approx(length * 16.0, abs=1e-9)
+    assert shared[np.ix_(others, here)] == pytest.approx(length.T * 9.0, abs=1e-9)
 
 
 def test_a_triangle_lists_those_of_the_partner_of_its_face_though_they_are_far():
