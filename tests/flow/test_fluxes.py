@@ -40,6 +40,7 @@ from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow
+from foamprb.settings.patches import patch_interactions
 
 SIDES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
 
@@ -319,6 +320,28 @@ def test_pieces_between_coupled_patches_keep_volume(network, seed):
     made = mesh.volumes * pushed[of_cells] / np.bincount(piece)[of_cells]
     made = volumes * (made / np.bincount(cell, volumes))[cell]
     assert np.sqrt(np.mean((fluxes.sum(axis=1) - made) ** 2)) < 3e-5 * size
+
+
+@pytest.mark.parametrize("corrected", [True, False])
+def test_followers_cross_unequal_faces_and_come_to_no_wall(corrected):
+    """A whirl about the joint of two closed cubes."""
+    mesh = joined_boxes([5, 4], [("cyclicAMI", 0, 0, 1)], perturbation=0.0)
+    second = mesh.centres[:, :1] > 2.0
+    x = (mesh.centres - np.hstack([2.0 * second, 0.0 * second, 0.0 * second])) / [2.0, 1.0, 1.0]
+    u, l = Reconstruction(mesh)(whirl(x) / [1.0, 2.0, 1.0], np.zeros_like(mesh.boundary_centres))
+    flow = MeshFlow(mesh, u, l, correction=Conservation(mesh)(u, l) if corrected else None)
+    starts = np.random.default_rng(7).uniform(0.0, 1.0, (400, 3))
+    bodies = spheres(starts, d=1e-9, rho=1.0, mu=1e3)
+    still = Medium(1e-3, 1.0, (0.0, 0.0, 0.0))
+    cloud = Cloud(bodies, flow, still, patch_interactions(flow, Stick()), 0.05, Models("roscoe"))
+    cloud.advance(400)
+    active = cloud.particles.status == Status.ACTIVE
+    across = cloud.particles.x[active, 0] > 2.0
+    if corrected:
+        assert active.all()
+        assert np.mean(across) == pytest.approx(0.5, abs=0.1)
+    else:
+        assert np.count_nonzero(~active) > 10
 
 
 def test_a_flow_from_rest_at_an_inlet_is_taken():
