@@ -245,6 +245,8 @@ def _series(path: Path) -> dict[str, str]:
         raise InputError(f"{path}: not a list of files with their times: {error!r}") from None
     if not times:
         raise InputError(f"{path}: the list of files is empty.")
+    if len(times) < len(files):
+        raise InputError(f"{path}: {len(files)} files have {len(times)} different times. Remove the others.")
     return {name: times[name] for name in sorted(times, key=float)}
 
 

@@ -12,7 +12,7 @@ from foamprb.errors import InputError
 from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.mesh import assemble, build_mesh
 from foamprb.flow.read import division
-from foamprb.flow.read.division import boundary_velocity, divided, lost_flow
+from foamprb.flow.read.division import BoundaryVelocity, boundary_velocity, divided, lost_flow
 from foamprb.flow.read.source import Division
 
 FILE = Path("flow.vtu")
@@ -129,6 +129,21 @@ def test_an_opening_in_a_wall_is_a_patch_of_its_own():
         patch._replace(type="wall") if patch.name == "opening0" else patch for patch in mesh.patches
     )
     assert len(lost_flow(mesh, u)) == 1
+
+
+@pytest.mark.parametrize(("speed", "count"), [(1e-2, 3), (1e-5, 2)])
+def test_a_sharp_edge_with_hardly_any_flow_is_no_opening(speed, count):
+    """As the edges of a domain that is filled with tetrahedra between points."""
+    shape = block(2, 0.0)
+    poly = poly_of_grid(shape, None, "flow.vtu")
+    mesh = assemble(poly, "flow.vtu")
+    x, _, z = mesh.boundary_centres.T
+    faces = np.zeros((1, len(x), 3))
+    faces[0, (x == 0.0) | (x == 1.0), 0] = 1.0
+    faces[0, z == 1.0, 2] = speed
+    u = BoundaryVelocity(faces, faces, np.zeros(len(x), dtype=bool))
+    patches = divided(poly, mesh, shape, Division(), u, FILE)[0].patches
+    assert [patch.type for patch in patches].count("patch") == count
 
 
 def test_the_type_of_a_patch_is_that_of_all_times():

@@ -328,6 +328,10 @@ def test_a_time_that_does_not_fit_is_refused_when_it_is_read(change, message, tm
         ('{"files": [{"name": "none.vtu", "time": 1}]}', "none.vtu does not exist"),
         ('{"files": [{"name": "case.vtm.series", "time": 1}]}', "series does not exist"),
         ('{"files": [{"time": 1}]}', "not a list of files"),
+        (
+            '{"files": [{"name": "a.vtu", "time": 1}, {"name": "b.vtu", "time": 1}]}',
+            "2 files have 1 different times",
+        ),
     ],
 )
 def test_broken_series(text, message, tmp_path):
