@@ -97,7 +97,7 @@ def describe_file(
     from foamprb.flow.read.meshfile import open_file
     from foamprb.flow.read.vtkfile import times_of_file
 
-    grid, mesh, _, patches, remarks = open_file(path, velocity, "latestTime", division, scale)
+    grid, mesh, _, patches, remarks, _ = open_file(path, velocity, "latestTime", division, scale)
     bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
     kinds = _kinds(mesh.face_start, mesh.owner, mesh.neighbour, mesh.n_cells)
     lines = [f"File    {path}", "", *_lines_of_mesh(mesh.n_points, kinds, bounds)]

@@ -44,6 +44,8 @@ Number of faces; of an opening, its flux over that of all; of a wall, its area o
 _LEAST_SLIP, _MOST_SHEAR, _PLANE = 1e-3, 0.3, 1e-5
 """Limits of a symmetry plane: its speed over the largest, the change of velocity across the mesh, at the rate
 at the plane, over the velocity, and the relative difference of its area from that of its projection."""
+_AT_REST = 0.5
+"""Velocity that is continued to a wall at rest over that in the cells, at most; rms."""
 _MOST_LOST = 0.2
 """Fraction by which inflow and outflow through the openings may differ without a warning."""
 
@@ -253,6 +255,17 @@ def _types(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp]) -> list[st
     largest = np.square(u.cells).sum(axis=(0, 2)).max(initial=0.0)
     sliding = flat & (slip > _LEAST_SLIP**2 * largest * total) & (sheared < _MOST_SHEAR**2 * slip)
     return ["patch" if o else "symmetryPlane" if s else "wall" for o, s in zip(opening, sliding, strict=True)]
+
+
+def faces_at_rest(mesh: Mesh, u: BoundaryVelocity | None) -> Mask:
+    """Return True for boundary faces of walls towards which the velocity decreases, as on walls at rest."""
+    labels = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
+    if u is None:
+        return np.zeros(len(labels), dtype=bool)
+    at_faces, in_cells = (np.bincount(labels, np.square(v).sum(axis=(0, 2))) for v in (u.faces, u.cells))
+    walls = np.array([patch.type == "wall" for patch in mesh.patches], dtype=bool)
+    at_rest: Mask = (walls & (at_faces <= _AT_REST**2 * in_cells))[labels]
+    return at_rest
 
 
 def patch_lines(mesh: Mesh, u: BoundaryVelocity | None) -> list[str]:

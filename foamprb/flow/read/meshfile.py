@@ -31,6 +31,7 @@ from foamprb.flow.read.checks import require_numbers, require_volumes
 from foamprb.flow.read.division import (
     boundary_velocity,
     divided,
+    faces_at_rest,
     lost_flow,
     patch_lines,
     with_types,
@@ -186,11 +187,11 @@ class _NodalVelocity:
             ]
             for index in self._valued:
                 faces[mesh.patch_start[index] : mesh.patch_start[index + 1]] = True
-            self._reconstruct = Reconstruction(mesh, valued=faces)
             if not faces.any():
-                self.notes = [
-                    "No velocities were given on the boundary, where those of the cells are continued."
-                ]
+                faces |= file.at_rest
+                self.notes = ["The file has velocities of cells alone: they are continued to the boundary."]
+                self.notes += ["The fluid is at rest on walls, as they show."] * bool(faces.any())
+            self._reconstruct = Reconstruction(mesh, valued=faces)
         elif velocity in grid.point_data:
             if gradient:
                 raise InputError(
@@ -303,6 +304,8 @@ class MeshFile(NamedTuple):
     """Description of each patch."""
     remarks: list[str]
     """Further notes for the user, and warnings."""
+    at_rest: NDArray[np.bool_]
+    """(n_boundary,): faces of walls at rest."""
 
     @property
     def notes(self) -> list[str]:
@@ -348,7 +351,7 @@ def open_file(
         remarks.append(f"Openings are unknown: {_other_names(grid, velocity)}")
     else:
         remarks += [*lost_flow(mesh, u), *_doubtful_units(mesh, grid, velocity)]
-    return MeshFile(grid, mesh, surfaces, patch_lines(mesh, u), remarks)
+    return MeshFile(grid, mesh, surfaces, patch_lines(mesh, u), remarks, faces_at_rest(mesh, u))
 
 
 def _doubtful_units(mesh: Mesh, grid: Any, velocity: str) -> list[Caveat]:

@@ -7,7 +7,7 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
-from mesh_shapes import block, box_patches, corners, grid
+from mesh_shapes import block, box_patches, corners, grid, pipe
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
@@ -181,7 +181,7 @@ def test_velocities_on_the_patches_that_have_some_count_and_others_are_continued
     _, u, l = flow.at_nodes()
     assert u == pytest.approx(expected, abs=1e-5)
     assert l == pytest.approx(slopes.reshape(-1, 9), abs=1e-4)
-    assert any("No velocities were given on the boundary" in note for note in flow.notes) == (not names)
+    assert any("The file has velocities of cells alone" in note for note in flow.notes) == (not names)
 
 
 TIMES = (0.5, 1.0, 10.0)
@@ -368,6 +368,21 @@ def test_a_given_gradient_is_taken(tmp_path, random):
         read_mesh_file(tmp_path / "flow.vtu", gradient="grad(V)")
     with pytest.raises(InputError, match="a gradient has 9 components"):
         read_mesh_file(tmp_path / "flow.vtu", gradient="U")
+
+
+def test_the_fluid_is_at_rest_on_the_walls_that_cells_show(tmp_path):
+    """Poiseuille flow; a fluid that slides along its walls is continued to them."""
+    shape = pipe(6)
+    centres = build_mesh(shape).centres
+    for least, at_wall, tolerance in ((0.0, 0.0, 1e-12), (4.0, 4.0, 0.2)):
+        shape.cell_data["U"] = np.outer(least + 1.0 - (centres[:, 1:] ** 2).sum(axis=1), [1.0, 0.0, 0.0])
+        shape.save(tmp_path / "flow.vtu")
+        flow = read_mesh_file(tmp_path / "flow.vtu")
+        (wall,) = (k for k, patch in enumerate(flow.patches) if patch.type == "wall")
+        nodes = np.unique(flow.mesh.triangles[flow.mesh.triangle_patch == wall])
+        inside = nodes[np.abs(flow.mesh.nodes[nodes, 0] - 0.5) < 0.4]
+        assert flow.at_nodes()[1][inside, 0] == pytest.approx(at_wall, abs=tolerance)
+        assert any("at rest on walls" in note for note in flow.notes) == (least == 0.0)
 
 
 def test_lengths_are_scaled_and_velocities_are_not(tmp_path, random):
