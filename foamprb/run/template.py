@@ -664,19 +664,24 @@ def _interaction(patches: Sequence[Patch]) -> list[str]:
 
 def _patches(patches: Sequence[Patch]) -> list[str]:
     """Return the rules of patches."""
-    choice = "or rebound, escape"
-    lines, walls = [], [patch for patch in patches if patch.kind is PatchKind.WALL]
-    named = [patch for patch in patches if patch.kind in (PatchKind.OPENING, PatchKind.COUPLED)]
-    for patch in named:
-        start, why = "", "" if patch.type == "patch" else f" // {patch.type}"
-        if patch.kind is PatchKind.COUPLED:
-            start, why = "// ", f" // particles cannot pass a {patch.type}"
-        lines.append(f"{start}{_word(patch.name):20s}{{ type escape; }}{why}")
+    choice, lines = "or rebound, escape", []
+    walls, openings, coupled = (
+        [patch for patch in patches if patch.kind is kind]
+        for kind in (PatchKind.WALL, PatchKind.OPENING, PatchKind.COUPLED)
+    )
+    for patch in openings:
+        why = "" if patch.type == "patch" else f" // {patch.type}"
+        lines.append(f"{_word(patch.name):20s}{{ type escape; }}{why}")
+    for patch in coupled:
+        why = f"particles cannot pass a {patch.type}; or stick, escape"
+        lines.append(f"// {_word(patch.name):20s}{{ type rebound; }} // {why}")
     if len(walls) > 6:
         lines.append(f"{'wall':20s}{{ type stick; }} // all {len(walls)} walls; {choice}")
     else:
         lines += [f"{_word(patch.name):20s}{{ type stick; }} // wall; {choice}" for patch in walls]
-    others = [f"{patch.name} ({patch.type})" for patch in patches if patch not in (*walls, *named)]
+    others = [
+        f"{patch.name} ({patch.type})" for patch in patches if patch not in (*walls, *openings, *coupled)
+    ]
     if others:
         more = ", …" if len(others) > 4 else ""
         lines.append(f"// without entry: {', '.join(others[:4])}{more}")

@@ -129,7 +129,7 @@ def test_first_settings_know_walls_by_the_velocity_and_coupled_patches(tmp_path)
     )
     text = write_template(tmp_path).read_text()
     assert re.search(r"^ +floor +\{ type stick; \} // wall", text, re.MULTILINE)
-    assert re.search(r"^ +// sides +\{ type escape; \} // particles cannot pass a ggi", text, re.MULTILINE)
+    assert re.search(r"^ +// sides +\{ type rebound; \} // particles cannot pass a ggi", text, re.MULTILINE)
     assert re.search(r"^ +lid +\{ type escape; \}", text, re.MULTILINE)
 
 

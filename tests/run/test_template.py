@@ -481,7 +481,7 @@ def test_a_coupled_patch_that_particles_cannot_pass_is_left_to_the_user(tmp_path
     file.write_text(file.read_text().replace("lid { type fixedValue;", "lid { type cyclicAMI;"))
     assert main(["init", "-case", str(tmp_path)]) == 0
     text = (tmp_path / "constant/softCloudProperties").read_text()
-    assert re.search(r"// lid +\{ type escape; \} // particles cannot pass a cyclicPeriodicAMI", text)
+    assert re.search(r"// lid +\{ type rebound; \} // particles cannot pass a cyclicPeriodicAMI", text)
     assert main(["run", "-dry-run", "-case", str(tmp_path)]) == 1
     assert "cannot pass through 'lid', a patch of type cyclicPeriodicAMI" in capsys.readouterr().err
 
