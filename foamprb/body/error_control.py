@@ -14,7 +14,7 @@ accepts the solution of order 2 after two evaluations. Its error is 5/48 h³ N''
 is 0.21 h N''/N'. N changes at the rate ρ of elastic relaxation, or at that of the fluid's gradient, and θ = ½
 min(1, h (ρ + max |∂u_i/∂x_j|)) is more than twice this ratio. Otherwise the third evaluation is made, and the
 difference δ₂ of the two solutions is the error of order 2. In the following eight steps θ δ₁ is scaled by δ₂
-(:func:`learned_share`). The error of the final solution is of order h⁴, about 1/6 δ₂^(4/3). A step is
+(:func:`measured_ratio`). The error of the final solution is of order h⁴, about 1/6 δ₂^(4/3). A step is
 accepted for
 
     δ₂^(4/3) ≤ tolerance,   and the next is   0.9 (tolerance^(3/4)/δ₂)^(1/3) times as long.
@@ -38,8 +38,8 @@ FLUID_SHARE = 1.0 / 32.0
 """Share of δ_f in the error: order 2 does not sample the nonlinear change of the fluid's gradient in time."""
 SECOND_SHARE = 0.5
 """θ of a step much longer than the time scale of N."""
-DISTRUST, LEAST_SHARE, LEARNED_FOR = 1.5, 0.25, 8
-"""Safety factor and minimum of :func:`learned_share`, and the number of steps after which it is renewed."""
+DISTRUST, LEAST_SHARE, REUSE_FOR = 1.5, 0.25, 8
+"""Safety factor and minimum of :func:`measured_ratio`, and the number of steps after which it is renewed."""
 SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
 """Share of the allowed step to aim at; smallest and largest factor between two steps."""
 GROWTH = 1.5
@@ -97,15 +97,15 @@ def share_of_slope(h: Scalar, rho: Scalar, l_f: Tensor) -> Scalar:
     return SECOND_SHARE * np.minimum(1.0, h * (rho + largest(l_f)))
 
 
-def learned_share(difference: Scalar, judged: Scalar) -> Scalar:
+def measured_ratio(difference: Scalar, error_2: Scalar) -> Scalar:
     """Return the factor of θ δ₁ after a step of order 3, 1.5 δ₂/(θ δ₁), between a quarter and 1.
 
     If the slope of N changes more slowly than the bound, θ δ₁ is many times the error. As θ is more than
     twice the necessary value, a factor of at least a quarter keeps every error below twice the tolerance.
 
-    ``difference`` and ``judged`` are δ₂ and θ δ₁ of that step.
+    ``difference`` and ``error_2`` are δ₂ and θ δ₁ of that step.
     """
-    share = DISTRUST * difference / (judged + 1e-300)
+    share = DISTRUST * difference / (error_2 + 1e-300)
     return np.minimum(1.0, np.maximum(LEAST_SHARE, share))
 
 

@@ -265,8 +265,8 @@ def second_order(
     """
     two = respond_to_line(n, full, h, rate, (slope[0], add(slope[1], change)))
     p, q = shares
-    judged = (scale(p, slope[0]), add(scale(p, slope[1]), scale(q, change)))
-    return two, resolve(n, full, judged)
+    estimate = (scale(p, slope[0]), add(scale(p, slope[1]), scale(q, change)))
+    return two, resolve(n, full, estimate)
 
 
 def last_argument(

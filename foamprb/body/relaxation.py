@@ -20,7 +20,18 @@ import numpy as np
 
 from foamprb.body.rosenbrock import Elasticity
 from foamprb.body.stokes import Mobility
-from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot, dot_vector, scale, select, trace
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    Vector,
+    add,
+    diagonal,
+    dot,
+    dot_vector,
+    scale,
+    select,
+    trace,
+)
 
 Phi = tuple[Scalar, Scalar, Scalar, Scalar, Scalar]
 """eᶻ, φ₁(z), φ₂(z), φ₃(z) and φ₄(z)."""
@@ -150,7 +161,7 @@ def _tensor(n: Relaxation, d: Vector, s: Vector) -> Tensor:
 
 def relaxing(n: Relaxation, Y: Tensor) -> Tensor:
     """Return J Y, the change of l_s by the elastic stress along H = Y F."""
-    return _tensor(n, dot_vector(n.normal, (Y[0], Y[4], Y[8])), _stretchings(n, Y))
+    return _tensor(n, dot_vector(n.normal, diagonal(Y)), _stretchings(n, Y))
 
 
 def _rates(n: Relaxation) -> tuple[Vector, Scalar, Scalar]:
@@ -229,7 +240,7 @@ def respond(n: Relaxation, r: Response, h: Scalar, Y1: Tensor, Y2: Tensor, Y3: T
         f[3] * p1[1] + f[4] * p2[1] + f[5] * p3[1],
         f[6] * p1[2] + f[7] * p2[2] + f[8] * p3[2],
     )
-    d1, d2, d3 = (Y1[0], Y1[4], Y1[8]), (Y2[0], Y2[4], Y2[8]), (Y3[0], Y3[4], Y3[8])
+    d1, d2, d3 = diagonal(Y1), diagonal(Y2), diagonal(Y3)
     d = _along(n, _sum(r.along, d1, d2, d3), _sum(r.bent, d1, d2, d3))
     free = add(add(Y1, scale(0.5, Y2)), scale(1.0 / 6.0, Y3))
     return add(scale(h, free), _tensor(n, d, s))

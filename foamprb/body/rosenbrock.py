@@ -38,6 +38,7 @@ from foamprb.body.tensor import (
     Tensor,
     Vector,
     add_identity,
+    diagonal,
     dot,
     dot_vector,
     reciprocals,
@@ -80,13 +81,13 @@ def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tens
 
 def extra_stress_in_frame(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
     """Return :func:`extra_stress` for a diagonal b: rest shape a sphere, in the particle frame."""
-    x, y, z = _principal_extra_stress((b[0], b[4], b[8]), J, mu, lame, k)
+    x, y, z = _principal_extra_stress(diagonal(b), J, mu, lame, k)
     return (x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z)
 
 
 def kirchhoff_in_frame(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
     """Return :func:`kirchhoff` for a diagonal b."""
-    I1, I2 = _principal_invariants((b[0], b[4], b[8]))
+    I1, I2 = _principal_invariants(diagonal(b))
     return add_identity(extra_stress_in_frame(b, J, mu, lame, k), _pressure(I1, I2, J, mu, lame, k))
 
 
@@ -118,21 +119,25 @@ def extra_elasticity(
     """Return :func:`elasticity` of :func:`extra_stress`; columns of the slopes are exact up to a pressure."""
     x, y, z = squares
     tau = _principal_extra_stress((x, y, z), J, mu, lame, k)
-    per = _PER_DIFFERENCE
     g, Jh = _strained(J)
     tx = _principal_extra_stress((x * g, y, z), Jh, mu, lame, k)
     ty = _principal_extra_stress((x, y * g, z), Jh, mu, lame, k)
     tz = _principal_extra_stress((x, y, z * g), Jh, mu, lame, k)
-    normal, cross = 16.0 / 15.0 * tension, -8.0 / 15.0 * tension
-    slopes = (
-        (tx[0] - tau[0]) * per + normal, (ty[0] - tau[0]) * per + cross, (tz[0] - tau[0]) * per + cross,
-        (tx[1] - tau[1]) * per + cross, (ty[1] - tau[1]) * per + normal, (tz[1] - tau[1]) * per + cross,
-        (tx[2] - tau[2]) * per + cross, (ty[2] - tau[2]) * per + cross, (tz[2] - tau[2]) * per + normal,
-    )  # fmt: skip
+    slopes = _slopes(tau, tx, ty, tz, tension)
     I1, I2 = _principal_invariants((x, y, z))
     w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)
     p, q = 2.0 * (w1 + I1 * w2) + 0.8 * tension, 2.0 * w2
     return Elasticity(squares, slopes, (p - q * (y + z), p - q * (x + z), p - q * (x + y)))
+
+
+def _slopes(t: Vector, tx: Vector, ty: Vector, tz: Vector, tension: Scalar) -> Tensor:
+    """Return ∂τ_a/∂ln e_c, Pa, from the normal stresses and those after a small extension along each axis."""
+    per, normal, cross = _PER_DIFFERENCE, 16.0 / 15.0 * tension, -8.0 / 15.0 * tension
+    return (
+        (tx[0] - t[0]) * per + normal, (ty[0] - t[0]) * per + cross, (tz[0] - t[0]) * per + cross,
+        (tx[1] - t[1]) * per + cross, (ty[1] - t[1]) * per + normal, (tz[1] - t[1]) * per + cross,
+        (tx[2] - t[2]) * per + cross, (ty[2] - t[2]) * per + cross, (tz[2] - t[2]) * per + normal,
+    )  # fmt: skip
 
 
 def elasticity(
@@ -200,16 +205,11 @@ def elasticity_by_stress(
     (x, y, z), h, n = squares, _DIFFERENCE, 0.0 * J
     (g, Jh), per = _strained(J), _PER_DIFFERENCE
     tau = solid_stress((x, h, h, h, y, h, h, h, z), J, mu, lame, k)
-    t = solid_stress((x, n, n, n, y, n, n, n, z), J, mu, lame, k)
-    tx = solid_stress((x * g, n, n, n, y, n, n, n, z), Jh, mu, lame, k)
-    ty = solid_stress((x, n, n, n, y * g, n, n, n, z), Jh, mu, lame, k)
-    tz = solid_stress((x, n, n, n, y, n, n, n, z * g), Jh, mu, lame, k)
-    normal, cross, shear = 16.0 / 15.0 * tension, -8.0 / 15.0 * tension, 0.8 * tension
-    slopes = (
-        (tx[0] - t[0]) * per + normal, (ty[0] - t[0]) * per + cross, (tz[0] - t[0]) * per + cross,
-        (tx[4] - t[4]) * per + cross, (ty[4] - t[4]) * per + normal, (tz[4] - t[4]) * per + cross,
-        (tx[8] - t[8]) * per + cross, (ty[8] - t[8]) * per + cross, (tz[8] - t[8]) * per + normal,
-    )  # fmt: skip
+    t = diagonal(solid_stress((x, n, n, n, y, n, n, n, z), J, mu, lame, k))
+    tx = diagonal(solid_stress((x * g, n, n, n, y, n, n, n, z), Jh, mu, lame, k))
+    ty = diagonal(solid_stress((x, n, n, n, y * g, n, n, n, z), Jh, mu, lame, k))
+    tz = diagonal(solid_stress((x, n, n, n, y, n, n, n, z * g), Jh, mu, lame, k))
+    slopes, shear = _slopes(t, tx, ty, tz, tension), 0.8 * tension
     return Elasticity(squares, slopes, (tau[5] * per + shear, tau[2] * per + shear, tau[1] * per + shear))
 
 
@@ -339,7 +339,7 @@ def inertial_stiffness(
 
 def elastic_response(n: Stiffness, X: Tensor) -> Tensor:
     """Return the reduction of Ȧ Fᵀ by the displacement H = X F, the elastic part of the Jacobian, 1/s²."""
-    d = dot_vector(n.elastic, (X[0], X[4], X[8]))
+    d = dot_vector(n.elastic, diagonal(X))
     yz, xz, xy = _pulled(n, X)
     return (d[0], xy, xz, xy, d[1], yz, xz, yz, d[2])
 
@@ -358,7 +358,7 @@ def _pulled(n: Stiffness, X: Tensor) -> Vector:
 
 def paired(normal: Tensor, pairs: tuple[Shear, Shear, Shear], X: Tensor) -> Tensor:
     """Return the products of ``normal`` with the X_ii and of the pairs with their X_ij and X_ji."""
-    d, (p, q, r) = dot_vector(normal, (X[0], X[4], X[8])), pairs
+    d, (p, q, r) = dot_vector(normal, diagonal(X)), pairs
     return (
         d[0], r[0] * X[1] + r[1] * X[3], q[0] * X[2] + q[1] * X[6],
         r[2] * X[1] + r[3] * X[3], d[1], p[0] * X[5] + p[1] * X[7],

@@ -83,6 +83,11 @@ def plus(v: Vector, w: Vector) -> Vector:
     return v[0] + w[0], v[1] + w[1], v[2] + w[2]
 
 
+def plus_scaled(v: Vector, s: Scalar, w: Vector) -> Vector:
+    """Return v + s w."""
+    return v[0] + s * w[0], v[1] + s * w[1], v[2] + s * w[2]
+
+
 def minus(v: Vector, w: Vector) -> Vector:
     """Return v − w."""
     return v[0] - w[0], v[1] - w[1], v[2] - w[2]
@@ -131,6 +136,11 @@ def transpose(T: Tensor) -> Tensor:
 def trace(T: Tensor) -> Scalar:
     """Return the trace T_ii."""
     return T[0] + T[4] + T[8]
+
+
+def diagonal(T: Tensor) -> Vector:
+    """Return the diagonal components."""
+    return T[0], T[4], T[8]
 
 
 def sym(T: Tensor) -> Tensor:

@@ -52,8 +52,8 @@ class BondRows(NamedTuple):
 bonds = offsets(BondRows)
 
 
-def missing(patches: PatchTable, s: Scratch, i: int, patch: int) -> float:
-    """Return what the integral of the rate lacks for the next change of lane i."""
+def hazard_until_change(patches: PatchTable, s: Scratch, i: int, patch: int) -> float:
+    """Return the hazard left until the next change of the bond in lane i."""
     number = np.uint64(s.block[bonds.adherent * LANES + i])
     change = np.uint64(s.block[bonds.changes * LANES + i])
     key = (np.uint64(patches.bonds[patch, BOND_SEED]), _KIND)
@@ -79,7 +79,7 @@ def form_bond(flow: Any, patches: PatchTable, s: Scratch, i: int, patch: int, t:
         return
     if rate_of_shear(flow, s, i, t) > patches.bonds[patch, BOND_LIMIT]:
         return
-    if rate * h < missing(patches, s, i, patch):
+    if rate * h < hazard_until_change(patches, s, i, patch):
         s.block[bonds.hazard * LANES + i] += rate * h
     else:
         settle(s, i, patch, STICK)
@@ -102,7 +102,7 @@ def hold(flow: Any, patches: PatchTable, s: Scratch, i: int, last: int, dt: floa
             gamma = rate_of_shear(flow, s, i, 0.5 * (since + end))
             force = force_on_held_sphere(block[at.R * LANES + i], gamma, 1.0)
             rate = off_rate(bond[BOND_LOOSENS], force, bond[BOND_FORCE])
-            hazard_left = missing(patches, s, i, s.patch[i])
+            hazard_left = hazard_until_change(patches, s, i, s.patch[i])
             if gamma > bond[BOND_LIMIT]:
                 hazard_left = 0.0
             if rate * (end - since) >= hazard_left:
@@ -132,5 +132,5 @@ class Adhesion(Surrounding):
     traits: ClassVar = Traits(each_step=False)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
-        """Return what happens to bodies that touch a wall, and to those that stick."""
+        """Return the functions for bodies that touch a wall or stick to it."""
         return {"form_bond": form_bond, "hold": hold}

@@ -177,7 +177,7 @@ class Cloud:
 
     @property
     def size(self) -> int:
-        """Number of particles, those of other processes included."""
+        """Number of particles, on all ranks."""
         return self.comm.n_particles
 
     def map_ranks(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
@@ -212,7 +212,7 @@ class Cloud:
         return self._joined(numbers, self.comm.call(values_of, np.unique(numbers), name))
 
     def _joined(self, numbers: NDArray[np.int64], by_rank: Sequence[Any]) -> NDArray[Any]:
-        """Return the values of particles by their numbers, from those of each rank with their numbers."""
+        """Join numbers and values of each rank; return the values in the order of ``numbers``."""
         owned, values = (np.concatenate(parts) for parts in zip(*by_rank, strict=True))
         order = np.argsort(owned)
         return np.asarray(values[order[np.searchsorted(owned, numbers, sorter=order)]])

@@ -143,7 +143,7 @@ class Communicator:
         return [function(self.rank, *arguments)]
 
     def place(self, size: int, parts: Callable[..., Iterable[Particles]]) -> Particles:  # noqa: ARG002
-        """Give each rank its particles; return those of this one.
+        """Give each rank its particles; return this rank's.
 
         Parameters
         ----------

@@ -30,7 +30,7 @@ def body_mobility(block: Any, i: int, medium: Medium, _stretches: Vector) -> Mob
     return drop_mobility(ratio, Ca)
 
 
-def own_viscosity(block: Any, i: int, medium: Medium) -> Scalar:
+def mobility_deficit(block: Any, i: int, medium: Medium) -> Scalar:
     """Return the ``deficit`` of that mobility."""
     ratio, Ca = _numbers(block, i, medium)
     return drop_mobility(ratio, Ca).deficit
@@ -53,7 +53,7 @@ def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> T
 
 DROP_BINDINGS: Mapping[str, Callable[..., Any]] = {
     "body_mobility": body_mobility,
-    "own_viscosity": own_viscosity,
+    "mobility_deficit": mobility_deficit,
     "drag_rate": drag_rate,
     "stresslet": stresslet,
 }

@@ -9,7 +9,7 @@ from foamprb.body.rosenbrock import extra_stress_in_frame as extra_stress
 from foamprb.body.rosenbrock import kirchhoff_in_frame as kirchhoff
 from foamprb.body.stokes import Mobility, mobility
 from foamprb.body.surface_tension import no_stress as interface
-from foamprb.body.tensor import Tensor, Vector
+from foamprb.body.tensor import Tensor, Vector, diagonal
 from foamprb.cloud.block import Medium, at, load_integrals, viscosity_at
 from foamprb.cloud.layout import LANES
 
@@ -41,15 +41,13 @@ def _with_interface(block: Any, i: int, stretches: Vector, tau: Tensor) -> Tenso
 def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor) -> Elasticity:
     """Return the elasticity of the solid."""
     J = stretches[0] * stretches[1] * stretches[2]
-    squares = (b_e[0], b_e[4], b_e[8])
-    return elasticity(squares, J, *solid(block, i), block[at.tension * LANES + i])
+    return elasticity(diagonal(b_e), J, *solid(block, i), block[at.tension * LANES + i])
 
 
 def incompressible_elasticity(block: Any, i: int, b_e: Tensor) -> Elasticity:
     """Return the same elasticity without resistance to dilation."""
     mu, _, k = solid(block, i)
-    squares = (b_e[0], b_e[4], b_e[8])
-    return extra_elasticity(squares, 1.0, mu, 0.0, k, block[at.tension * LANES + i])
+    return extra_elasticity(diagonal(b_e), 1.0, mu, 0.0, k, block[at.tension * LANES + i])
 
 
 def body_mobility(block: Any, i: int, medium: Medium, stretches: Vector) -> Mobility:
@@ -59,6 +57,6 @@ def body_mobility(block: Any, i: int, medium: Medium, stretches: Vector) -> Mobi
     )
 
 
-def own_viscosity(block: Any, i: int, medium: Medium) -> Any:
-    """Return the ``own`` of that mobility."""
+def mobility_deficit(block: Any, i: int, medium: Medium) -> Any:
+    """Return the ``deficit`` of that mobility."""
     return 1.0 - block[at.eta * LANES + i] / viscosity_at(block, i, medium)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields, make_dataclass
 from inspect import signature
 from itertools import pairwise
@@ -18,7 +18,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, get_type_hints
 
 from foamprb.body.drag import reduced_gravity
 from foamprb.body.lift import DUCTS, balances, duct_coefficient, duct_lift, hinges
-from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, scale_vector
+from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, plus, scale_vector
 from foamprb.cloud.block import Medium, at, choose3, load3, local_fluid
 from foamprb.cloud.layout import LANES
 from foamprb.compile.link import bound
@@ -395,20 +395,22 @@ def compose(
     """
     total: Callable[..., Any] = no_force
     for force in forces:
-        if force.needs and reader_of is not None:
-            read = reader_of(force)
-            total = bound(_add_needing, others=total, force=type(force).evaluate, read=read)
-        else:
-            total = bound(_add_force, others=total, force=type(force).evaluate)
+        read = reader_of(force) if reader_of else no_values
+        total = bound(_add_force, others=total, force=type(force).evaluate, read=read)
     return {"sum_of_forces": total}
 
 
 def coefficients(forces: Sequence[Force]) -> tuple[Any, ...]:
-    """Return the coefficients of these forces as their sum reads them: ((…, 1st), 2nd)."""
-    nested: tuple[Any, ...] = ()
-    for force in forces:
-        nested = nested, force.coefficients
-    return nested
+    """Return the coefficients of these forces, nested as by :func:`nested`."""
+    return nested(force.coefficients for force in forces)
+
+
+def nested(coefficients: Iterable[Any]) -> tuple[Any, ...]:
+    """Return coefficients of models as their composed functions read them: ((…, 1st), 2nd)."""
+    pairs: tuple[Any, ...] = ()
+    for each in coefficients:
+        pairs = pairs, each
+    return pairs
 
 
 def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
@@ -426,21 +428,20 @@ def no_force(_block: Any, _i: int, inputs: Inputs, _coefficients: Any) -> tuple[
     return scale_vector(0.0, inputs.Du_Dt), 1.0 + 0.0 * displaced(inputs)
 
 
+def no_values(_block: Any, _i: int, _medium: Medium) -> tuple[()]:
+    """Return no values: a force needs none beside its inputs."""
+    return ()
+
+
 def _add_force(block: Any, i: int, inputs: Inputs, coefficients: Any) -> tuple[Vector, Scalar]:
     a, m = others(block, i, inputs, coefficients[0])
-    b, n = force(inputs, *coefficients[1])
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2]), m + n
-
-
-def _add_needing(block: Any, i: int, inputs: Inputs, coefficients: Any) -> tuple[Vector, Scalar]:
-    a, m = others(block, i, inputs, coefficients[0])
     b, n = force(inputs, *read(block, i, inputs.medium), *coefficients[1])
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2]), m + n
+    return plus(a, b), m + n
 
 
 others: Any = no_force
 force: Any = no_force
-read: Any = no_force
+read: Any = no_values
 
 DEFAULT: tuple[Force, ...] = (Gravity(),)
 """The forces of a cloud for which none are chosen, and of the uncompiled functions."""

@@ -212,7 +212,7 @@ def take_back(s: Scratch, i: int, kind: int) -> None:
 
 
 def swap_lanes(s: Scratch, kind: int) -> None:
-    """Load the lanes with particles of a kind, and set aside those that are there."""
+    """Set all lanes aside as READY, and load them with particles of a kind."""
     for i in range(LANES):
         if s.member[i] >= 0:
             set_aside(s, i, READY)

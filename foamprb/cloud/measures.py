@@ -1,6 +1,6 @@
 """Measures of a particle: shape, orientation, rotation and load, derived from its state.
 
-The formulas are compiled, and go through the particles by blocks of lanes as those of the particle loop do.
+The formulas are compiled, and process particles in blocks of lanes, as in the particle loop.
 Measuring a large cloud takes no memory that grows with it: :func:`contexts` gives some thousands of particles
 at a time.
 """
@@ -27,6 +27,7 @@ from foamprb.body.tensor import (
     axial,
     det,
     dev,
+    diagonal,
     dot,
     from_frame,
     inverse,
@@ -192,7 +193,7 @@ def report_stage(block: Any) -> None:
         s, _ = disturbance(stretches, load_integrals(block, i), dev(sym(relative)), skew(relative))
         volume = 4.0 / 3.0 * np.pi * R * R * R * J
         S = from_frame(Q, scale(volume * block[result.viscosity * LANES + i], dev(sym(s))))
-        store3(block, result.stresslet, i, (S[0], S[4], S[8]))
+        store3(block, result.stresslet, i, diagonal(S))
         store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))
 
 
@@ -205,7 +206,7 @@ def drop_stage(block: Any) -> None:
         Ca = mu * block[result.rate * LANES + i] / block[at.mu * LANES + i]
         s = drop_stress(block[at.eta * LANES + i] / mu, Ca, dev(sym(l)), sym(body))
         S = scale(4.0 / 3.0 * np.pi * R * R * R * mu, s)
-        store3(block, result.stresslet, i, (S[0], S[4], S[8]))
+        store3(block, result.stresslet, i, diagonal(S))
         store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))
 
 
@@ -456,7 +457,7 @@ def contexts(
     Parameters
     ----------
     particles, flow, mu, time, ids
-        As of :func:`context`.
+        As in :func:`context`.
     """
     rows = injected(particles)
     for i in range(number_of_contexts(len(rows))):

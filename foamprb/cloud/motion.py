@@ -24,6 +24,9 @@ from foamprb.body.tensor import (
     inner,
     longest_stretch,
     minus,
+    plus,
+    plus_scaled,
+    scale_vector,
     transpose,
 )
 from foamprb.cloud.block import (
@@ -246,7 +249,7 @@ def would_touch(
 ) -> bool:
     """Return True if the body in lane i would reach a patch that ends its path, or come close to a wall.
 
-    ``goal``, ``ahead`` and ``held`` are as of :func:`reach_end`; close is a gap below :data:`CLOSE` radii.
+    ``goal``, ``ahead`` and ``held`` are as in :func:`reach_end`; close is a gap below :data:`CLOSE` radii.
     """
     block = s.block
     if not held:
@@ -305,8 +308,7 @@ def cross_patch(
     turn_along(block, i, turn)
     if code != MIRROR:
         record_contact(s, i, patch, t, y0, _NO_NORMAL)
-    m = dot_vector(turn, x0)
-    shift = (y0[0] - m[0], y0[1] - m[1], y0[2] - m[2])
+    shift = minus(y0, dot_vector(turn, x0))
     return y0, moved(turn, shift, x1), turn, shift
 
 
@@ -336,8 +338,7 @@ def turn_body(block: Any, i: int, turn: Tensor, F: Tensor, A: Tensor) -> None:
 
 def moved(turn: Tensor, shift: Vector, x: Vector) -> Vector:
     """Return turn·x + shift."""
-    y = dot_vector(turn, x)
-    return y[0] + shift[0], y[1] + shift[1], y[2] + shift[2]
+    return plus(dot_vector(turn, x), shift)
 
 
 def last_inside(flow: Any, x0: Vector, x1: Vector) -> tuple[int, float]:
@@ -552,8 +553,7 @@ def meet_wall(
     store3(block, at.v, i, rebound_velocity(load3(block, at.v, i), n, e, patches.mu[patch]))
     bounce_along(block, i, n)
     back = -(1.0 - f) * min(fall, 0.0) * (2.0 if reflected else 1.0)
-    place = (goal[0] + back * n[0], goal[1] + back * n[1], goal[2] + back * n[2])
-    place, went = move_back(flow, patches, s, i, t + h, x, place)
+    place, went = move_back(flow, patches, s, i, t + h, x, plus_scaled(goal, back, n))
     if went:
         store3(block, at.x, i, place)
         block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
@@ -584,8 +584,7 @@ def bounce(
     # Euler's steps lie on parabolas, whose slopes exceed the velocities by o.
     p, q = (0.5, 1.0 / h) if bouncing == GOES_ON else (0.0, 0.0)
     o = (q * d[0] - p * (v0[0] + v1[0]), q * d[1] - p * (v0[1] + v1[1]), q * d[2] - p * (v0[2] + v1[2]))
-    a = (h * (v0[0] + o[0]) - d[0], h * (v0[1] + o[1]) - d[1], h * (v0[2] + o[2]) - d[2])
-    b = (h * (v1[0] + o[0]) - d[0], h * (v1[1] + o[1]) - d[1], h * (v1[2] + o[2]) - d[2])
+    a, b = minus(scale_vector(h, plus(v0, o)), d), minus(scale_vector(h, plus(v1, o)), d)
     f = first_contact(before, after, inner(a, n), inner(b, n))
     place = (
         start[0] + on_cubic(f, d[0], a[0], b[0]),
@@ -607,16 +606,11 @@ def bounce(
     block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
     if bouncing == GOES_ON:
         g, r = 1.0 - f, (1.0 - f) * h
-        dv = (g * (v1[0] - v0[0]), g * (v1[1] - v0[1]), g * (v1[2] - v0[2]))
-        goal = (
-            x[0] + r * (v[0] + 0.5 * dv[0]),
-            x[1] + r * (v[1] + 0.5 * dv[1]),
-            x[2] + r * (v[2] + 0.5 * dv[2]),
-        )
-        store3(block, at.new_x, i, goal)
+        dv = scale_vector(g, minus(v1, v0))
+        store3(block, at.new_x, i, plus_scaled(x, r, plus_scaled(v, 0.5, dv)))
         v = minus(v, o)
         store3(block, at.new_v, i, v)
-        v = (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2])
+        v = plus(v, dv)
     store3(block, at.v, i, v)
     return f
 

@@ -13,7 +13,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, between, scale
 from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, viscosity_at
-from foamprb.cloud.forces import SAMPLE, STATE, Force
+from foamprb.cloud.forces import SAMPLE, STATE, Force, no_values
 from foamprb.cloud.layout import LANES, Row
 from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.compile.link import bound
@@ -38,11 +38,6 @@ class _Offsets(NamedTuple):
 needed = _Offsets(0, 0)
 FIRST = 0
 """First row of one value, behind those offsets; bound with its reader."""
-
-
-def no_values(_block: Any, _i: int, _medium: Medium) -> tuple[()]:
-    """Return no values."""
-    return ()
 
 
 def sample_start(
@@ -214,7 +209,7 @@ def check_needs(forces: Sequence[Force], columns: Sequence[FieldColumns]) -> Non
             if name not in components:
                 raise InputError(
                     f"the force {force.name} needs {name}, which this flow does not have. "
-                    f"{suggestion(name, (*STATE, *components))} Further names are those of fields of a case."
+                    f"{suggestion(name, (*STATE, *components))} A case may have further fields."
                 )
         samples = [STATE[name] if name in STATE else _SAMPLES[components[name]] for name in force.needs]
         try:

@@ -9,7 +9,17 @@ from foamprb.body.ellipsoid import integrals
 from foamprb.body.explicit_limit import is_stable, safe_step
 from foamprb.body.material import MATERIALS, finger, metric_at_rest
 from foamprb.body.rosenbrock import elasticity, kirchhoff
-from foamprb.body.tensor import Tensor, add, cofactor, ddot, det, dot, principal_frame, scale
+from foamprb.body.tensor import (
+    Tensor,
+    add,
+    cofactor,
+    ddot,
+    det,
+    diagonal,
+    dot,
+    principal_frame,
+    scale,
+)
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile.link import link
 
@@ -45,7 +55,7 @@ def longest_stable_steps(p: Particles, mu_f: float | Floats, dt: float, material
 def unstable(p: Particles, mu_f: float | Floats, dt: float, material: str) -> tuple[int, float]:
     """Return the number of particles for whose shapes Δt is too long, and the shortest of their limits, s.
 
-    The parameters are those of :func:`longest_stable_steps`.
+    For the parameters see :func:`longest_stable_steps`.
     """
     limits = longest_stable_steps(p, mu_f, dt, material)
     return int(np.isfinite(limits).sum()), float(limits.min(initial=np.inf))
@@ -107,9 +117,9 @@ def _find_limits(
         g = integrals(stretches)
         b = finger(dot(Q, _tensor(F, n)), metric_at_rest(_tensor(F0, n)))
         J = stretches[0] * stretches[1] * stretches[2]
-        e = elasticity((b[0], b[4], b[8]), J, mu[n], lame[n], k[n], 0.0)
+        e = elasticity(diagonal(b), J, mu[n], lame[n], k[n], 0.0)
         T = kirchhoff(b, J, mu[n], lame[n], k[n])
-        tau = (T[0], T[4], T[8])
+        tau = diagonal(T)
         c = 5.0 / (rho[n] * R[n] * R[n])
         longest[n] = np.inf
         if is_stable(dt, stretches, g, e, tau, c, mu_f[n], eta[n]):

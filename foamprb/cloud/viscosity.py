@@ -16,7 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 import foamprb.body.viscosity as laws
-from foamprb.body.tensor import Scalar, inner, minus, select
+from foamprb.body.tensor import (
+    Scalar,
+    inner,
+    minus,
+    scale_vector,
+    select,
+)
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
 from foamprb.cloud.layout import LANES, Row, offsets
@@ -72,7 +78,7 @@ class MixtureRows(NamedTuple):
 
 
 fluid: Any = offsets(FieldRows)
-"""Offsets of the rows; those of all declarations begin alike."""
+"""Offsets of the rows; all declarations begin with the same row."""
 
 
 def felt_viscosity(block: Any, i: int, _medium: Medium) -> Scalar:
@@ -105,9 +111,8 @@ def sample_field(
     """Store the field and its gradient at the position of lane i."""
     block = s.block
     mu, slope = viscosity(flow, s.host[i], load3(block, at.x, i), _middle(block, i, remaining))
-    c = coefficients[0]
-    block[fluid.mu_there * LANES + i] = c * mu
-    store3(block, fluid.mu_slope, i, (c * slope[0], c * slope[1], c * slope[2]))
+    block[fluid.mu_there * LANES + i] = coefficients[0] * mu
+    store3(block, fluid.mu_slope, i, scale_vector(coefficients[0], slope))
 
 
 def _middle(block: Any, i: int, remaining: float) -> float:

@@ -194,7 +194,7 @@ class CloudFunction:
     def fates(self, memory: Memory, fields: Sequence[FieldColumns]) -> Mapping[str, Column]:  # noqa: ARG002
         """Return columns of ``fates``, with a row for each row of the data; by default none.
 
-        ``fields`` are those of the flow that are sampled.
+        ``fields`` are the sampled fields of the flow.
         """
         return {}
 
@@ -287,7 +287,7 @@ def rows_of_particles(function: CloudFunction, memory: Memory) -> Memory:
 
 
 def has_ended(cloud: ObservedCloud, rows: Rows | slice) -> NDArray[np.bool_]:
-    """Return whether particles have ended: those that may move again have not."""
+    """Return whether particles have ended and cannot move again."""
     return np.isin(cloud.particles.status[rows], cloud.cloud.tracker.movable, invert=True)
 
 
@@ -353,7 +353,7 @@ def store(memory: Memory, rows: Rows, values: Memory) -> None:
 
 
 def memory_of(memory: Mapping[str, NDArray[Any]], name: str) -> Memory:
-    """Return the arrays of a function among those of all, by ``function/array``; all without a name."""
+    """Return the arrays of one function from a dict by ``function/array``; all without a name."""
     prefix = f"{name}/" if name else ""
     return {key.removeprefix(prefix): array for key, array in memory.items() if key.startswith(prefix)}
 

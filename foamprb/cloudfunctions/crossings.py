@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
@@ -20,8 +21,10 @@ from foamprb.cloudfunctions.base import (
     per_particle,
     store,
 )
+from foamprb.dictionary.constraints import Vector3
+from foamprb.errors import InputError
 
-__all__ = ["Crossings", "PlaneFunction", "crossings"]
+__all__ = ["Crossings", "PlaneFunction", "crossings", "unit"]
 
 Floats = NDArray[np.float64]
 
@@ -49,12 +52,18 @@ class PlaneFunction(SampledFunction, ContactObserver):
     A passage of a coupled patch is no crossing: the path ends before it and begins anew after it.
     """
 
+    normal: Vector3
+
     arrays: ClassVar[Mapping[str, Kind]] = {
         **SampledFunction.arrays,
         "x": per_particle,
         "v": per_particle,
         "F": per_particle,
     }
+
+    def __post_init__(self) -> None:
+        if not any(self.normal):
+            raise InputError("has a normal (0 0 0)")
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return positions, velocities and shapes."""
@@ -66,6 +75,11 @@ class PlaneFunction(SampledFunction, ContactObserver):
         for before, after in passages(cloud, rows):
             self.add(memory, cloud, before.number, _sample(before))
             store(memory, after.number, _sample(after))
+
+
+def unit(vector: Vector3) -> Floats:
+    """Return the unit vector along a vector, (3,)."""
+    return np.array(vector) / math.hypot(*vector)
 
 
 def _sample(met: Rebounds) -> Memory:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, NamedTuple
@@ -20,7 +19,7 @@ from foamprb.cloudfunctions.base import (
     names_of,
     per_event,
 )
-from foamprb.cloudfunctions.crossings import PlaneFunction, crossings
+from foamprb.cloudfunctions.crossings import PlaneFunction, crossings, unit
 from foamprb.dictionary.constraints import Meaning, Vector3
 from foamprb.errors import InputError
 from foamprb.results.tables import write_table
@@ -88,9 +87,9 @@ class DeformabilityCytometry(PlaneFunction):
     arrays: ClassVar = {**PlaneFunction.arrays, "seen": per_event}
 
     def __post_init__(self) -> None:
-        for name in ("normal", "view"):
-            if not any(getattr(self, name)):
-                raise InputError(f"has a {name} (0 0 0)")
+        super().__post_init__()
+        if not any(self.view):
+            raise InputError("has a view (0 0 0)")
 
     def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
         """Return an empty table."""
@@ -99,22 +98,12 @@ class DeformabilityCytometry(PlaneFunction):
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the particles that have changed sides since the last sample."""
         p = cloud.particles
-        crossed = crossings(memory, now, rows, np.array(self.origin), _unit(self.normal))
+        crossed = crossings(memory, now, rows, np.array(self.origin), unit(self.normal))
         at, s = crossed.rows, crossed.share[:, None]
         F = ((1.0 - s) * memory["F"][at] + s * now["F"][crossed.among]).reshape(-1, 3, 3)
-        seen = outline(p.R[at, None, None] ** 2 * F @ F.transpose(0, 2, 1), _unit(self.view))
-        new = np.column_stack(
-            [
-                p.number[at],
-                crossed.time,
-                crossed.x,
-                crossed.sense,
-                seen.area,
-                seen.perimeter,
-                seen.semi_axes,
-                seen.deformation,
-            ]
-        )
+        seen = outline(p.R[at, None, None] ** 2 * F @ F.transpose(0, 2, 1), unit(self.view))
+        shadow = seen.area, seen.perimeter, seen.semi_axes, seen.deformation
+        new = np.column_stack([p.number[at], crossed.time, crossed.x, crossed.sense, *shadow])
         append(memory, "seen", new[np.argsort(new[:, 1], kind="stable")])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
@@ -129,7 +118,3 @@ class DeformabilityCytometry(PlaneFunction):
              "t": seen[:, 1], **columns("xyz", seen[:, 2:5]), "direction": seen[:, 5].astype(np.int64),
              **columns(names, seen[:, 6:])},
         )  # fmt: skip
-
-
-def _unit(vector: Vector3) -> Floats:
-    return np.array(vector) / math.hypot(*vector)

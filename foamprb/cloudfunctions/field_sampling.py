@@ -66,7 +66,7 @@ class FieldSampling(SampledFunction, StepObserver):
         """Return the first sample; raise InputError if the flow was not read with the fields."""
         missing = {*self.fields} - {c.name for c in columns_of(cloud.cloud.flow)}
         if missing:
-            raise InputError(f"the flow has no fields {' '.join(sorted(missing))}; those of a case are read")
+            raise InputError(f"the flow has no fields {' '.join(sorted(missing))}; a case may have them")
         return super().begin(cloud)
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:

@@ -183,7 +183,7 @@ class Haemolysis(SampledFunction, ContactObserver):
 
     @property
     def law(self) -> PowerLaw:
-        """The constants; for pores those of a share that is integrated as it is, and their range."""
+        """The constants; for pores the share is integrated without a power, within their range."""
         if self.constants == "own":
             return PowerLaw(float(self.A or 0.0), float(self.alpha or 0.0), float(self.beta or 0.0))
         if self.constants == "pores":
@@ -356,7 +356,7 @@ class _Damage(NamedTuple):
     """Damage of some particles."""
 
     rows: TableRows
-    """Of those that were released."""
+    """Of the released particles."""
     indices: list[Floats]
     """Index of haemolysis of the sound ones of each injection model, %."""
     released: int

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
@@ -21,9 +20,8 @@ from foamprb.cloudfunctions.base import (
     table,
     taylor_of,
 )
-from foamprb.cloudfunctions.crossings import PlaneFunction, crossings
+from foamprb.cloudfunctions.crossings import PlaneFunction, crossings, unit
 from foamprb.dictionary.constraints import Meaning, Only, Positive, Vector3
-from foamprb.errors import InputError
 from foamprb.results.tables import write_table
 
 __all__ = ["ParticleCollector"]
@@ -53,10 +51,6 @@ class ParticleCollector(PlaneFunction):
 
     arrays: ClassVar = {**PlaneFunction.arrays, "crossings": per_event, "written": table, "history": table}
 
-    def __post_init__(self) -> None:
-        if not any(self.normal):
-            raise InputError("has a normal (0 0 0)")
-
     def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
         """Return empty tables."""
         written = np.zeros(1, dtype=np.int64)
@@ -65,7 +59,7 @@ class ParticleCollector(PlaneFunction):
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the particles that have changed sides since the last sample."""
         p = cloud.particles
-        e = np.array(self.normal) / math.hypot(*self.normal)
+        e = unit(self.normal)
         crossed = crossings(memory, now, rows, np.array(self.origin), e)
         at, x = crossed.rows, crossed.x
         before, after = (taylor_of(cloud, at, F) for F in (memory["F"][at], now["F"][crossed.among]))

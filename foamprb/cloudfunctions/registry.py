@@ -34,7 +34,7 @@ from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
 from foamprb.cloudfunctions.particle_statistics import ParticleStatistics
 from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
-from foamprb.cloudfunctions.sampling import Sampling, install, record, sample, take_events
+from foamprb.cloudfunctions.sampling import Sampling
 from foamprb.cloudfunctions.suspension_stress import SuspensionStress
 from foamprb.errors import InputError
 from foamprb.flow.fields import FieldColumns, columns_of
@@ -88,7 +88,7 @@ class CloudFunctions:
         names, base = self.travelling, cloud.cloud
         functions = {name: self.functions[name] for name in names}
         arguments = self._sums, base.interactions, base.medium, cloud.names
-        base.comm.call(install, Sampling(functions, self._no_events(names), *arguments))
+        base.comm.call(Sampling.install, Sampling(functions, self._no_events(names), *arguments))
 
     def _begin(self, name: str, function: CloudFunction) -> None:
         """Let a function return its initial data."""
@@ -133,7 +133,7 @@ class CloudFunctions:
         cloud, away = self.cloud.cloud, self.travelling
         if names:
             cloud.publish()
-            cloud.comm.call(sample, [name for name in names if name in away], cloud.time)
+            cloud.comm.call(Sampling.sample, [name for name in names if name in away], cloud.time)
         for name in names:
             if name not in away:
                 self.functions[name].sample(self._memory[name], self._seen_by(name))
@@ -141,7 +141,7 @@ class CloudFunctions:
     def _gather(self) -> None:
         """Take the events of all ranks, in the order of their times."""
         self._record_rebounds()
-        events = self.cloud.cloud.comm.call(take_events)
+        events = self.cloud.cloud.comm.call(Sampling.take_events)
         for name in events[0]:
             new = np.concatenate([tables[name] for tables in events])
             append(self._memory[name], events_of(self.functions[name]), in_time(new))
@@ -151,7 +151,7 @@ class CloudFunctions:
         self._gather()
         for name, function in self.functions.items():
             if events := events_of(self.functions[name]):
-                # Those of rebounds and of samples were recorded one after the other.
+                # Events of rebounds and events of samples were recorded one after the other.
                 self._memory[name][events] = in_time(self._memory[name][events])
             function.write(self._memory[name], self._seen_by(name), folder / name)
 
@@ -182,7 +182,7 @@ class CloudFunctions:
         if len(rows) == 0:
             return
         cloud.publish()
-        cloud.comm.call(record, rows, cloud.time)
+        cloud.comm.call(Sampling.record, rows, cloud.time)
         for name, function in self.functions.items():
             if isinstance(function, ContactObserver) and name not in self.travelling:
                 function.record_rebounds(self._memory[name], self._seen_by(name), np.asarray(rows))
@@ -220,7 +220,7 @@ def _with_fates(
     fields: Sequence[FieldColumns],
     *arguments: Any,
 ) -> Value:
-    """Return what a function finds of particles, and of the columns of cloud functions for them."""
+    """Apply a function to particles and to the columns that cloud functions add to ``fates``."""
     columns: dict[str, Column] = {}
     for name, cloud_function in functions.items():
         columns |= cloud_function.fates(memory_of(memory, name), fields)

@@ -61,16 +61,17 @@ class Sampling:
         self.sums: dict[str, tuple[NDArray[np.int64], NDArray[np.float64]]] = {}
         """The first cell of each rank, and the sums of the cells of this one, by ``function/array``."""
 
-    def install(self, rank: Rank) -> None:
+    @staticmethod
+    def install(rank: Rank, sampling: Sampling) -> None:
         """Sample the particles of a rank from now on."""
         firsts = rank.firsts
-        for name, (n, array) in self._no_sums.items():
+        for name, (n, array) in sampling._no_sums.items():
             # A rank without a part of a checkpoint has none.
             first = np.where(firsts == firsts[-1], n, firsts * n // max(firsts[-1], 1))
             first[0] = 0
             n_cells = int(first[rank.number + 1] - first[rank.number])
-            self.sums[name] = first, np.zeros((n_cells, *array.shape[1:]))
-        rank.sampling = self
+            sampling.sums[name] = first, np.zeros((n_cells, *array.shape[1:]))
+        rank.sampling = sampling
 
     def cloud(self, rank: Rank, p: Particles, time: float) -> ObservedCloud:
         """Return the cloud with some particles of a rank, as functions observe it at a time, s."""
@@ -99,18 +100,27 @@ class Sampling:
         observers = self._of_kind(StepObserver)
         self.observe(rank, observers, until, lambda f, memory, cloud: f.after_steps(memory, cloud))
 
-    def record(self, rank: Rank, rows: NDArray[np.float64], time: float) -> None:
+    @staticmethod
+    def sample(rank: Rank, names: Collection[str], time: float) -> None:
+        """Let some functions sample the particles of a rank."""
+        rank.sampling.observe(rank, names, time, lambda f, memory, cloud: f.sample(memory, cloud))
+        rank.sampling.add_up(rank, names)
+
+    @staticmethod
+    def record(rank: Rank, rows: NDArray[np.float64], time: float) -> None:
         """Let the functions record rebounds and passages of the particles of a rank."""
         here, at = rank.find(rows[:, 0].astype(np.int64))
-        here_rows = np.column_stack([at, rows[here, 1:]])
-        observers = self._of_kind(ContactObserver)
-        self.observe(
-            rank, observers, time, lambda f, memory, cloud: f.record_rebounds(memory, cloud, here_rows)
+        local = np.column_stack([at, rows[here, 1:]])
+        observers = rank.sampling._of_kind(ContactObserver)
+        rank.sampling.observe(
+            rank, observers, time, lambda f, memory, cloud: f.record_rebounds(memory, cloud, local)
         )
 
-    def take_events(self) -> Memory:
-        """Return the events that the functions have recorded since the last call."""
-        events, self._events = {**self._no_events, **self._events}, {}
+    @staticmethod
+    def take_events(rank: Rank) -> Memory:
+        """Return the events that the functions have recorded on a rank since the last call."""
+        sampling: Sampling = rank.sampling
+        events, sampling._events = {**sampling._no_events, **sampling._events}, {}
         return events
 
     def add_up(self, rank: Rank, names: Collection[str]) -> None:
@@ -127,25 +137,3 @@ class Sampling:
 
     def _of_kind(self, kind: type) -> list[str]:
         return [name for name, function in self.functions.items() if isinstance(function, kind)]
-
-
-def install(rank: Rank, sampling: Sampling) -> None:
-    """Let functions sample the particles of a rank."""
-    sampling.install(rank)
-
-
-def sample(rank: Rank, names: Collection[str], time: float) -> None:
-    """Let some functions sample the particles of a rank."""
-    rank.sampling.observe(rank, names, time, lambda f, memory, cloud: f.sample(memory, cloud))
-    rank.sampling.add_up(rank, names)
-
-
-def record(rank: Rank, rows: NDArray[np.float64], time: float) -> None:
-    """See :meth:`Sampling.record`."""
-    rank.sampling.record(rank, rows, time)
-
-
-def take_events(rank: Rank) -> Memory:
-    """See :meth:`Sampling.take_events`."""
-    events: Memory = rank.sampling.take_events()
-    return events

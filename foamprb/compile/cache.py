@@ -155,7 +155,7 @@ def _make(folder: Path) -> None:
 
 
 def _mode(for_all: int) -> int:
-    """Return permissions of a new file; others may read those of root, e.g. in the image of a container."""
+    """Return permissions of a new file; others may read files of root, e.g. in the image of a container."""
     return for_all if os.geteuid() == 0 else for_all & 0o700
 
 

@@ -499,7 +499,7 @@ class _CacheOfEntry(_Cache):
 def use_cache(dispatcher: Any, key: str, stages: Mapping[str, Part]) -> Store:
     """Give the dispatcher of a stage or a separate function a place in the cache.
 
-    Its code changes with those of the ``stages`` that it calls: they go by their own keys.
+    Its code changes with the ``stages`` that it calls, which have full keys.
     """
     store = Store(key, dumps)
     dispatcher._cache = _Cache(store, {part.keys.full: part for part in stages.values()})

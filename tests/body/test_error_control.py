@@ -121,7 +121,7 @@ def test_a_stretch_is_soon_limited_by_its_errors_only(stretch, share):
 
 
 def test_learned_share_follows_from_the_difference_of_orders():
-    share = control.learned_share(np.array([0.1, 1.0, 4.0, 9.0, np.inf]), 10.0)
+    share = control.measured_ratio(np.array([0.1, 1.0, 4.0, 9.0, np.inf]), 10.0)
     np.testing.assert_allclose(share, [0.25, 0.25, 0.6, 1.0, 1.0])
 
 

@@ -14,7 +14,7 @@ from unsteady_flow import changing_flow
 from foamprb import analytic
 from foamprb.body import stokes
 from foamprb.body.ellipsoid import integrals
-from foamprb.body.error_control import LEARNED_FOR
+from foamprb.body.error_control import REUSE_FOR
 from foamprb.body.material import MATERIALS, piola
 from foamprb.body.tensor import principal_frame
 from foamprb.cloud.block import Medium, at, idle_lanes, new_frames, new_integrals, new_scratch
@@ -301,7 +301,7 @@ def test_a_body_learns_how_much_less_its_errors_are_than_they_might_be(integrato
     assert np.max(errors) < 1e-4
     assert (clouds[0].particles.discount > 0.0).any()
     # What is known of the next step, but for those in which it is found out again.
-    foretold = np.array([n for n in range(59) if (n + 1) % LEARNED_FOR])
+    foretold = np.array([n for n in range(59) if (n + 1) % REUSE_FOR])
     expected, found = demanding[foretold] > 0.0, thirds[0, foretold + 1]
     assert found[expected].mean() > 0.5
     assert found[~expected].mean() < 0.1

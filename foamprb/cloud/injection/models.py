@@ -184,10 +184,8 @@ class PatchInjection(Injection):
                 + "Choose another SOI, another patch or other times of the flow; or the type "
                 "patchFlowRateInjection, which follows the inflow in time."
             )
-        triangles = random.choice(len(flux), size=n, p=flux / flux.sum())
-        x = _in_triangles(faces.vertices, inflow, triangles, random)
-        t = SOI + np.arange(n) / self.parcelsPerSecond
-        return Places(x, faces.hosts[triangles], t, self.U0)
+        x, hosts = _on_faces(faces, inflow, n, random)
+        return Places(x, hosts, SOI + np.arange(n) / self.parcelsPerSecond, self.U0)
 
 
 _ONE = Constant(1.0)
@@ -246,11 +244,8 @@ class PatchFlowRateInjection(Injection):
                 mean = (math.floor(first + 0.5) + 0.5 + np.arange(n) - first) / (rate * h)
                 # The share s of the part in which this volume over h enters: Q0 s + (Q1 - Q0) s²/2.
                 s = 2.0 * mean / (Q0 + np.sqrt(np.maximum(Q0**2 + 2.0 * mean * (Q1 - Q0), 0.0)))
-                density = a + b
-                flux = density.mean(axis=1) * before.areas
-                triangles = random.choice(len(flux), size=n, p=flux / flux.sum())
-                x = _in_triangles(before.vertices, density, triangles, random)
-                parts.append((x, before.hosts[triangles], t0 + h * (j + np.minimum(s, 1.0))))
+                x, hosts = _on_faces(before, a + b, n, random)
+                parts.append((x, hosts, t0 + h * (j + np.minimum(s, 1.0))))
             before = after
         if not parts:
             raise InputError(
@@ -519,20 +514,15 @@ def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
     return directions
 
 
-def _in_triangles(
-    vertices: Floats, density: Floats, triangles: NDArray[np.int64], random: np.random.Generator
-) -> Floats:
-    """Draw a point in each of n triangles, from a linear density.
+def _on_faces(
+    faces: PatchFaces, density: Floats, n: int, random: np.random.Generator
+) -> tuple[Floats, NDArray[Any]]:
+    """Draw n points, (n, 3), m, on triangles, and return their hosts.
 
-    Parameters
-    ----------
-    vertices, density
-        Vertices of triangles, (m, 3, 3), m, and the density at each of them, (m, 3).
-    triangles
-        The triangles, (n,).
-    random
-        Source of random numbers.
+    ``density`` is at the vertices of the triangles, (m, 3), and linear between them.
     """
+    weight = density.mean(axis=1) * faces.areas
+    triangles = random.choice(len(weight), size=n, p=weight / weight.sum())
     points = np.empty((len(triangles), 3))
     open_rows = np.arange(len(triangles))
     while len(open_rows):
@@ -547,8 +537,8 @@ def _in_triangles(
         points[open_rows[inside]] = weights[inside]
         open_rows = open_rows[~inside]
     for part in parts_of(len(triangles)):
-        points[part] = np.einsum("nv,nvi->ni", points[part], vertices[triangles[part]])
-    return points
+        points[part] = np.einsum("nv,nvi->ni", points[part], faces.vertices[triangles[part]])
+    return points, faces.hosts[triangles]
 
 
 def require_room(number: float, what: str) -> int:

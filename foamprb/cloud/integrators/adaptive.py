@@ -21,17 +21,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.error_control import (
-    LEARNED_FOR,
+    REUSE_FOR,
     chord_error,
     largest,
-    learned_share,
     longest_step,
+    measured_ratio,
     next_size,
     path_factor,
     share_of_slope,
     step_factor,
 )
-from foamprb.body.tensor import Tensor, Vector, add, dot_vector, scale, select
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    add,
+    dot_vector,
+    minus,
+    norm,
+    plus,
+    plus_scaled,
+    scale,
+    scale_vector,
+    select,
+)
 from foamprb.cloud.block import (
     BLOCK_STAGES,
     ROWS,
@@ -102,12 +114,12 @@ class StepRows(NamedTuple):
     end_ut: Annotated[int, Row(3, "m/s2", "∂u/∂t at the end")]
     third: Annotated[int, Row(1, "", "1 where the step goes to order 3, else 0")]
     discount: Annotated[
-        int, Row(1, "1", "share of what order 2 is judged by that does not count", of="discount", saved=True)
+        int, Row(1, "1", "share of ``error_2`` that does not count", of="discount", saved=True)
     ]
     demanding: Annotated[
         int, Row(1, "", "1 where steps like the last one go to order 3, else 0", of="demanding", saved=True)
     ]
-    judged: Annotated[int, Row(1, "1", "what order 2 is judged by: θ δ₁, with that of the fluid")]
+    error_2: Annotated[int, Row(1, "1", "error estimate of order 2: θ δ₁, with the part of the fluid")]
     disturbed: Annotated[int, Row(1, "", "1 where the gradient that is felt is not the flow's, else 0")]
     difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
     path: Annotated[int, Row(1, "1", "error of the path over its length")]
@@ -134,21 +146,18 @@ _MANY = 6
 
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
     """Return μ_f K_a/m, 1/s, with K_a in units of R."""
-    c = mu_f * (3.0 / (20.0 * math.pi)) * block[at.inertia * LANES + i]
-    return c * k[0], c * k[1], c * k[2]
+    return scale_vector(mu_f * (3.0 / (20.0 * math.pi)) * block[at.inertia * LANES + i], k)
 
 
 def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
     """Return ∂u/∂t + l·v, m/s², of the flow at the start of the step along a path of velocity v."""
-    a, u = load3(block, at.DuDt, i), load3(block, during.start_u, i)
-    c = dot_vector(load9(block, during.start_l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
-    return a[0] + c[0], a[1] + c[1], a[2] + c[2]
+    w = minus(v, load3(block, during.start_u, i))
+    return plus(load3(block, at.DuDt, i), dot_vector(load9(block, during.start_l, i), w))
 
 
 def acceleration_at_end(block: Any, i: int, v: Vector) -> Vector:
     """Return ∂u/∂t + l·v, m/s², of the flow at the end of the step along a path of velocity v."""
-    a, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
-    return a[0] + w[0], a[1] + w[1], a[2] + w[2]
+    return plus(load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v))
 
 
 def end_acceleration(block: Any, i: int) -> Vector:
@@ -165,15 +174,14 @@ def finish_path(block: Any, i: int, v: Vector) -> None:
     x, v0, a0 = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, during.start_a, i)
     a = acceleration_at_end(block, i, v)
     f, g = 0.5 * h, h * h * (1.0 / 12.0)
-    place = (
-        x[0] + f * (v0[0] + v[0]) + g * (a0[0] - a[0]),
-        x[1] + f * (v0[1] + v[1]) + g * (a0[1] - a[1]),
-        x[2] + f * (v0[2] + v[2]) + g * (a0[2] - a[2]),
-    )
-    store3(block, at.new_x, i, place)
+    store3(block, at.new_x, i, plus_scaled(plus_scaled(x, f, plus(v0, v)), g, minus(a0, a)))
     store3(block, at.new_v, i, v)
-    way = h * np.sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]) + block[at.R * LANES + i]
-    store_path_error(block, i, chord_error(h, way, a0, a))
+    store_path_error(block, i, chord_error(h, h * norm(v0) + block[at.R * LANES + i], a0, a))
+
+
+def place_after(block: Any, i: int, h: Any, v: Vector, a: Vector) -> Vector:
+    """Return the position after a time h, s, from the start of the step with v and a constant a."""
+    return plus_scaled(plus_scaled(load3(block, at.x, i), h, v), 0.5 * h * h, a)
 
 
 def store_path_error(block: Any, i: int, error: Any) -> None:
@@ -198,7 +206,7 @@ def mark_disturbed(block: Any, i: int) -> None:
     block[during.disturbed * LANES + i] = select(off > 0.0, 1.0, 0.0)
 
 
-def judged_share(block: Any, i: int, rho: Any) -> Any:
+def error_share(block: Any, i: int, rho: Any) -> Any:
     """Return θ of :mod:`foamprb.body.error_control`; 1 where models of the surroundings change the gradient.
 
     They may change it faster than elasticity and the flow do. ``rho`` is the rate at which the elastic stress
@@ -208,11 +216,11 @@ def judged_share(block: Any, i: int, rho: Any) -> Any:
     return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)
 
 
-def counted_error(block: Any, i: int, judged: Any) -> Any:
+def counted_error(block: Any, i: int, error_2: Any) -> Any:
     """Return the part of θ δ₁ that counts as error of order 2: all of it where ``disturbed`` is 1."""
-    block[during.judged * LANES + i] = judged
+    block[during.error_2 * LANES + i] = error_2
     discount = select(block[during.disturbed * LANES + i] > 0.0, 0.0, block[during.discount * LANES + i])
-    return (1.0 - discount) * judged
+    return (1.0 - discount) * error_2
 
 
 def choose_order(block: Any, i: int, error: Any, tolerance: float) -> None:
@@ -226,12 +234,12 @@ def choose_order(block: Any, i: int, error: Any, tolerance: float) -> None:
 
 def update_discount(block: Any, i: int, third: Any, difference: Any, tolerance: float) -> None:
     """Store the discount of the next errors of order 2, where a step has gone to order 3 with δ₂."""
-    judged = block[during.judged * LANES + i]
-    share = learned_share(difference, judged)
-    learns = third & (block[at.moving * LANES + i] > 0.0)
-    block[during.discount * LANES + i] = select(learns, 1.0 - share, block[during.discount * LANES + i])
-    satisfied = learns & (counted_error(block, i, judged) <= tolerance)
-    block[during.demanding * LANES + i] = select(satisfied, 0.0, block[during.demanding * LANES + i])
+    error_2 = block[during.error_2 * LANES + i]
+    share = measured_ratio(difference, error_2)
+    measured = third & (block[at.moving * LANES + i] > 0.0)
+    block[during.discount * LANES + i] = select(measured, 1.0 - share, block[during.discount * LANES + i])
+    accepts_2 = measured & (counted_error(block, i, error_2) <= tolerance)
+    block[during.demanding * LANES + i] = select(accepts_2, 0.0, block[during.demanding * LANES + i])
 
 
 def keep_frame(block: Any, i: int, third: Any) -> None:
@@ -324,14 +332,9 @@ def end_sampled(_s: Scratch, _i: int, _t: float, _u: Vector, _l_f: Tensor) -> No
 def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
     """Store the fluid's gradient half-way on the step of lane i."""
     half = 0.5 * block[at.dt * LANES + i]
-    x, v, a = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, during.start_a, i)
-    f = 0.5 * half * half
-    place = (
-        x[0] + half * v[0] + f * a[0],
-        x[1] + half * v[1] + f * a[1],
-        x[2] + half * v[2] + f * a[2],
-    )
-    _, _, _, _, l_f, _ = sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
+    place = place_after(block, i, half, load3(block, during.start_v, i), load3(block, during.start_a, i))
+    t = block[at.t * LANES + i] + half
+    _, _, _, _, l_f, _ = sample_ahead(flow, host, load3(block, at.x, i), place, t)
     store9(block, during.middle_l, i, l_f)
 
 
@@ -502,9 +505,9 @@ def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, mos
 
 def measures_again(s: Scratch, i: int, left: float, stretch: int) -> bool:
     """Return True if lane i must re-estimate its error ratio: one step of eight, early in a stretch."""
-    if s.block[at.taken * LANES + i] > 0.0 or left >= LEARNED_FOR:
-        return left % LEARNED_FOR == 0.0
-    return bool(s.step[i] // stretch % (LEARNED_FOR // left) == 0.0)
+    if s.block[at.taken * LANES + i] > 0.0 or left >= REUSE_FOR:
+        return left % REUSE_FOR == 0.0
+    return bool(s.step[i] // stretch % (REUSE_FOR // left) == 0.0)
 
 
 def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:

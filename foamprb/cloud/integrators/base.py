@@ -103,7 +103,7 @@ def no_update(
 
 
 def no_disturbance(_block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
-    """No-op: u and l are those of the flow."""
+    """No-op: u and l are not disturbed."""
 
 
 def lifted(
@@ -138,7 +138,7 @@ def track_share(
     scratch: Scratch,
     options: tuple[float, ...],
 ) -> int:
-    """Advance a thread's share of the particles, those of indices ``rows``.
+    """Advance a thread's share of the particles, with the indices ``rows``.
 
     Parameters
     ----------

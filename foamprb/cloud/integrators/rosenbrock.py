@@ -46,11 +46,17 @@ from foamprb.body.tensor import (
     Tensor,
     Vector,
     add,
+    between,
     det,
     dot,
     dot_vector,
     from_frame,
+    inner,
+    minus,
+    plus,
+    plus_scaled,
     scale,
+    scale_vector,
     select,
     to_frame,
     transpose,
@@ -84,9 +90,9 @@ from foamprb.cloud.integrators.adaptive import (
     drag_rate,
     during,
     end_acceleration,
+    error_share,
     fluid_acceleration,
     judge_difference,
-    judged_share,
     keep_frame,
     mark_disturbed,
     store_path_error,
@@ -102,7 +108,7 @@ from foamprb.compile.link import traced
 def resist(_block: Any, _i: int, rate: Vector, w: Vector) -> Vector:
     """Return the deceleration by drag at the slip w with the rates μ_f K/m, 1/s, in the particle frame, m/s².
 
-    This and the next three functions are replaced by those of a surrounding that hinders motion.
+    A surrounding that hinders motion replaces this and the next three functions.
     """
     return rate[0] * w[0], rate[1] * w[1], rate[2] * w[2]
 
@@ -170,7 +176,7 @@ def predict_inertial(block: Any, medium: Medium) -> None:
         by_fluid = (h * rate[0] * a_u[0], h * rate[1] * a_u[1], h * rate[2] * a_u[2])
         way, _ = respond_in_path(rate, h, start, (NOTHING[0], by_fluid), NOTHING)
         way = vector_dot(way, Q)
-        store3(block, at.new_x, i, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
+        store3(block, at.new_x, i, plus(x, way))
         # The parabola from the start with the velocity v to that place.
         f = 2.0 / (h * h)
         bend = (f * (way[0] - h * v[0]), f * (way[1] - h * v[1]), f * (way[2] - h * v[2]))
@@ -223,33 +229,23 @@ def first_inertial(block: Any, medium: Medium) -> None:
             (load3(block, work.first_v, i), load3(block, work.first_vt, i)),
         )
         P = drag_axes(block, i, Q)
-        du = (u_end[0] - u[0], u_end[1] - u[1], u_end[2] - u[2])
+        du = minus(u_end, u)
         a_u = _fluid_slope(block, i, h, v, du)
         changes = fluid_changes(rate, h, dot_vector(P, du), dot_vector(P, a_u))
         moved = first_motion(rate, h, start, *changes)
         _set_motion(block, i, P, moved)
         x, way = load3(block, at.x, i), vector_dot(moved[0], P)
-        store3(block, at.new_x, i, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
+        store3(block, at.new_x, i, plus(x, way))
         store3(block, work.drag_change, i, changes[0])
         store3(block, work.drag_bend, i, changes[1])
 
-        # The fluid there as the parabola has it; its acceleration between those of start and end.
+        # The fluid there follows from the parabola; its acceleration is linear between start and end.
         p, q = NODE - NODE * NODE, NODE * NODE
-        there = (
-            u[0] + p * h * a_u[0] + q * du[0],
-            u[1] + p * h * a_u[1] + q * du[1],
-            u[2] + p * h * a_u[2] + q * du[2],
-        )
-        a, w = load3(block, at.DuDt, i), end_acceleration(block, i)
+        a = between(load3(block, at.DuDt, i), end_acceleration(block, i), NODE)
         block[at.gone * LANES + i] = NODE
-        store3(block, at.u, i, there)
+        store3(block, at.u, i, plus_scaled(plus_scaled(u, p * h, a_u), q, du))
         store9(block, at.l, i, add(l, scale(NODE, dl)))
-        store3(
-            block,
-            at.DuDt,
-            i,
-            (a[0] + NODE * (w[0] - a[0]), a[1] + NODE * (w[1] - a[1]), a[2] + NODE * (w[2] - a[2])),
-        )
+        store3(block, at.DuDt, i, a)
 
 
 @traced
@@ -261,10 +257,10 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         b_e, change = load9(block, work.b_e, i), load9(block, work.change, i)
         rates = _rates(block, i, medium, Q0, start[0])
         k = slope_of(n, _argument(block, i), rates, start, scale(NODE, change), 1.0 / NODE)
-        share = judged_share(block, i, relaxation_rate(n))
-        two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, (share, FLUID_SHARE))
-        judged_size = 0.5 * h * _size(judged, h, b_e, strain_scale(b_e, two[0]))
-        size = counted_error(block, i, judged_size)
+        share = error_share(block, i, relaxation_rate(n))
+        two, estimate = of_second_order(n, resolvent(n, h), h, start, change, k, (share, FLUID_SHARE))
+        error_2 = 0.5 * h * _size(estimate, h, b_e, strain_scale(b_e, two[0]))
+        size = counted_error(block, i, error_2)
         store9(block, work.slope_Omega, i, k[0])
         store9(block, work.slope_l, i, k[1])
         store9(block, work.second_Omega, i, two[0])
@@ -345,10 +341,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         end = slope_of_path(rate, load3(block, work.dv, i), forced, moving[1], changes[0], 1.0)
         path = path_of_third_order(rate, h, moving, *changes, slope, end)
         x2, v2 = load3(block, work.second_x, i), load3(block, work.second_v, i)
-        miss = (
-            (path[0][0] - x2[0], path[0][1] - x2[1], path[0][2] - x2[2]),
-            (path[1][0] - v2[0], path[1][1] - v2[1], path[1][2] - v2[2]),
-        )
+        miss = minus(path[0], x2), minus(path[1], v2)
         difference = np.maximum(difference, _length(miss, h, _way(block, i)))
         F, A, J = _new_shape(block, i, Q0, start[0], three)
         store9(block, at.new_F, i, choose(third, F, load9(block, at.new_F, i)))
@@ -423,7 +416,7 @@ def _set_motion(block: Any, i: int, Q: Tensor, moved: Motion) -> None:
     """Store the displacement to the position to be evaluated, and the velocity there."""
     v, dv = load3(block, at.v, i), vector_dot(moved[1], Q)
     store3(block, work.dv, i, moved[1])
-    store3(block, at.new_v, i, (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2]))
+    store3(block, at.new_v, i, plus(v, dv))
 
 
 def _new_shape(block: Any, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[Tensor, Tensor, Any]:
@@ -436,8 +429,7 @@ def _new_shape(block: Any, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[T
 def _new_motion(block: Any, i: int, Q: Tensor, end: Motion) -> tuple[Vector, Vector]:
     """Return position and velocity at the end of the step."""
     x, v = load3(block, at.x, i), load3(block, at.v, i)
-    dx, dv = vector_dot(end[0], Q), vector_dot(end[1], Q)
-    return (x[0] + dx[0], x[1] + dx[1], x[2] + dx[2]), (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2])
+    return plus(x, vector_dot(end[0], Q)), plus(v, vector_dot(end[1], Q))
 
 
 def _forced(block: Any, i: int, medium: Medium, Q: Tensor) -> Vector:
@@ -454,12 +446,9 @@ def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector
     Q, stretches, u = load9(block, at.Q, i), load3(block, at.stretch, i), load3(block, at.u, i)
     a, inertia = acceleration(block, i, medium, stretches[0] * stretches[1] * stretches[2])
     r = drag_rate(block, i, viscosity_at(block, i, medium), drag(stretches, load_integrals(block, i)))
-    f = 1.0 / inertia
-    rate = (f * r[0], f * r[1], f * r[2])
-    w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))
-    a_D = vector_dot(resist(block, i, rate, w), Q)
-    a = lifted(block, i, medium, a, v, rate, inertia)
-    return (a[0] + a_D[0], a[1] + a_D[1], a[2] + a_D[2]), rate
+    rate = scale_vector(1.0 / inertia, r)
+    a_D = vector_dot(resist(block, i, rate, dot_vector(Q, minus(u, v))), Q)
+    return plus(lifted(block, i, medium, a, v, rate, inertia), a_D), rate
 
 
 def _fluid_share(changes: tuple[Vector, Vector], s: float) -> Vector:
@@ -487,13 +476,8 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     # The fluid at the end, with the slip of the body as it is or as it is predicted. Thus the jumps of the
     # fluid's velocity between cells, which u_t leaves out and a lagging body does not follow, do not count.
     u, u_end = load3(block, during.start_u, i), load3(block, during.end_u, i)
-    with_slip = (u_end[0] + v[0] - u[0], u_end[1] + v[1] - u[1], u_end[2] + v[2] - u[2])
-    seen = (
-        with_slip[0] + h * (bend[0] - a_u[0]),
-        with_slip[1] + h * (bend[1] - a_u[1]),
-        with_slip[2] + h * (bend[2] - a_u[2]),
-    )
-    a_end = acceleration_at_end(block, i, seen)
+    with_slip = minus(plus(u_end, v), u)
+    a_end = acceleration_at_end(block, i, plus_scaled(with_slip, h, minus(bend, a_u)))
     chord = np.minimum(
         chord_error(h, way, a_u, a_end), chord_error(h, way, a_u, acceleration_at_end(block, i, with_slip))
     )
@@ -503,15 +487,13 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     parabola = parabola_error(h, way, du, a_u, acceleration_at_end(block, i, v))
     # NaN is not less, and stays NaN.
     store_path_error(block, i, select(chord < parabola, chord, parabola))
-    f = 1.0 / h
-    return choose3(straight, (f * du[0], f * du[1], f * du[2]), a_u)
+    return choose3(straight, scale_vector(1.0 / h, du), a_u)
 
 
 def _way(block: Any, i: int) -> Any:
     """Return the scale of path errors: the way of the fluid or of the body plus the radius, m."""
     h, v, u = block[at.dt * LANES + i], load3(block, at.v, i), load3(block, during.end_u, i)
-    fastest = np.maximum(v[0] * v[0] + v[1] * v[1] + v[2] * v[2], u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
-    return h * np.sqrt(fastest) + block[at.R * LANES + i]
+    return h * np.sqrt(np.maximum(inner(v, v), inner(u, u))) + block[at.R * LANES + i]
 
 
 def _size(v: Pair, h: Any, b_e: Tensor, strain: Any) -> Any:
@@ -521,9 +503,8 @@ def _size(v: Pair, h: Any, b_e: Tensor, strain: Any) -> Any:
 
 def _length(m: Motion, h: Any, way: Any) -> Any:
     """Return the size of a small difference of two positions and velocities, over the way."""
-    (x, y, z), (u, v, w) = m
-    squares = np.maximum(x * x + y * y + z * z, h * h * (u * u + v * v + w * w))
-    return np.sqrt(squares) / way
+    x, v = m
+    return np.sqrt(np.maximum(inner(x, x), h * h * inner(v, v))) / way
 
 
 def _bend(block: Any, i: int, n: Stiffness, Q: Tensor) -> Tensor:

@@ -27,10 +27,14 @@ from foamprb.body.tensor import (
     Tensor,
     Vector,
     add,
+    between,
     det,
+    diagonal,
     dot,
     from_frame,
+    minus,
     plus,
+    plus_scaled,
     scale,
     select,
     to_frame,
@@ -53,7 +57,7 @@ from foamprb.cloud.elastic import (
     body_mobility,
     incompressible_elasticity,
     incompressible_stress,
-    own_viscosity,
+    mobility_deficit,
 )
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import (
@@ -66,12 +70,13 @@ from foamprb.cloud.integrators.adaptive import (
     drag_rate,
     during,
     end_acceleration,
+    error_share,
     finish_path,
     fluid_acceleration,
     judge_difference,
-    judged_share,
     keep_frame,
     mark_disturbed,
+    place_after,
     track_adaptive,
     update_discount,
 )
@@ -112,16 +117,13 @@ def predict_inertialess(block: Any, medium: Medium) -> None:
     """Compute velocity and acceleration at the start, and the position they predict."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
-        w = _slip(block, i, medium, load9(block, during.start_l, i), load3(block, at.DuDt, i))
-        u, x = load3(block, at.u, i), load3(block, at.x, i)
-        v = (u[0] + w[0], u[1] + w[1], u[2] + w[2])
+        w = slip_of_body(block, i, medium, load9(block, during.start_l, i), load3(block, at.DuDt, i))
+        v = plus(load3(block, at.u, i), w)
         a = fluid_acceleration(block, i, v)
         store3(block, work.start_slip, i, w)
         store3(block, during.start_v, i, v)
         store3(block, during.start_a, i, a)
-        f = 0.5 * h * h
-        place = (x[0] + h * v[0] + f * a[0], x[1] + h * v[1] + f * a[1], x[2] + h * v[2] + f * a[2])
-        store3(block, at.new_x, i, place)
+        store3(block, at.new_x, i, place_after(block, i, h, v, a))
 
 
 @traced
@@ -148,15 +150,13 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(Omega), G)))
         # Forces act at the end here, and at the start elsewhere.
         block[at.gone * LANES + i] = 1.0
-        store3(block, work.end_slip, i, _slip(block, i, medium, l_end, end_acceleration(block, i)))
+        store3(block, work.end_slip, i, slip_of_body(block, i, medium, l_end, end_acceleration(block, i)))
         block[at.gone * LANES + i] = 0.0
         # That of the body's place and time, as long as the flow is smooth.
         store9(block, at.l, i, add(l, scale(NODE, dl)))
-        x, v, u = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, at.u, i)
-        f = NODE * h
-        store3(block, at.new_x, i, (x[0] + f * v[0], x[1] + f * v[1], x[2] + f * v[2]))
-        w = load3(block, during.start_u, i)
-        store3(block, work.disturbance, i, (u[0] - w[0], u[1] - w[1], u[2] - w[2]))
+        x, v = load3(block, at.x, i), load3(block, during.start_v, i)
+        store3(block, at.new_x, i, plus_scaled(x, NODE * h, v))
+        store3(block, work.disturbance, i, minus(load3(block, at.u, i), load3(block, during.start_u, i)))
         store3(block, at.u, i, _fluid_at_node(block, i))
         store9(block, during.start_Q, i, Q)
         store9(block, work.l_s, i, l_s)
@@ -188,7 +188,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         k = slope_of(n, Omega, g, l_s, scale(NODE, change), 1.0 / NODE)
         two, by_fluid, by_slope = of_second_order(n, full, h, l_s, change, k)
         strain = strain_scale(b_e, two)
-        share = judged_share(block, i, fastest(n))
+        share = error_share(block, i, fastest(n))
         size = share * relative_size(by_slope, b_e, strain)
         size = size + FLUID_SHARE * relative_size(by_fluid, b_e, strain)
         choose_order(block, i, counted_error(block, i, size), tolerance)
@@ -201,18 +201,13 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         w0, w1, w = (
             load3(block, work.start_slip, i),
             load3(block, work.end_slip, i),
-            _slip(block, i, medium, l, a),
+            slip_of_body(block, i, medium, l, a),
         )
         # So does the disturbance by the surroundings.
         d, p, q = load3(block, work.disturbance, i), load3(block, at.u, i), _fluid_at_node(block, i)
         u = load3(block, during.end_u, i)
-        f = 1.0 / NODE
-        v = (
-            u[0] + d[0] + w1[0] + f * (w[0] - w0[0] + (p[0] - q[0] - d[0])),
-            u[1] + d[1] + w1[1] + f * (w[1] - w0[1] + (p[1] - q[1] - d[1])),
-            u[2] + d[2] + w1[2] + f * (w[2] - w0[2] + (p[2] - q[2] - d[2])),
-        )
-        finish_path(block, i, v)
+        dv = plus(minus(w, w0), minus(minus(p, q), d))
+        finish_path(block, i, plus_scaled(plus(plus(u, d), w1), 1.0 / NODE, dv))
         F = _finish_shape(block, i, Q0, two)
         # The rate of Ω at the end as the slope has it, and l_s = g + ½[Ω, g] of that.
         end = add(add(relaxing(n, two), l_s), add(change, k))
@@ -274,7 +269,7 @@ def end_inertialess(block: Any, medium: Medium) -> None:
         l_s = _gradient(block, i, medium)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         store9(block, at.A, i, choose(moving, dot(l_s, F), A))
-        slip = _slip(block, i, medium, load9(block, at.l, i), load3(block, at.DuDt, i))
+        slip = slip_of_body(block, i, medium, load9(block, at.l, i), load3(block, at.DuDt, i))
         v = plus(load3(block, at.u, i), slip)
         store3(block, at.v, i, choose3(moving, v, load3(block, at.v, i)))
 
@@ -301,8 +296,7 @@ def _gradient_in_frame(block: Any, i: int, medium: Medium) -> Tensor:
 
 def _fluid_at_node(block: Any, i: int) -> Vector:
     """Return the velocity of the undisturbed fluid at a quarter of the step, m/s."""
-    u, v = load3(block, during.start_u, i), load3(block, during.end_u, i)
-    return u[0] + NODE * (v[0] - u[0]), u[1] + NODE * (v[1] - u[1]), u[2] + NODE * (v[2] - u[2])
+    return between(load3(block, during.start_u, i), load3(block, during.end_u, i), NODE)
 
 
 def _seen(m: Mobility, dl_f: Tensor) -> Tensor:
@@ -318,14 +312,14 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
         load9(block, during.end_l, i),
     )
     bend = scale(2.0, add(add(l, l_end), scale(-2.0, middle)))
-    deficit = own_viscosity(block, i, medium)
+    deficit = mobility_deficit(block, i, medium)
     m = Mobility(
         load9(block, work.normal, i), load3(block, work.compliance, i), load3(block, work.slip, i), deficit
     )
     return _seen(m, to_frame(Q, bend))
 
 
-def _slip(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
+def slip_of_body(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
     k = drag(load3(block, at.stretch, i), load_integrals(block, i))
     rate = drag_rate(block, i, viscosity_at(block, i, medium), k)
@@ -347,7 +341,7 @@ def _load_relaxation(block: Any, i: int) -> tuple[Relaxation, Response]:
     """Return the relaxation of the state at the start, and the functions of the whole step."""
     b_e = load9(block, work.b_e, i)
     n = Relaxation(
-        (b_e[0], b_e[4], b_e[8]),
+        diagonal(b_e),
         load3(block, work.upper, i),
         load3(block, work.lower, i),
         load9(block, work.relaxation, i),

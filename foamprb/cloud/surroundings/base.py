@@ -8,7 +8,14 @@ from dataclasses import dataclass, fields
 from typing import Any, ClassVar, NamedTuple
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.tensor import Scalar, Tensor, Vector, add, plus
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    Vector,
+    add,
+    plus,
+    scale_vector,
+)
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.integrators.base import Integrator, no_disturbance, no_update
 from foamprb.cloud.layout import LANES
@@ -86,11 +93,11 @@ class Surrounding:
     offsets in its functions."""
     traits: ClassVar[Traits] = Traits()
     update: ClassVar[Callable[..., None]] = staticmethod(no_update)
-    """``update(flow, s, i, step, rest, medium, coefficients)``: update its rows of lane i before each step h.
+    """``update(flow, s, i, step, remaining, medium, coefficients)``: update rows of lane i before a step h.
 
-    ``step`` is the number of the tracking step and ``rest`` the time to its end, s. It is called once more
-    with ``rest`` 0 at the end of a call, for the last rates. The lane's x and t are those of the start of
-    h."""
+    ``step`` is the number of the tracking step and ``remaining`` the time to its end, s. A further call with
+    ``remaining`` 0 comes at the end of a call, for the last rates. The lane's x and t are at the start of h.
+    """
     disturb: ClassVar[Callable[..., None]] = staticmethod(no_disturbance)
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
@@ -159,8 +166,8 @@ def thermal_force(_block: Any, _i: int) -> Vector:
 
 def resistances(block: Any, i: int) -> Vector:
     """Return the principal resistances K of lane i without walls, m."""
-    R, k = block[at.R * LANES + i], drag(load3(block, at.stretch, i), load_integrals(block, i))
-    return R * k[0], R * k[1], R * k[2]
+    k = drag(load3(block, at.stretch, i), load_integrals(block, i))
+    return scale_vector(block[at.R * LANES + i], k)
 
 
 def volume_at_rest(block: Any, i: int) -> Scalar:

@@ -183,7 +183,7 @@ class BrownianMotion(Surrounding):
     def refuses(self, integrator: Integrator, liquid: bool) -> str:
         """Refuse ``paper``, whose resistances are those at the start of the step, and drops.
 
-        The resistances and the thermal strain are those of solids.
+        Resistances and thermal strain hold for solids.
         """
         if integrator.name == "paper":
             return "BrownianMotion needs the integrator stokes or rosenbrock, not paper"

@@ -13,7 +13,17 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 
 from foamprb.body.philox import normals, philox
-from foamprb.body.tensor import Tensor, Vector, dot_vector, inner, norm
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    dot_vector,
+    inner,
+    minus,
+    norm,
+    plus,
+    plus_scaled,
+    scale_vector,
+)
 from foamprb.body.turbulence import (
     crossing_rate,
     direction,
@@ -69,8 +79,7 @@ def update_eddy(
     k, epsilon, slope, drift = turbulence(flow, s.host[i], x, t)
     k, epsilon = max(k, 0.0), max(epsilon, 0.0)
     u, v, w = load3(block, at.u, i), load3(block, at.v, i), load3(block, eddies.eddy_velocity, i)
-    d = (v[0] - u[0] - w[0], v[1] - u[1] - w[1], v[2] - u[2] - w[2])
-    rate = crossing_rate(k, norm(d))
+    rate = crossing_rate(k, norm(minus(minus(v, u), w)))
     left, life = block[eddies.eddy_time * LANES + i], eddy_time(k, epsilon) / rate
     size = fluctuation_size(k)
     if kind == OPENFOAM:
@@ -89,10 +98,9 @@ def update_eddy(
         number, counter = np.uint64(block[eddies.eddy_number * LANES + i]), np.uint64(step)
         words = philox((number & _LOW, number >> _HALF, counter & _LOW, counter >> _HALF), (seed, _KIND))
         w = eddy_velocity(normals(words), kind, slope)
-        store3(block, eddies.eddy_velocity, i, (size * w[0], size * w[1], size * w[2]))
+        store3(block, eddies.eddy_velocity, i, scale_vector(size, w))
     block[eddies.eddy_time * LANES + i] = left
-    c = corrected
-    store3(block, eddies.drift, i, (c * drift[0], c * drift[1], c * drift[2]))
+    store3(block, eddies.drift, i, scale_vector(corrected, drift))
 
 
 NORMAL, OPENFOAM, DOWN, DOWN_OR_UP = 0.0, 1.0, 2.0, 3.0
@@ -117,8 +125,7 @@ def eddy_velocity(xi: tuple[float, float, float, float], kind: float, slope: Vec
         return xi[0], xi[1], xi[2]
     size = abs(xi[3]) if kind < DOWN_OR_UP else xi[3]
     n = direction((xi[0], xi[1], xi[2])) if kind == OPENFOAM else direction(slope)
-    s = size if kind == OPENFOAM else -size
-    return s * n[0], s * n[1], s * n[2]
+    return scale_vector(size if kind == OPENFOAM else -size, n)
 
 
 @traced
@@ -126,7 +133,7 @@ def add_eddies(block: Any, _medium: Medium, _share: float, _coefficients: Any) -
     """Add the velocity of the eddies to that of the mean flow."""
     for i in range(LANES):
         u, w, c = load3(block, at.u, i), load3(block, eddies.eddy_velocity, i), load3(block, eddies.drift, i)
-        store3(block, at.u, i, (u[0] + w[0] + c[0], u[1] + w[1] + c[1], u[2] + w[2] + c[2]))
+        store3(block, at.u, i, plus(plus(u, w), c))
 
 
 def turn_eddy(block: Any, i: int, turn: Tensor) -> None:
@@ -138,9 +145,7 @@ def reflect_eddy(block: Any, i: int, n: Vector) -> None:
     """Reflect the eddy of lane i at a wall of normal n that the particle bounces off."""
     w = load3(block, eddies.eddy_velocity, i)
     towards = -2.0 * min(inner(w, n), 0.0)
-    store3(
-        block, eddies.eddy_velocity, i, (w[0] + towards * n[0], w[1] + towards * n[1], w[2] + towards * n[2])
-    )
+    store3(block, eddies.eddy_velocity, i, plus_scaled(w, towards, n))
 
 
 @dataclass(frozen=True, kw_only=True)

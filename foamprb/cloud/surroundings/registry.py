@@ -7,6 +7,7 @@ from types import FunctionType
 from typing import Any
 
 from foamprb.cloud.block import Medium, Scratch
+from foamprb.cloud.forces import nested
 from foamprb.cloud.integrators.base import no_disturbance, no_update
 from foamprb.cloud.layout import Layout, end, keep, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
@@ -102,11 +103,8 @@ def stages(surroundings: Sequence[Surrounding], inertia: bool) -> list[Callable[
 
 
 def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> tuple[Any, ...]:
-    """Return the coefficients of these models as their composed functions read them: ((…, 1st), 2nd)."""
-    nested: tuple[Any, ...] = ()
-    for model in surroundings:
-        nested = nested, model.coefficients(patches)
-    return nested
+    """Return the coefficients of these models, see :func:`foamprb.cloud.forces.nested`."""
+    return nested(model.coefficients(patches) for model in surroundings)
 
 
 def _offsets(base: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tuple[int, ...]]:

@@ -16,8 +16,6 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from foamprb.body.drag import oberbeck as drag
-from foamprb.body.slip import balanced_slip
 from foamprb.body.tensor import Tensor, Vector, dot_vector, minus, plus, vector_product
 from foamprb.cloud.block import (
     Medium,
@@ -25,13 +23,11 @@ from foamprb.cloud.block import (
     at,
     load3,
     load9,
-    load_integrals,
     store3,
-    viscosity_at,
 )
-from foamprb.cloud.forces import forces_on
-from foamprb.cloud.integrators.adaptive import drag_rate, during
+from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator
+from foamprb.cloud.integrators.stokes import slip_of_body as slip_without_rotation
 from foamprb.cloud.layout import Row, offsets
 from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
 from foamprb.flow.analytic import no_rotation as rotation_at
@@ -85,16 +81,13 @@ def end_acceleration_in_frame(block: Any, i: int) -> Vector:
 
 def slip_in_frame(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
-    k = drag(load3(block, at.stretch, i), load_integrals(block, i))
-    rate = drag_rate(block, i, viscosity_at(block, i, medium), k)
-    steady, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     w = load3(block, frames.spin, i)
     l = (
         l_f[0], l_f[1] - 2.0 * w[2], l_f[2] + 2.0 * w[1],
         l_f[3] + 2.0 * w[2], l_f[4], l_f[5] - 2.0 * w[0],
         l_f[6] - 2.0 * w[1], l_f[7] + 2.0 * w[0], l_f[8],
     )  # fmt: skip
-    return balanced_slip(load9(block, at.Q, i), rate, steady, f, inertia, Du_Dt, l)
+    return slip_without_rotation(block, i, medium, l, Du_Dt)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,7 +103,7 @@ class RotatingFrames(Surrounding):
         return {
             "fluid_acceleration": fluid_acceleration_in_frame,
             "end_acceleration": end_acceleration_in_frame,
-            "_slip": slip_in_frame,
+            "slip_of_body": slip_in_frame,
         }
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002

@@ -9,16 +9,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from foamprb.body.drag import oberbeck as drag
 from foamprb.body.lift import lift_force, lifted_slip, vorticity
-from foamprb.body.slip import balanced_slip
 from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, minus, plus, scale_vector, vector_dot
-from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, local_fluid, viscosity_at
-from foamprb.cloud.forces import forces_on
-from foamprb.cloud.integrators.adaptive import drag_rate
+from foamprb.cloud.block import Medium, at, load3, load9, local_fluid, viscosity_at
 from foamprb.cloud.integrators.base import Integrator
+from foamprb.cloud.integrators.stokes import slip_of_body as slip_without_lift
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.surroundings.base import Surrounding, volume_at_rest
+from foamprb.cloud.surroundings.base import Surrounding, resistances, volume_at_rest
 from foamprb.dictionary.constraints import Only
 
 __all__ = ["SaffmanMeiLift"]
@@ -26,11 +23,9 @@ __all__ = ["SaffmanMeiLift"]
 
 def slip_with_lift(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
-    k, mu = drag(load3(block, at.stretch, i), load_integrals(block, i)), viscosity_at(block, i, medium)
-    steady, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
-    Q, R = load9(block, at.Q, i), block[at.R * LANES + i]
-    w = balanced_slip(Q, drag_rate(block, i, mu, k), steady, f, inertia, Du_Dt, l_f)
-    return lifted_slip(w, Q, scale_vector(R, k), vorticity(l_f), R, local_fluid(block, i, medium).rho, mu)
+    w, K = slip_without_lift(block, i, medium, l_f, Du_Dt), resistances(block, i)
+    Q, R, mu = load9(block, at.Q, i), block[at.R * LANES + i], viscosity_at(block, i, medium)
+    return lifted_slip(w, Q, K, vorticity(l_f), R, local_fluid(block, i, medium).rho, mu)
 
 
 def acceleration_with_lift(
@@ -64,7 +59,7 @@ class SaffmanMeiLift(Surrounding):
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
         """Return the acceleration, or the slip without inertia."""
-        return {"lifted": acceleration_with_lift} if inertia else {"_slip": slip_with_lift}
+        return {"lifted": acceleration_with_lift} if inertia else {"slip_of_body": slip_with_lift}
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse drops, inside which the fluid moves."""

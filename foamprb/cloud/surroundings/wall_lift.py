@@ -65,7 +65,7 @@ from foamprb.cloud.block import (
     store9,
     viscosity_at,
 )
-from foamprb.cloud.elastic import body_mobility, incompressible_stress, own_viscosity
+from foamprb.cloud.elastic import body_mobility, incompressible_stress, mobility_deficit
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
@@ -338,7 +338,7 @@ def response_to_gradient(block: Any, i: int, medium: Medium, E: Tensor) -> Tenso
         load9(block, near.mobility_normal, i),
         load3(block, near.mobility_shear, i),
         load3(block, near.mobility_slip, i),
-        own_viscosity(block, i, medium),
+        mobility_deficit(block, i, medium),
     )
     l = to_frame(load9(block, at.Q, i), E)
     return velocity_gradient(m, scale(0.0, l), l)
@@ -393,7 +393,7 @@ def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
 def hindered_rate(block: Any, i: int, rate: Vector) -> Tensor:
     """Return the rates of drag of lane i near its walls, 1/s, in the particle frame, from those without."""
     W = load9(block, near.hindrance, i)
-    # Without walls near any lane, the rows of hindrance are those of an earlier step.
+    # Without walls near any lane, the rows of hindrance are from an earlier step.
     return hindered_resistance(rate, choose(any_near(block, i), W, scale(0.0, W)))
 
 
