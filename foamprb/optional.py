@@ -10,7 +10,7 @@ from foamprb.errors import InputError
 __all__ = ["load"]
 
 
-def load(module: str, extra: str, reason: str) -> Any:
+def load(module: str, extra: str = "view", reason: str = "pages, pictures and reports need") -> Any:
     """Import a module of an extra.
 
     Parameters
@@ -18,7 +18,7 @@ def load(module: str, extra: str, reason: str) -> Any:
     module
         Its full name.
     extra
-        Name of the extra in ``pyproject.toml``.
+        Name of the extra in ``pyproject.toml``; by default ``view``: Matplotlib, pyvista and Pillow.
     reason
         Beginning of the message: the subject and ``need`` or ``needs``.
 

@@ -84,24 +84,24 @@ SECTIONS: dict[str, Section] = {
 def entries_of(name: str) -> tuple[EntryText, ...]:
     """Return the documentation of the entries of a section, including entries without effect."""
     section = SECTIONS[name]
-    found = [
+    texts = [
         text for prefix, schema in section.schemas.items() for text in _described(name, "", prefix, schema)
     ]
     if name == "solid":
-        found += [_text(name, "", key, hint, MISSING) for key, hint in parameters().items()]
+        texts += [_text(name, "", key, hint, MISSING) for key, hint in parameters().items()]
     for model, schema in section.models.items():
-        found += _described(name, model, "", schema)
-    return tuple(found)
+        texts += _described(name, model, "", schema)
+    return tuple(texts)
 
 
 def _described(section: str, model: str, prefix: str, schema: Any) -> Iterator[EntryText]:
     hints = hints_of(schema)
     for field in fields(schema):
         hint, name = hints[field.name], "/".join(filter(None, (prefix, field.name)))
-        own = [part for part in members(hint) if is_dataclass(part) and part not in READERS]
-        if not own or note_of(hint, Meaning):
+        schemas = [part for part in members(hint) if is_dataclass(part) and part not in READERS]
+        if not schemas or note_of(hint, Meaning):
             yield _text(section, model, name, hint, field.default)
-        for inner in own:
+        for inner in schemas:
             if not hasattr(inner, "from_dictionary"):
                 yield from _described(section, model, name, inner)
 
@@ -197,11 +197,11 @@ def _table(name: str) -> str:
     shown = [text for text in entries_of(name) if not text.why_idle]
     rows = [_row(f"`{t.name}`", t.unit, t.default, t.meaning) for t in shown]
     if name == "particleForces":
-        found = {text.name for text in shown}
+        names = {text.name for text in shown}
         rows += [
             _row(f"`particleForces/{force}`", "", "absent", summary(kind))
             for force, kind in _CHOSEN.items()
-            if f"particleForces/{force}" not in found
+            if f"particleForces/{force}" not in names
         ]
         rows.sort(key=lambda row: row.split("`")[1])
     return _head("entry", "unit", "default", "meaning") + "".join(rows)
@@ -211,8 +211,8 @@ def _models_table(name: str) -> str:
     rows = []
     for model, schema in SECTIONS[name].models.items():
         rows.append(_row(f"`{model}`", "", "", "", summary(schema)))
-        own = (text for text in entries_of(name) if text.model == model and not text.why_idle)
-        rows += [_row("", f"`{t.name}`", t.unit, t.default, t.meaning) for t in own]
+        texts = (text for text in entries_of(name) if text.model == model and not text.why_idle)
+        rows += [_row("", f"`{t.name}`", t.unit, t.default, t.meaning) for t in texts]
     return _head("`type`", "entry", "unit", "default", "meaning") + "".join(rows)
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import logging
-import sys
 from pathlib import Path
+
+from foamprb.cli.options import add_browser, show_page
 
 PURPOSE = "write a page about several runs: fates, deposition, times, deformation"
 
@@ -17,17 +18,14 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("runs", nargs="+", help="cases, or folders of results, such as study/*")
     add("--output", type=Path, default=Path("comparison.html"), metavar="FILE", help="page [comparison.html]")
-    add("--noBrowser", action="store_true", help="write the page, do not open it")
+    add_browser(parser)
 
 
 def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.report.compare import write_comparison
     from foamprb.view.runs import open_runs
-    from foamprb.view.show import open_in_browser
 
     target = write_comparison(open_runs(*arguments.runs), arguments.output)
     log.info("Comparison: %s", target)
-    if not arguments.noBrowser and sys.stdout.isatty():
-        open_in_browser(target)
-    return 0
+    return show_page(arguments, target)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,7 @@ from foamprb.errors import InputError
 if TYPE_CHECKING:
     from foamprb.flow.read.source import FlowSource
 
-__all__ = ["add_case", "add_cloud", "add_flow", "fraction", "source_of"]
+__all__ = ["add_browser", "add_case", "add_cloud", "add_flow", "fraction", "show_page", "source_of"]
 
 
 def add_case(parser: argparse.ArgumentParser) -> None:
@@ -55,6 +56,20 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
         help="split patches of a mesh file at edges with a larger angle",
     )
     add("--scale", type=float, metavar="S", help="lengths in a mesh file times S are m [1]")
+
+
+def add_browser(parser: argparse.ArgumentParser) -> None:
+    """Add the option ``-noBrowser``."""
+    parser.add_argument("--noBrowser", action="store_true", help="write the page, do not open it")
+
+
+def show_page(arguments: argparse.Namespace, page: Path) -> int:
+    """Open a page unless ``-noBrowser`` forbids it or the output is no terminal; return the exit status 0."""
+    from foamprb.view.show import open_in_browser
+
+    if not arguments.noBrowser and sys.stdout.isatty():
+        open_in_browser(page)
+    return 0
 
 
 def fraction(text: str) -> float:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
-from foamprb.cli.options import add_cloud, add_flow, source_of
+from foamprb.cli.options import add_browser, add_cloud, add_flow, show_page, source_of
 from foamprb.errors import InputError
 
 PURPOSE = "write a page about a run and its results"
@@ -19,13 +18,12 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/report.html]")
     add("--paths", metavar="IDS", help="particles whose D is plotted over time, 3,17,20 [a selection]")
-    add("--noBrowser", action="store_true", help="write the page, do not open it")
+    add_browser(parser)
 
 
 def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.report.report import write_report
-    from foamprb.view.show import open_in_browser
 
     words = (arguments.paths or "").replace(",", " ").split()
     if not all(word.isascii() and word.isdigit() for word in words):
@@ -38,6 +36,4 @@ def execute(arguments: argparse.Namespace) -> int:
         [int(w) for w in words],
         arguments.results,
     )
-    if not arguments.noBrowser and sys.stdout.isatty():
-        open_in_browser(target)
-    return 0
+    return show_page(arguments, target)

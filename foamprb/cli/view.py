@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 from importlib.metadata import version
 from pathlib import Path
 
-from foamprb.cli.options import add_cloud, add_flow, source_of
+from foamprb.cli.options import add_browser, add_cloud, add_flow, show_page, source_of
 from foamprb.errors import InputError
 
 PURPOSE = "show the bodies of a run: a page for any browser"
@@ -20,7 +19,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add_cloud(parser)
     add = parser.add_argument
     add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/CLOUD.html]")
-    add("--noBrowser", action="store_true", help="write the page, do not open it")
+    add_browser(parser)
     kind = parser.add_mutually_exclusive_group()
     kind.add_argument("--png", type=Path, metavar="FILE", help="write a picture, not the page")
     kind.add_argument("--film", type=Path, metavar="FILE", help="write a film, .mp4 or .gif, not the page")
@@ -43,7 +42,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.colours import DARK, LIGHT
-    from foamprb.view.show import Request, film_of, open_in_browser, picture_of, write_page
+    from foamprb.view.show import Request, film_of, picture_of, write_page
 
     request = Request(
         arguments.case,
@@ -63,9 +62,7 @@ def execute(arguments: argparse.Namespace) -> int:
         write(request, path, read_size(arguments.size), DARK if arguments.dark else LIGHT)
         return 0
     path = write_page(request, arguments.output, arguments.maxSize, version("foamprb"))
-    if not arguments.noBrowser and sys.stdout.isatty():
-        open_in_browser(path)
-    return 0
+    return show_page(arguments, path)
 
 
 def read_size(text: str) -> tuple[int, int]:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.view.libraries import load
+from foamprb.optional import load
 
 Table = NDArray[np.uint8]
 

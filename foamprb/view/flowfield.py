@@ -15,8 +15,8 @@ from foamprb.body.viscosity import shear_rate
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.optional import load
 from foamprb.view.colours import round_limits
-from foamprb.view.libraries import load
 
 pyvista = load("pyvista")
 

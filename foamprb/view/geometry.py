@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.view.libraries import load
+from foamprb.optional import load
 
 pyvista = load("pyvista")
 

@@ -19,6 +19,7 @@ from foamprb import optional
 from foamprb.errors import InputError
 from foamprb.flow.patches import PatchKind, kind_of_type
 from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.optional import load
 from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
 from foamprb.view.colours import (
@@ -34,7 +35,6 @@ from foamprb.view.colours import (
 )
 from foamprb.view.flowfield import PLANE, QUANTITIES, STREAM_OPACITY, FlowField
 from foamprb.view.geometry import FLAT_TYPES, Geometry
-from foamprb.view.libraries import load
 from foamprb.view.scene import (
     INSETS,
     MOST_TRAILS,

@@ -21,13 +21,13 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.vtk_guard import require_survival
 from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.optional import load
 from foamprb.results.folder import FATES, HOW, ResultsFolder
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
 from foamprb.results.vtk_check import is_compressed, require_sizes
 from foamprb.view.dataset import dataset_of
-from foamprb.view.libraries import load
 
 if TYPE_CHECKING:
     import pyvista

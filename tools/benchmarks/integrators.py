@@ -19,8 +19,8 @@ def fewest_steps(integrator: str, exact: np.ndarray, largest: float) -> int:
     tau = relaxation_time(study.WATER.rho_s, study.D / 2, study.WATER.mu)
     n = 8.0 if integrator != "paper" else 0.4 * study.WATER.time / tau
     while True:
-        found = study.run(study.WATER, integrator, round(n))
-        if np.abs(found - exact)[:9].max() < largest:
+        state = study.run(study.WATER, integrator, round(n))
+        if np.abs(state - exact)[:9].max() < largest:
             return round(n)
         n *= _FINER
 
@@ -30,7 +30,7 @@ def measure(options: Options) -> list[Row]:
     n, repeats = (2000, 2) if options.quick else (50_000, 5)
     flow = foamprb.read_case(pipe.case("40k"))
     exact = study.run(study.WATER, "rosenbrock", 1 << (14 if options.quick else 17))
-    found = []
+    table = []
     for name, largest in list(ERRORS.items())[: 1 if options.quick else None]:
         steps = {i: fewest_steps(i, exact, largest) for i in ("paper", "rosenbrock", "stokes")}
         clocks = {}
@@ -39,11 +39,11 @@ def measure(options: Options) -> list[Row]:
             cloud.advance(5)
             clocks[integrator] = lambda c=cloud: pipe.cost(c, 20)
         costs = interleaved(clocks, repeats)
-        whole = {integrator: costs[integrator] * number for integrator, number in steps.items()}
-        found += rows("integrators", f"steps, {name}", {k: float(v) for k, v in steps.items()}, "")
-        found += rows("integrators", f"cost of a step, {name}", costs, "us/particle-step")
-        found += rows("integrators", f"cost of 4 ms, {name}", whole, "us/particle")
-        found += rows(
-            "integrators", "cost of paper over stokes", {name: whole["paper"] / whole["stokes"]}, ""
+        totals = {integrator: costs[integrator] * number for integrator, number in steps.items()}
+        table += rows("integrators", f"steps, {name}", {k: float(v) for k, v in steps.items()}, "")
+        table += rows("integrators", f"cost of a step, {name}", costs, "us/particle-step")
+        table += rows("integrators", f"cost of 4 ms, {name}", totals, "us/particle")
+        table += rows(
+            "integrators", "cost of paper over stokes", {name: totals["paper"] / totals["stokes"]}, ""
         )
-    return found
+    return table

@@ -70,8 +70,8 @@ def main() -> None:
         print("| command | CPU time, s | peak memory, MB |\n|---|---:|---:|")
         rows = {f"python -c '{line}'": line for line in IMPORTS}
         for name, words in COMMANDS.items():
-            given = [*words, "-case", str(case)]
-            rows[name] = f"from foamprb.cli import main\nassert main({given}) == 0\n"
+            arguments = [*words, "-case", str(case)]
+            rows[name] = f"from foamprb.cli import main\nassert main({arguments}) == 0\n"
         for name, code in rows.items():
             seconds, peak = cost(code, folder)
             print(f"| {name} | {seconds:.1f} | {peak:.0f} |", flush=True)

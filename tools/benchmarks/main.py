@@ -74,7 +74,7 @@ def main(arguments: list[str] | None = None) -> int:
     from foamprb.results.tables import write_table
 
     parsed.output.mkdir(parents=True, exist_ok=True)
-    kept = {part: [r for r in read_rows(parsed.output / CSV) if r.part == part] for part in PARTS}
+    of_parts = {part: [r for r in read_rows(parsed.output / CSV) if r.part == part] for part in PARTS}
     scratch = parsed.scratch or Path(tempfile.mkdtemp(prefix="foamprb-benchmark-"))
     os.environ["FOAMPRB_BENCHMARK_DIR"] = str(scratch.resolve())
     failed = []
@@ -89,18 +89,18 @@ def main(arguments: list[str] | None = None) -> int:
                 failed.append(part)
                 continue
             note = Row(part, "machine", machine() + (", quick" if parsed.quick else ""), 0.0, busy, "load")
-            kept[part] = [note, *(Row(*values) for values in child.result)]
-            for row in kept[part]:
+            of_parts[part] = [note, *(Row(*values) for values in child.result)]
+            for row in of_parts[part]:
                 size = f"{row.size:g}" if row.size else ""
                 print(f"    {row.quantity:30s} {row.subject:32.60s} {size:8s} {row.value:11.5g} {row.unit}")
             print(f"    {child.wall:.0f} s", flush=True)
-            rows = [row for p in PARTS for row in kept[p]]
+            rows = [row for p in PARTS for row in of_parts[p]]
             columns = {name: [getattr(row, name) for row in rows] for name in Row._fields}
             write_table(parsed.output / CSV, columns)
     finally:
         if parsed.scratch is None:
             shutil.rmtree(scratch, ignore_errors=True)
-    results = Results(row for part in PARTS for row in kept[part])
+    results = Results(row for part in PARTS for row in of_parts[part])
     print(f"\n{written_table(results)}")
     write_report(results, parsed.output)
     return 1 if failed else 0

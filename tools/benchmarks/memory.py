@@ -45,14 +45,14 @@ def whole_run(case: str, n: int) -> None:
 def measure(options: Options) -> list[Row]:
     """Measure memory and CPU per particle."""
     few, many, steps, repeats = (10_000, 100_000, 5, 1) if options.quick else (100_000, 1_000_000, 20, 3)
-    found = []
+    table = []
     results = {n: isolated(throughput, n, steps, repeats).result for n in (few, many)}
     for n, result in results.items():
-        found += rows("memory", "cost by particles", {"foamprb paper": result["cost"]}, "us/particle-step", n)
+        table += rows("memory", "cost by particles", {"foamprb paper": result["cost"]}, "us/particle-step", n)
     ratio = {
         "1e5 over 1e4" if options.quick else "1e6 over 1e5": results[many]["cost"] / results[few]["cost"]
     }
-    found += rows("memory", "cost of many over few", ratio, "")
+    table += rows("memory", "cost of many over few", ratio, "")
     case = str(pipe.case("40k"))
     peaks = {n: isolated(whole_run, case, n).peak for n in (few, many)}
     per_particle = {
@@ -60,12 +60,12 @@ def measure(options: Options) -> list[Row]:
         "tracking alone": (results[many]["peak"] - results[few]["peak"]) / (many - few),
         "run with output": (peaks[many] - peaks[few]) / (many - few),
     }
-    found += [
+    table += [
         row
         for name, b in per_particle.items()
         for row in rows("memory", "memory per particle", {name: b / KILO}, "kB", many)
     ]
     if options.large and available_memory() > NEEDED:
         large = isolated(whole_run, case, 10_000_000)
-        found += rows("memory", "peak memory of 1e7 particles", {"run with output": large.peak / GIGA}, "GB")
-    return found
+        table += rows("memory", "peak memory of 1e7 particles", {"run with output": large.peak / GIGA}, "GB")
+    return table

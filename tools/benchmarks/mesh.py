@@ -76,7 +76,7 @@ def measure(options: Options) -> list[Row]:
     tried = list(grids)
     if options.large and available_memory() > NEEDED:
         tried.append("8M")
-    found = []
+    table = []
     for grid in tried:
         # Written in a process of its own, and the files are in the system's cache for both readers.
         isolated(write, grid)
@@ -84,20 +84,20 @@ def measure(options: Options) -> list[Row]:
         results = [isolated(ready, grid).result for _ in range(1 if grid == "8M" else min(repeats, 3))]
         cells = pipe.GRIDS[grid].cells
         spent = sorted(result["spent"] for result in results)[len(results) // 2]
-        kept, peak = results[0]["kept"], results[0]["peak"]
+        used, peak = results[0]["kept"], results[0]["peak"]
         times = {"foamprb": spent, "VTK reads": reading[len(reading) // 2]}
-        found += rows("mesh", "time to ready", times, "s CPU", cells)
-        found += rows("mesh", "memory kept per cell, kB", {"foamprb": kept / cells / KILO}, "kB", cells)
-        found += rows("mesh", "peak memory, GB", {"foamprb": peak / GIGA}, "GB", cells)
+        table += rows("mesh", "time to ready", times, "s CPU", cells)
+        table += rows("mesh", "memory kept per cell, kB", {"foamprb": used / cells / KILO}, "kB", cells)
+        table += rows("mesh", "peak memory, GB", {"foamprb": peak / GIGA}, "GB", cells)
     by_cells = isolated(costs, grids, n, steps, repeats).result
     for grid, cost in by_cells.items():
         size = pipe.GRIDS[grid].cells
-        found += rows("mesh", "cost by cells", {"foamprb paper": cost}, "us/particle-step", size)
+        table += rows("mesh", "cost by cells", {"foamprb paper": cost}, "us/particle-step", size)
     finest = grids[-1]
-    found += rows(
+    table += rows(
         "mesh", "cost of fine over coarse", {f"{finest} over 5k": by_cells[finest] / by_cells["5k"]}, ""
     )
-    return found
+    return table
 
 
 def write(grid: str) -> None:

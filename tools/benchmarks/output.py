@@ -51,15 +51,15 @@ def measure(options: Options) -> list[Row]:
         return report(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time, {})
 
     snapshots = list(parts().snapshots)
-    whole = {
+    arrays = {
         name: np.concatenate([np.ascontiguousarray(snapshot.arrays[name]) for snapshot in snapshots])
         for name in snapshots[0].arrays
     }
     points = np.concatenate([snapshot.points for snapshot in snapshots])
-    raw = b"".join(array.tobytes() for array in (points, *whole.values()))
+    raw = b"".join(array.tobytes() for array in (points, *arrays.values()))
     total = len(raw)
     data = pyvista.PolyData(points)
-    data.point_data.update({k: a.astype(np.int8) if a.dtype == bool else a for k, a in whole.items()})
+    data.point_data.update({k: a.astype(np.int8) if a.dtype == bool else a for k, a in arrays.items()})
     folder = Path(tempfile.mkdtemp(dir=pipe.scratch_folder()))
     contestants = {
         "measures": lambda: deque(parts().snapshots, maxlen=0),
@@ -84,8 +84,8 @@ def measure(options: Options) -> list[Row]:
         sizes = {name: (folder / f"{name}.vtp").stat().st_size for name in ("foamprb", *COMPRESSORS)}
     finally:
         shutil.rmtree(folder)
-    found = rows("output", "throughput", {name: total / t / MEGA for name, t in times.items()}, "MB/s", n)
-    found += rows("output", "time of a snapshot", times, "s", n)
-    found += rows("output", "size of a snapshot", {"arrays": total / n}, "bytes/particle", n)
+    table = rows("output", "throughput", {name: total / t / MEGA for name, t in times.items()}, "MB/s", n)
+    table += rows("output", "time of a snapshot", times, "s", n)
+    table += rows("output", "size of a snapshot", {"arrays": total / n}, "bytes/particle", n)
     files = {f"file, {name}": size / n for name, size in sizes.items()}
-    return found + rows("output", "size of a snapshot", files, "bytes/particle", n)
+    return table + rows("output", "size of a snapshot", files, "bytes/particle", n)

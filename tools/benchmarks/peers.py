@@ -155,5 +155,5 @@ def measure(options: Options) -> list[Row]:
         contestants["OpenFOAM"] = lambda: openfoam_cost(case, 10 * n, steps)
     costs = interleaved(contestants, repeats)
     ratios = {name: cost / costs["foamprb paper"] for name, cost in costs.items()}
-    found = rows("peers", "cost of a peer", costs, "us/particle-step")
-    return found + rows("peers", "cost over foamprb paper's", ratios, "")
+    table = rows("peers", "cost of a peer", costs, "us/particle-step")
+    return table + rows("peers", "cost over foamprb paper's", ratios, "")

@@ -128,8 +128,8 @@ def write_mesh(folder: Path, grid: Grid) -> Floats:
     def cells(quads: Ints, stations: Any) -> Ints:
         return (quads[None] + n_quads * np.asarray(stations, dtype=np.int32)[:, None]).ravel()
 
-    def sides(chosen: Any) -> Ints:
-        low, high = at(s.edges[chosen], layers), at(s.edges[chosen], layers + 1)
+    def sides(rows: Any) -> Ints:
+        low, high = at(s.edges[rows], layers), at(s.edges[rows], layers + 1)
         return np.concatenate([low, high[:, ::-1]], axis=1)
 
     every, inner, wall = np.arange(n_quads, dtype=np.int32), s.beyond >= 0, s.beyond < 0

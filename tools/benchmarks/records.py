@@ -104,10 +104,10 @@ def machine() -> str:
 
 def load(seconds: float = 2.0) -> float:
     """Return the number of processors busy while this process sleeps: above 0.5, times are unreliable."""
-    idle, whole = _processor_time()
+    idle, total = _processor_time()
     time.sleep(seconds)
-    idle_now, whole_now = _processor_time()
-    return (os.cpu_count() or 1) * (1.0 - (idle_now - idle) / (whole_now - whole))
+    idle_now, total_now = _processor_time()
+    return (os.cpu_count() or 1) * (1.0 - (idle_now - idle) / (total_now - total))
 
 
 def _processor_time() -> tuple[float, float]:
@@ -156,11 +156,11 @@ def wall_of(work: Callable[[], Any]) -> float:
 
 def interleaved(contestants: Mapping[str, Callable[[], float]], repeats: int) -> dict[str, float]:
     """Return medians of each contestant's results, called in turn to share fluctuations of the machine."""
-    found: dict[str, list[float]] = {name: [] for name in contestants}
+    results: dict[str, list[float]] = {name: [] for name in contestants}
     for _ in range(repeats):
         for name, contestant in contestants.items():
-            found[name].append(contestant())
-    return {name: statistics.median(values) for name, values in found.items()}
+            results[name].append(contestant())
+    return {name: statistics.median(values) for name, values in results.items()}
 
 
 class Child(NamedTuple):

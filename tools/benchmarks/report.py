@@ -55,8 +55,8 @@ def _compiled(results: Results) -> float | None:
 def _written(results: Results) -> float | None:
     """Return bytes per second of a snapshot of a million particles, over the rate of disk or compressor."""
     alone = [results.get("throughput", name, 1e6) for name in ("disk, with fsync", "zlib alone, level 1")]
-    known = [rate for rate in alone if rate is not None]
-    return _quotient(results.get("throughput", "snapshot to file", 1e6), min(known)) if known else None
+    rates = [rate for rate in alone if rate is not None]
+    return _quotient(results.get("throughput", "snapshot to file", 1e6), min(rates)) if rates else None
 
 
 _KEPT = _got("memory kept per cell, kB", "", pipe.GRIDS["1M"].cells)

@@ -78,24 +78,24 @@ def measure(options: Options) -> list[Row]:
     n, steps, repeats = (20_000, 100, 1) if options.quick else (1_000_000, 1000, 3)
     case = Path(pipe.case("40k"))
     results = case / "postProcessing" / "softCloud"
-    found = []
+    table = []
     for subject, scheme in SCHEMES.items():
         pipe.write_soft_cloud(case, n, scheme.dt, steps, WRITES, scheme.integrator)
-        computed, whole = [], []
+        computed, runs = [], []
         for _ in range(repeats):
             computed.append(isolated(alone, str(case), steps).result["wall"])
             # A run would begin by removing what the last one, or one that was stopped, has left.
             shutil.rmtree(results, ignore_errors=True)
-            whole.append(isolated(with_output, str(case)).result)
-        wall = statistics.median(run["wall"] for run in whole)
-        waited = statistics.median(run["waited"] for run in whole)
+            runs.append(isolated(with_output, str(case)).result)
+        wall = statistics.median(run["wall"] for run in runs)
+        waited = statistics.median(run["waited"] for run in runs)
         compute = statistics.median(computed)
         written = sum(file.stat().st_size for file in results.glob("*.vtp"))
         shutil.rmtree(results)
-        found += rows("run", "wall time of computing alone", {subject: compute}, "s", n)
-        found += rows("run", "wall time of the run", {subject: wall}, "s", n)
-        found += rows("run", "run over computing alone", {subject: wall / compute}, "", n)
-        found += rows("run", "share of the run that waits for output", {subject: waited / wall}, "", n)
-        found += rows("run", "particle-steps", {subject: whole[0]["particle-steps"]}, "", n)
-        found += rows("run", f"written in {WRITES} snapshots", {subject: written / 1e6}, "MB", n)
-    return found
+        table += rows("run", "wall time of computing alone", {subject: compute}, "s", n)
+        table += rows("run", "wall time of the run", {subject: wall}, "s", n)
+        table += rows("run", "run over computing alone", {subject: wall / compute}, "", n)
+        table += rows("run", "share of the run that waits for output", {subject: waited / wall}, "", n)
+        table += rows("run", "particle-steps", {subject: runs[0]["particle-steps"]}, "", n)
+        table += rows("run", f"written in {WRITES} snapshots", {subject: written / 1e6}, "MB", n)
+    return table

@@ -117,15 +117,15 @@ def measure(options: Options) -> list[Row]:
             uses.append(_run(case, settings, cores, way))
     settings = _write_cloud(case, 2 * n, steps // _SHORTER)
     twice = {run: _run(case, settings, run[1], run[0]).memory for run in ends if run in runs}
-    found, one = [], statistics.median(use.wall for use in runs["threads", 1])
+    table, one = [], statistics.median(use.wall for use in runs["threads", 1])
     for (way, cores), uses in runs.items():
         wall = statistics.median(use.wall for use in uses)
         memory = max(use.memory for use in uses)
-        found.append(Row("scaling", WALL, way, cores, KILO * MEGA * wall / (n * steps), "ns/particle-step"))
-        found.append(Row("scaling", SPEED_UP, way, cores, one / wall, ""))
-        found.append(Row("scaling", MEMORY, way, cores, memory / MEGA, "MB"))
+        table.append(Row("scaling", WALL, way, cores, KILO * MEGA * wall / (n * steps), "ns/particle-step"))
+        table.append(Row("scaling", SPEED_UP, way, cores, one / wall, ""))
+        table.append(Row("scaling", MEMORY, way, cores, memory / MEGA, "MB"))
         if (way, cores) in twice:
             processes = 1 if way == "threads" else cores
             each = processes * (twice[way, cores] - memory) / n
-            found.append(Row("scaling", PARTICLE, way, cores, each / KILO, "kB"))
-    return found
+            table.append(Row("scaling", PARTICLE, way, cores, each / KILO, "kB"))
+    return table

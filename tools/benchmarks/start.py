@@ -62,7 +62,7 @@ def measure(options: Options) -> list[Row]:
             starts[INFO].append(_foamprb(cache, "info", "-case", str(large)))
     walls = {name: statistics.median(start.wall for start in those) for name, those in starts.items()}
     cpu = {name: statistics.median(start.cpu for start in those) for name, those in starts.items()}
-    found = rows("start", "start", walls, "s") + rows("start", "CPU of the start", cpu, "s")
+    table = rows("start", "start", walls, "s") + rows("start", "CPU of the start", cpu, "s")
     said = all("ompil" in start.said for start in starts["first run"])
-    found += rows("start", "first run says so", {"first run": float(said)}, "")
-    return found
+    table += rows("start", "first run says so", {"first run": float(said)}, "")
+    return table

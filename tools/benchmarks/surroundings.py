@@ -63,10 +63,10 @@ def contestant(flow, p: foamprb.Particles, model: Model, steps: int) -> Callable
     """Return the measurement of CPU µs per particle-step with a model, without the lists of walls."""
     medium = foamprb.Medium(model.mu, pipe.RHO, (0.0, 0.0, 0.0))
     rules = [foamprb.Rebound() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
-    chosen = foamprb.Models(
+    models = foamprb.Models(
         material=model.material, integrator="stokes", forces=model.forces, surroundings=model.surroundings
     )
-    cloud = foamprb.Cloud(p, flow, medium, rules, STEP, chosen, 1)
+    cloud = foamprb.Cloud(p, flow, medium, rules, STEP, models, 1)
     cloud.advance(3)
 
     def cost() -> float:
@@ -81,7 +81,7 @@ def measure(options: Options) -> list[Row]:
     """Measure cost per particle-step without and with each model, and the ratio, by place."""
     n, steps, repeats = (2000, 10, 3) if options.quick else (50_000, 20, 7)
     flow = foamprb.read_case(pipe.case("40k"))
-    found = []
+    table = []
     for place, (d, low, high) in PLACES.items():
         models = MODELS | FAR if place == "far from walls" else MODELS
         clocks = {
@@ -90,6 +90,6 @@ def measure(options: Options) -> list[Row]:
         }
         costs = interleaved(clocks, repeats)
         ratios = {name: cost / costs["without"] for name, cost in costs.items() if name != "without"}
-        found += rows("surroundings", f"cost, {place}", costs, "us/particle-step", n)
-        found += rows("surroundings", f"over that without, {place}", ratios, "")
-    return found
+        table += rows("surroundings", f"cost, {place}", costs, "us/particle-step", n)
+        table += rows("surroundings", f"over that without, {place}", ratios, "")
+    return table

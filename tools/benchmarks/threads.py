@@ -55,9 +55,9 @@ def measure(options: Options) -> list[Row]:
         contestants = {str(k): lambda c=c: _timed(c, steps) for k, c in clouds.items()}
         times = interleaved({**contestants, "apart": apart}, repeats)
     speed_up = {"foamprb paper": times["1"] / times["apart"]}
-    found = rows("threads", "speed-up by processes that share nothing", speed_up, "", most)
+    table = rows("threads", "speed-up by processes that share nothing", speed_up, "", most)
     for count in counts:
         spent = times[str(count)]
-        found += rows("threads", "wall time by threads", {"foamprb paper": spent}, "us/particle-step", count)
-        found += rows("threads", "speed-up", {"foamprb paper": times["1"] / spent}, "", count)
-    return found
+        table += rows("threads", "wall time by threads", {"foamprb paper": spent}, "us/particle-step", count)
+        table += rows("threads", "speed-up", {"foamprb paper": times["1"] / spent}, "", count)
+    return table

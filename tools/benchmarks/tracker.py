@@ -78,15 +78,15 @@ def measure(options: Options) -> list[Row]:
         pipe.write_parcels(case, pipe.positions(n))
         contestants["OpenFOAM"] = lambda: openfoam_cost(case, n, steps)
     costs = interleaved(contestants, repeats)
-    found = rows("tracker", "cost", costs, "us/particle-step", n)
+    table = rows("tracker", "cost", costs, "us/particle-step", n)
     if "OpenFOAM" in costs:
         ratios = {name: value / costs["OpenFOAM"] for name, value in costs.items() if name != "OpenFOAM"}
-        found += rows("tracker", "cost over OpenFOAM's", ratios, "")
+        table += rows("tracker", "cost over OpenFOAM's", ratios, "")
     for size in (100, 1000, 10_000):
         tracker = Tracker(flow, size, "paper", steps)
         cost = interleaved({"foamprb paper": tracker.cost}, 3 * repeats)
-        found += rows("tracker", "cost by particles", cost, "us/particle-step", size)
-    found += rows(
+        table += rows("tracker", "cost by particles", cost, "us/particle-step", size)
+    table += rows(
         "tracker", "cost by particles", {"foamprb paper": costs["foamprb paper"]}, "us/particle-step", n
     )
-    return found
+    return table

@@ -119,9 +119,9 @@ def first_settings(case: Path) -> Settings:
     text = file.read_text(encoding="utf-8")
 
     def entry(pattern: str) -> float:
-        found = re.search(pattern + r"\s+([\d.e+-]+)", text)
-        assert found, f"{file} has no {pattern}"
-        return float(found[1])
+        match = re.search(pattern + r"\s+([\d.e+-]+)", text)
+        assert match, f"{file} has no {pattern}"
+        return float(match[1])
 
     d = entry(r"\bvalue")
     places = (
@@ -166,8 +166,8 @@ def our_places(case: str, dictionary: str, steps: int, tolerance: float | None =
     cloud.particles.v[:] = 0.0
     Stepper(cloud).advance(steps)
     p = cloud.particles
-    found: list[list[float]] = np.where((p.status == Status.ACTIVE)[:, None], p.x, p.x0).tolist()
-    return found
+    ends: list[list[float]] = np.where((p.status == Status.ACTIVE)[:, None], p.x, p.x0).tolist()
+    return ends
 
 
 def their_places(case: Path, n: int, dt: float, time: float) -> pipe.Floats:
@@ -182,9 +182,9 @@ def their_places(case: Path, n: int, dt: float, time: float) -> pipe.Floats:
         for name in ("positions", "origId")
     }
     shutil.rmtree(folder)
-    found = np.full((n, 3), np.nan)
-    found[numbers["origId"].astype(int)] = numbers["positions"].reshape(-1, 4)[:, :3]
-    return found
+    ends = np.full((n, 3), np.nan)
+    ends[numbers["origId"].astype(int)] = numbers["positions"].reshape(-1, 4)[:, :3]
+    return ends
 
 
 def errors(case: Path, name: str, settings: Settings, x: pipe.Floats) -> dict[str, float]:
@@ -201,15 +201,15 @@ def errors(case: Path, name: str, settings: Settings, x: pipe.Floats) -> dict[st
 
     def ours(Ca: float, divided: int, *tolerance: float) -> pipe.Floats:
         cloud = write_cloud(case, settings._replace(dt=settings.dt / divided), Ca, _FOR * divided)
-        found = isolated(our_places, str(case), str(cloud), _FOR * divided, *tolerance)
-        return np.array(found.result)
+        child = isolated(our_places, str(case), str(cloud), _FOR * divided, *tolerance)
+        return np.array(child.result)
 
-    found = {f"{name}, Ca {Ca:g}": off(ours(Ca, 1), ours(Ca, _SHORT, _TIGHT)) for Ca in CAPILLARY_NUMBERS}
+    misses = {f"{name}, Ca {Ca:g}": off(ours(Ca, 1), ours(Ca, _SHORT, _TIGHT)) for Ca in CAPILLARY_NUMBERS}
     dt, time = settings.dt, _FOR * settings.dt
     right = their_places(case, len(x), dt / _FINEST, time)
     for key, divided in (("OpenFOAM", 1), (f"OpenFOAM, Δt/{_FINE}", _FINE)):
-        found[f"{name}, {key}"] = off(their_places(case, len(x), dt / divided, time), right)
-    return found
+        misses[f"{name}, {key}"] = off(their_places(case, len(x), dt / divided, time), right)
+    return misses
 
 
 def compare(name: str, n: int, steps: int, repeats: int) -> list[Row]:
@@ -231,16 +231,16 @@ def compare(name: str, n: int, steps: int, repeats: int) -> list[Row]:
     soft = tuple(contestants)
     rigid, fine = f"{name}, OpenFOAM", f"{name}, OpenFOAM, Δt/{_FINE}"
     contestants |= {rigid: partial(theirs, 1), fine: partial(theirs, _FINE)}
-    found_costs = interleaved(contestants, repeats)
-    found = rows("tutorials", "cost in a tutorial's flow", found_costs, "us/particle-step", n)
-    ratios = {key: found_costs[key] / found_costs[rigid] for key in soft}
-    found += rows("tutorials", "default run in a tutorial's flow over OpenFOAM's", ratios, "")
+    medians = interleaved(contestants, repeats)
+    table = rows("tutorials", "cost in a tutorial's flow", medians, "us/particle-step", n)
+    ratios = {key: medians[key] / medians[rigid] for key in soft}
+    table += rows("tutorials", "default run in a tutorial's flow over OpenFOAM's", ratios, "")
     off = errors(case, name, settings, x[:_FOLLOWED])
-    found += rows("tutorials", f"error of the place after {_FOR} Δt over the way", off, "")
+    table += rows("tutorials", f"error of the place after {_FOR} Δt over the way", off, "")
     # So many of OpenFOAM's steps in one Δt have our error.
     needed = {key: _FINE * off[fine] / off[key] for key in soft}
-    equal = {key: found_costs[key] / (needed[key] * found_costs[fine]) for key in soft}
-    return found + rows("tutorials", "the same at equal error of the place", equal, "")
+    equal = {key: medians[key] / (needed[key] * medians[fine]) for key in soft}
+    return table + rows("tutorials", "the same at equal error of the place", equal, "")
 
 
 def measure(options: Options) -> list[Row]:
@@ -248,6 +248,6 @@ def measure(options: Options) -> list[Row]:
     if not (shutil.which(SOLVER) and EXAMPLES.is_dir()):
         return []
     n, steps, repeats = (5_000, 20, 1) if options.quick else (100_000, 100, 5)
-    found = [row for name in TUTORIALS for row in compare(name, n, steps, repeats)]
-    worst = max(row.value for row in found if "over OpenFOAM's" in row.quantity)
-    return found + rows("tutorials", WORST_TUTORIAL, {"": worst}, "")
+    table = [row for name in TUTORIALS for row in compare(name, n, steps, repeats)]
+    worst = max(row.value for row in table if "over OpenFOAM's" in row.quantity)
+    return table + rows("tutorials", WORST_TUTORIAL, {"": worst}, "")

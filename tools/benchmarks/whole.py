@@ -89,18 +89,18 @@ def measure(options: Options) -> list[Row]:
     contestants[SHORT] = partial(ours, SHORT, 0.5, pipe.AIR, f"maxDeltaT {OPENFOAM_STEP:g};")
     if shutil.which(SOLVER):
         contestants |= {f"OpenFOAM{fluid}": partial(theirs, FLUIDS[fluid]) for fluid in FLUIDS}
-    found_costs = interleaved(contestants, repeats)
-    found = rows("whole", "cost of a default run", found_costs, "us/particle-step", n)
+    medians = interleaved(contestants, repeats)
+    table = rows("whole", "cost of a default run", medians, "us/particle-step", n)
     time = 0.5e3 * steps * OPENFOAM_STEP
     for k, quantity in enumerate((f"in its first {time:g} ms, from rest", f"in the next {time:g} ms")):
         parts = {name: median(half[k] for half in values) for name, values in halves.items()}
-        found += rows("whole", quantity, parts, "us/particle-step", n)
-    if "OpenFOAM" in found_costs:
+        table += rows("whole", quantity, parts, "us/particle-step", n)
+    if "OpenFOAM" in medians:
         ratios = {
-            name: found_costs[name] / found_costs["OpenFOAM, water" if "water" in name else "OpenFOAM"]
+            name: medians[name] / medians["OpenFOAM, water" if "water" in name else "OpenFOAM"]
             for name in halves
         }
-        found += rows("whole", "default run over OpenFOAM's", ratios, "")
+        table += rows("whole", "default run over OpenFOAM's", ratios, "")
         worst = max(ratio for name, ratio in ratios.items() if name != SHORT)
-        found += rows("whole", WORST_DEFAULT, {"": worst}, "")
-    return found
+        table += rows("whole", WORST_DEFAULT, {"": worst}, "")
+    return table

@@ -175,10 +175,10 @@ def order(plane: Plane, case: Path) -> Ints:
 def read_u(path: Path) -> Floats:
     """Return the cell values of an ascii vector field."""
     text = path.read_text()
-    found = re.search(r"internalField\s+nonuniform List<vector>\s*\d+\s*\((.*?)\n\)", text, re.DOTALL)
-    if found is None:
+    match = re.search(r"internalField\s+nonuniform List<vector>\s*\d+\s*\((.*?)\n\)", text, re.DOTALL)
+    if match is None:
         raise SystemExit(f"{path}: no list of vectors")
-    return np.array(found[1].replace("(", " ").replace(")", " ").split(), dtype=float).reshape(-1, 3)
+    return np.array(match[1].replace("(", " ").replace(")", " ").split(), dtype=float).reshape(-1, 3)
 
 
 def write_u(case: Path, u: Floats) -> None:
@@ -256,13 +256,13 @@ def openfoam(case: Path, level: int, scheme: str, dt: float) -> Run:
     pipe.write_parcels(copy, x, DIAMETER, DENSITY, PATCHES, scheme, "analytical")
     pipe.write_control(copy, dt, SECONDS, round(1.0 / dt))
     sh(copy, "icoUncoupledKinematicParcelFoam")
-    found = np.full((SECONDS, len(x), 2), np.nan)
+    places = np.full((SECONDS, len(x), 2), np.nan)
     for t in range(SECONDS):
         cloud_folder = copy / f"{t + 1}/lagrangian/kinematicCloud"
         who = [int(word) for word in _list(cloud_folder / "origId")]
         where = [line.strip("(").split(")")[0].split() for line in _list(cloud_folder / "positions")]
-        found[t, who] = np.array(where, dtype=float).reshape(-1, 3)[:, :2]
-    return Run(f"OpenFOAM, {scheme}", level, dt, found)
+        places[t, who] = np.array(where, dtype=float).reshape(-1, 3)[:, :2]
+    return Run(f"OpenFOAM, {scheme}", level, dt, places)
 
 
 def _list(path: Path) -> list[str]:
@@ -271,8 +271,8 @@ def _list(path: Path) -> list[str]:
     same = re.search(r"\n(\d+)\s*\{(\S+)\}", text)
     if same:
         return [same[2]] * int(same[1])
-    found = re.search(r"\n\d+\s*\n?\((.*)\)", text, re.DOTALL)
-    return found[1].strip().splitlines() if found else []
+    match = re.search(r"\n\d+\s*\n?\((.*)\)", text, re.DOTALL)
+    return match[1].strip().splitlines() if match else []
 
 
 def foamprb(case: Path, level: int, dt: float) -> Run:
@@ -286,12 +286,12 @@ def foamprb(case: Path, level: int, dt: float) -> Run:
     ]
     models = Models(integrator="rosenbrock", touching="centre")
     cloud = Cloud(p, flow, Medium(FLUID * NU, FLUID, (0.0, 0.0, 0.0)), actions, dt, models, 1)
-    found = np.full((SECONDS, p.size, 2), np.nan)
+    places = np.full((SECONDS, p.size, 2), np.nan)
     for t in range(SECONDS):
         cloud.advance(round(1.0 / dt))
         active = p.status == Status.ACTIVE
-        found[t, active] = p.x[active, :2]
-    return Run("foamprb", level, dt, found)
+        places[t, active] = p.x[active, :2]
+    return Run("foamprb", level, dt, places)
 
 
 def distances(a: Run, b: Run) -> Floats:
@@ -350,8 +350,8 @@ def main() -> None:
         text = table(*compare(options.folder or Path(folder), options.levels))
     print(text)
     if options.write:
-        before, _, rest = options.write.read_text().partition(BEGIN)
-        options.write.write_text(f"{before}{BEGIN}\n{text}\n{END}{rest.partition(END)[2]}")
+        before, _, after = options.write.read_text().partition(BEGIN)
+        options.write.write_text(f"{before}{BEGIN}\n{text}\n{END}{after.partition(END)[2]}")
 
 
 if __name__ == "__main__":

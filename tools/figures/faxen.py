@@ -48,9 +48,9 @@ def laplacian_of_cells(x: Floats) -> Floats:
 
 def laplacian_of_poiseuille(x: Floats) -> Floats:
     """Return ∇²u of Poiseuille's flow, 8 U/a² against the flow, 1/(m s)."""
-    found = np.zeros_like(x)
-    found[:, 0] = -8.0 * pipe.MEAN / pipe.RADIUS**2
-    return found
+    laplacian = np.zeros_like(x)
+    laplacian[:, 0] = -8.0 * pipe.MEAN / pipe.RADIUS**2
+    return laplacian
 
 
 FIELDS: dict[str, tuple[Callable[[Floats], Floats], Callable[[Floats], Floats]]] = {
@@ -59,12 +59,12 @@ FIELDS: dict[str, tuple[Callable[[Floats], Floats], Callable[[Floats], Floats]]]
 }
 
 
-def laplacians(flow: Any, hosts: NDArray[np.int32], found: Floats) -> None:
+def laplacians(flow: Any, hosts: NDArray[np.int32], values: Floats) -> None:
     """Return ∇²u in the tetrahedra, (n, 3), 1/(m s)."""
     for i in range(len(hosts)):
         xx, yy, zz, _, _, _ = curvature(flow, hosts[i], (0.0, 0.0, 0.0), 0.0)
         for k in range(3):
-            found[i, k] = xx[k] + yy[k] + zz[k]
+            values[i, k] = xx[k] + yy[k] + zz[k]
 
 
 def places(n: int) -> Floats:
@@ -92,10 +92,10 @@ def main() -> int:
                 x = places(20_000)
                 hosts = flow.locate(x)
                 x, hosts = x[hosts >= 0], hosts[hosts >= 0]
-                found = np.empty_like(x)
-                link(laplacians)(flow.arrays(), hosts, found)
+                values = np.empty_like(x)
+                link(laplacians)(flow.arrays(), hosts, values)
                 exact = laplacian(x)
-                square = ((found - exact) ** 2).sum(axis=1) / (exact**2).sum(axis=1).mean()
+                square = ((values - exact) ** 2).sum(axis=1) / (exact**2).sum(axis=1).mean()
                 core = np.hypot(x[:, 1], x[:, 2]) < 0.8 * pipe.RADIUS
                 errors = float(np.sqrt(square[core].mean())), float(np.sqrt(square[~core].mean()))
                 rows.append((field, mesh.n_cells, width, *errors))

@@ -148,8 +148,8 @@ def main() -> None:
     for case in options.cases:
         opened = Case(case)
         name = opened.select_time("latestTime")
-        whole = opened.mesh(name)
-        mesh, (cells, boundary) = whole.mesh, velocities(opened.field(name, "U", VELOCITY_FIELD), whole)
+        read = opened.mesh(name)
+        mesh, (cells, boundary) = read.mesh, velocities(opened.field(name, "U", VELOCITY_FIELD), read)
         x = random_points(mesh)
         sizes.append(mesh.n_cells)
         exact, exact_boundary = velocity(mesh.centres), velocity(mesh.boundary_centres)

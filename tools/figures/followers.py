@@ -30,8 +30,8 @@ def seed(flow: MeshFlow, number: int, inlet: bool) -> NDArray[np.float64]:
     random = np.random.default_rng(1)
     if not inlet:
         zone = flow.cell_zone(None)
-        chosen = random.choice(len(zone.volumes), number, p=np.abs(zone.volumes) / np.abs(zone.volumes).sum())
-        corners = zone.vertices(zone.hosts[chosen])
+        rows = random.choice(len(zone.volumes), number, p=np.abs(zone.volumes) / np.abs(zone.volumes).sum())
+        corners = zone.vertices(zone.hosts[rows])
         return np.einsum("nk,nki->ni", random.dirichlet(np.ones(4), number), corners)
     faces = [flow.patch_faces(patch.name, 0.0) for patch in flow.patches if patch.type == OPEN]
     vertices, normals = (
@@ -40,15 +40,15 @@ def seed(flow: MeshFlow, number: int, inlet: bool) -> NDArray[np.float64]:
     areas = np.concatenate([f.areas for f in faces])
     speeds = np.concatenate([f.velocity.mean(axis=1) for f in faces])
     flux = np.maximum(areas * np.einsum("ni,ni->n", speeds, normals), 0.0)
-    chosen = random.choice(len(flux), number, p=flux / flux.sum())
-    places = np.einsum("nk,nki->ni", random.dirichlet(np.ones(3), number), vertices[chosen])
-    return places + 1e-6 * np.sqrt(areas[chosen])[:, None] * normals[chosen]
+    rows = random.choice(len(flux), number, p=flux / flux.sum())
+    places = np.einsum("nk,nki->ni", random.dirichlet(np.ones(3), number), vertices[rows])
+    return places + 1e-6 * np.sqrt(areas[rows])[:, None] * normals[rows]
 
 
 def interactions(flow: MeshFlow) -> list[Interaction]:
     """Let tracers stick to walls and leave through open patches."""
-    chosen: dict[str, Interaction] = {WALL: Stick(), OPEN: Escape()}
-    return [chosen.get(patch.type, Mirror()) for patch in flow.patches]
+    by_type: dict[str, Interaction] = {WALL: Stick(), OPEN: Escape()}
+    return [by_type.get(patch.type, Mirror()) for patch in flow.patches]
 
 
 def follow(flow: MeshFlow, turnovers: float) -> tuple[int, int, float]:

@@ -71,8 +71,8 @@ def sweep(pipe: Pipe) -> list[tuple[str, str, int, float, float]]:
         largest = tau if integrator == "paper" else 2.0 / pipe.wall_rate
         n = max(4, int(pipe.time / largest))
         for _ in range(9):
-            found = run(pipe, integrator, n)
-            error = np.abs(found - exact)
+            state = run(pipe, integrator, n)
+            error = np.abs(state - exact)
             rows.append(
                 (pipe.name, integrator, n * EVALUATIONS[integrator], error[:9].max(), error[9:].max())
             )
@@ -107,8 +107,8 @@ def plot(rows: list[tuple[str, str, int, float, float]], file: Path) -> None:
     figure, panels = pyplot().subplots(1, 2, figsize=(9, 4), sharey=True, layout="constrained")
     for panel, pipe in zip(panels, (AIR, WATER), strict=True):
         for integrator in INTEGRATORS:
-            chosen = [(n, e) for p, i, n, e, _ in rows if (p, i) == (pipe.name, integrator)]
-            panel.loglog(*zip(*chosen, strict=True), "o-", ms=4, label=integrator)
+            points = [(n, e) for p, i, n, e, _ in rows if (p, i) == (pipe.name, integrator)]
+            panel.loglog(*zip(*points, strict=True), "o-", ms=4, label=integrator)
         number = pipe.wall_rate * relaxation_time(pipe.rho_s, D / 2, pipe.mu)
         panel.set(
             title=f"{pipe.name}, γ̇τ = {number:.2g} at the wall, {pipe.time * pipe.wall_rate:.3g} shear times",

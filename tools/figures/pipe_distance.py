@@ -82,9 +82,9 @@ def main() -> None:
     columns = {"Ca": CAPILLARY}
     for name, flow in flows.items():
         for drag in DRAGS:
-            found = columns[f"{drag}, {name}"] = distances(flow, drag, TOLERANCE)
+            landings = columns[f"{drag}, {name}"] = distances(flow, drag, TOLERANCE)
             if name == "analytic":
-                change = np.abs(found - distances(flow, drag, 10 * TOLERANCE)).max()
+                change = np.abs(landings - distances(flow, drag, 10 * TOLERANCE)).max()
                 print(f"{drag}: {change:.2g} diameters from those of ten times the tolerance")
     options.output.mkdir(parents=True, exist_ok=True)
     write_table(options.output / "distance.csv", columns)

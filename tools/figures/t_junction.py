@@ -127,7 +127,7 @@ def edges(
     Below the first y a bead goes straight on, above the second it turns off; between them it ends on the wall
     or exceeds the time.
     """
-    found = []
+    middles = []
     for straight in (True, False):
         low, high = (np.full(len(Ca), sign * (HALF_WIDTH - 0.6 * DIAMETER)) for sign in (-1.0, 1.0))
         for _ in range(rounds):
@@ -139,8 +139,8 @@ def edges(
             if below.all() or (last < 0).any():
                 raise SystemExit(f"{job.settings.case}: every bead of a line takes the same way")
             low, high = (y[np.arange(len(Ca)), i] for i in (last, last + 1))
-        found.append((low + high) / 2.0)
-    return np.stack(found, axis=1)
+        middles.append((low + high) / 2.0)
+    return np.stack(middles, axis=1)
 
 
 def by_start(job: foamprb.Job, n_y: int, n_z: int) -> dict[str, Floats]:
@@ -208,8 +208,8 @@ def main() -> None:
     D = columns["D"].reshape(len(CAPILLARY), -1)
     y = columns["y"].reshape(D.shape)[0]
     table: dict[str, Floats] = {"Ca": CAPILLARY}
-    for name, found in (("point", point), ("heavy", heavy), ("body", body)):
-        table[f"{name}, straight below"], table[f"{name}, side above"] = found.T
+    for name, edges_of in (("point", point), ("heavy", heavy), ("body", body)):
+        table[f"{name}, straight below"], table[f"{name}, side above"] = edges_of.T
     table["D from y = 0"] = np.array([np.interp(0.0, y, d) for d in D])
     table["largest D"] = D.max(axis=1)
     write_table(options.output / "tJunctionEdges.csv", table)
@@ -225,10 +225,10 @@ def plot(columns: dict[str, Floats], table: dict[str, Floats], file: Path) -> No
     """Plot share to the side branch and deformation against the start, and the edges against Ca."""
     figure, (share, D, edge) = pyplot().subplots(1, 3, figsize=(12, 3.8), layout="constrained")
     for k, Ca in enumerate(CAPILLARY):
-        chosen = columns["Ca"] == Ca
-        y, style = 1e6 * columns["y"][chosen], {"color": f"C{k}", "label": f"Ca = {Ca:g}"}
-        share.plot(y, columns["side"][chosen], marker="osv^"[k], ms=9 - 2 * k, mfc="none", ls="", **style)
-        D.semilogy(y, columns["D"][chosen], **style)
+        rows = columns["Ca"] == Ca
+        y, style = 1e6 * columns["y"][rows], {"color": f"C{k}", "label": f"Ca = {Ca:g}"}
+        share.plot(y, columns["side"][rows], marker="osv^"[k], ms=9 - 2 * k, mfc="none", ls="", **style)
+        D.semilogy(y, columns["D"][rows], **style)
     share.set(xlabel="start y, µm", ylabel="share to the side branch")
     D.set(xlabel="start y, µm (z = 0)", ylabel="largest D in the junction")
     D.set_ylim(top=5.0)

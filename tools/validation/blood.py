@@ -26,13 +26,13 @@ def _released(constants: str, stress: Cell, rate: float, time: float, samples: i
     fluid: Memory = {"fluid": np.array([rate]), "mu": np.array([MU])}
     fluid |= {"l": l} if stress == "morphology" else {}
     memory = function.initial(cloud) | {"t": np.zeros(1)} | fluid
-    found = []
+    shares = []
     for _ in range(samples):
         now = {"t": memory["t"] + time / samples, **fluid}
         function.add(memory, cloud, np.zeros(1, dtype=np.int64), now)
         memory |= now
-        found.append(float(index_of_haemolysis(function.law, memory["dose"])[0]))
-    return np.array(found)
+        shares.append(float(index_of_haemolysis(function.law, memory["dose"])[0]))
+    return np.array(shares)
 
 
 def _expected(stress: Cell, rate: float, times: Floats) -> Floats:
@@ -67,9 +67,9 @@ def cells(quick: bool) -> Outcome:
     curves.append(Curve(times_of(n), fluid, "stress of the fluid", "guide"))
     for rate, time in ((5000.0, 1.0), (10_000.0, 0.1), (20_000.0, 0.05), (40_000.0, 0.05)):
         expected_share = _pores(rate, time)
-        found = _released("pores", "KelvinVoigt", rate, time, 2000)[-1]
+        share = _released("pores", "KelvinVoigt", rate, time, 2000)[-1]
         name = f"pores: {rate:g} 1/s for {time:g} s, %"
-        rows.append(Row(name, found, 100.0 * expected_share, "quadrature of A_p", 3e-3, True))
+        rows.append(Row(name, share, 100.0 * expected_share, "quadrature of A_p", 3e-3, True))
     figure = Figure(
         "haemolysis",
         "Release in simple shear of 5000 1/s by the constants of Giersiepen.",
@@ -91,8 +91,8 @@ def _pores(rate: float, time: float) -> float:
             np.polyval([-13.41, 37.31, -48.91, 32.39, 0.63, -0.16], -rate * np.expm1(-F1 * t) / 42e3)
         )
 
-    begin = -np.log1p(-3750.0 / rate) / F1
-    return float(2.187e-6 * (MU * rate) ** 0.9289 * quad(area, begin, time, epsrel=1e-10)[0])
+    opening = -np.log1p(-3750.0 / rate) / F1
+    return float(2.187e-6 * (MU * rate) ** 0.9289 * quad(area, opening, time, epsrel=1e-10)[0])
 
 
 _REMARK = (

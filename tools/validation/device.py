@@ -177,41 +177,41 @@ def beads(quick: bool) -> Outcome:
     """Beads in extensional device."""
     rows: list[Row] = []
     table = read_axis("fine")
-    found = track(table, "stokes")
-    every = np.arange(0, len(found.t), 8 if quick else 2)
-    exact = {name: nonlinear(table, mu, found.t[every]) for name, mu in MODULI.items()}
+    path = track(table, "stokes")
+    every = np.arange(0, len(path.t), 8 if quick else 2)
+    exact = {name: nonlinear(table, mu, path.t[every]) for name, mu in MODULI.items()}
     # With inertia the shape lags by γ̇ τ_s of up to 2.5e-5.
     for integrator, allowed in (("stokes", 1e-5), ("rosenbrock", 1e-4))[: 1 if quick else 2]:
-        own = track(table, integrator)
+        other = track(table, integrator)
         for i, name in enumerate(MODULI):
-            D = own.D[every[every < len(own.D)], i]
+            D = other.D[every[every < len(other.D)], i]
             title = f"{name}, {integrator}: D, worst of all times"
             rows.append(worst(title, D, exact[name][: len(D)], ODE, allowed))
-    theory = {name: small(table, mu, found.t) for name, mu in MODULI.items()}
-    peak = int(np.argmax(found.D[:, 1]))
-    rate = _at(found.x[peak, 1], table)[1]
+    theory = {name: small(table, mu, path.t) for name, mu in MODULI.items()}
+    peak = int(np.argmax(path.D[:, 1]))
+    rate = _at(path.x[peak, 1], table)[1]
     rows += [
         # The next order is D² with a factor of order 1.
-        Row("stiff: largest D", float(found.D[peak, 1]), float(theory["stiff"][peak]), SMALL, 1e-4),
-        worst("stiff: D, worst of all times", found.D[:, 1], theory["stiff"], SMALL, 1e-4),
-        worst("soft: D, worst of all times", found.D[:, 0], theory["soft"], SMALL, 1e-2),
+        Row("stiff: largest D", float(path.D[peak, 1]), float(theory["stiff"][peak]), SMALL, 1e-4),
+        worst("stiff: D, worst of all times", path.D[:, 1], theory["stiff"], SMALL, 1e-4),
+        worst("soft: D, worst of all times", path.D[:, 0], theory["soft"], SMALL, 1e-2),
         # The strain lags behind by its time constant over that of the flow, about 0.02 for the rate's own.
         Row(
             "stiff: largest D",
-            float(found.D[peak, 1]),
+            float(path.D[peak, 1]),
             1.875 * MU_F / MODULI["stiff"] * rate,
             QUASISTATIC,
             0.01,
             True,
         ),
     ]
-    soft_bead = CubicSpline(found.x[:, 0], found.D[:, 0])
+    soft_bead = CubicSpline(path.x[:, 0], path.D[:, 0])
     rows += [
         # Off the axis the whole flow is not quite free of divergence.
         Row(f"soft: D at x₁ = {x:g} µm", float(soft_bead(1e-6 * x)), D, WHOLE, 3e-4)
         for x, D in TRACKED.items()
     ]
-    levels = [track(read_axis(mesh), "stokes") for mesh in MESHES[:-1]] + [found]
+    levels = [track(read_axis(mesh), "stokes") for mesh in MESHES[:-1]] + [path]
     largest = [_largest(level.x[:, 0], level.D[:, 0]) for level in levels]
     a, b, c = largest
     limit = c + (c - b) / (1.5**2 - 1.0)
@@ -233,8 +233,8 @@ def beads(quick: bool) -> Outcome:
         curve
         for i, name in enumerate(MODULI)
         for curve in (
-            Curve(1e6 * found.x[:, i], found.D[:, i], f"foamprb, {name}", colour=i),
-            Curve(1e6 * found.x[::12, i], theory[name][::12], "small deformation", "reference", i),
+            Curve(1e6 * path.x[:, i], path.D[:, i], f"foamprb, {name}", colour=i),
+            Curve(1e6 * path.x[::12, i], theory[name][::12], "small deformation", "reference", i),
         )
     ]
     figure = Figure(

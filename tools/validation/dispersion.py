@@ -113,8 +113,8 @@ def dispersion(quick: bool) -> Outcome:
 
 def _taylor(t: Floats) -> Floats:
     """Return ⟨x²⟩ of successive eddies of lifetime T: σ² (m T² + (t − m T)²), m = ⌊t/T⌋."""
-    whole = np.floor(t / LIFE + 1e-9)
-    spread: Floats = SIGMA**2 * (whole * LIFE**2 + (t - whole * LIFE) ** 2)
+    lives = np.floor(t / LIFE + 1e-9)
+    spread: Floats = SIGMA**2 * (lives * LIFE**2 + (t - lives * LIFE) ** 2)
     return spread
 
 

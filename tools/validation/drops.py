@@ -38,8 +38,8 @@ def _steady(ratio: float) -> tuple[list[Row], list[Curve]]:
     cloud = _cloud(analytic.shear(1.0), NUMBERS, ratio, 0.05)
     advance_to(cloud, 100.0)
     ours = _tensors(cloud)
-    found = [shapes(Ca * SHEAR, of_drop(ratio, Ca), np.array([400.0]))[0] for Ca in NUMBERS]
-    expected = np.array(found)
+    exact = [shapes(Ca * SHEAR, of_drop(ratio, Ca), np.array([400.0]))[0] for Ca in NUMBERS]
+    expected = np.array(exact)
     rows = []
     for k, Ca in enumerate(NUMBERS):
         name = f"λ = {ratio:g}, Ca = {Ca:g}: "
@@ -59,7 +59,7 @@ def _transient(quick: bool) -> tuple[list[Row], list[Curve]]:
     """Compare the start of a shear, and an elongated drop that becomes round."""
     times = np.linspace(0.5, 4.0 if quick else 10.0, 8 if quick else 20)
     rows, curves = [], []
-    for k, (name, l, begin) in enumerate(
+    for k, (name, l, start) in enumerate(
         (
             ("start of shear", SHEAR, np.eye(3)),
             ("relaxation", np.zeros((3, 3)), np.diag(np.exp([1.2, -0.4, -0.8]))),
@@ -67,9 +67,9 @@ def _transient(quick: bool) -> tuple[list[Row], list[Curve]]:
     ):
         # Time in μ_f R/σ at Ca = 0.3.
         cloud = _cloud(analytic.linear(l), 0.3, 1.0, 0.05)
-        cloud.particles.F[:] = np.sqrt(begin).ravel()
+        cloud.particles.F[:] = np.sqrt(start).ravel()
         ours = taylor(follow(cloud, times, _tensors)[:, 0])
-        expected = taylor(shapes(0.3 * l, of_drop(1.0, 0.3 if k == 0 else 0.0), times / 0.3, begin))
+        expected = taylor(shapes(0.3 * l, of_drop(1.0, 0.3 if k == 0 else 0.0), times / 0.3, start))
         rows.append(worst(f"{name}, λ = 1, μ_f R/σ = 0.3: D, worst of all times", ours, expected, ODE, 1e-4))
         curves += compared(times, ours, expected, (f"foamprb, {name}", "LSODA" if k == 0 else ""), k)
     return rows, curves

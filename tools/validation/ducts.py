@@ -82,10 +82,10 @@ def focusing(quick: bool) -> Outcome:
     (place,) = balances(PIPE)
     rows.append(Row("pipe: s at which C = 0", place, 0.6, "Segré & Silberberg (1962), measured", None))
     rate, times = 1e4, np.linspace(0.0, 0.1, 41)[1:]
-    ours, own = _paths(1e-4, rate, True, times), _own(rate, times)
+    ours, reference = _paths(1e-4, rate, True, times), _own(rate, times)
     for k, start in enumerate(STARTS):
         name = f"rigid, from {start:g} H: distance from the wall over H, worst of all times"
-        rows.append(worst(name, ours[:, k], own[:, k], "6π μ_f R v = C ρ_f γ̇² R⁴ by LSODA", 1e-3))
+        rows.append(worst(name, ours[:, k], reference[:, k], "6π μ_f R v = C ρ_f γ̇² R⁴ by LSODA", 1e-3))
     for Ca in (0.01, 0.1, 0.3):
         end = _paths(Ca, rate, True, np.array([5.0]))[0]
         rows.append(Row(f"Ca = {Ca:g} at the wall, both lifts: the same", float(end.mean()), None, "–"))
@@ -106,7 +106,7 @@ def focusing(quick: bool) -> Outcome:
                 "t [s]",
                 "z/H",
                 [Curve(times, ours[:, k], "foamprb" if k == 0 else "", colour=k) for k in range(len(STARTS))]
-                + [Curve(times[::4], own[::4, k], "", "reference", k) for k in range(len(STARTS))],
+                + [Curve(times[::4], reference[::4, k], "", "reference", k) for k in range(len(STARTS))],
             ),
             Panel(
                 "t [s]",

@@ -84,9 +84,9 @@ def volume(quick: bool) -> Outcome:
                 5e-6,
             )
         )
-    own = unit_cloud(analytic.shear(1.0), Ca, 1e-3, 0.02, Models(integrator="stokes"))
-    advance_to(own, 10.0)
-    for c, j in zip(Ca, measures(own)["J"], strict=True):
+    bodies = unit_cloud(analytic.shear(1.0), Ca, 1e-3, 0.02, Models(integrator="stokes"))
+    advance_to(bodies, 10.0)
+    for c, j in zip(Ca, measures(bodies)["J"], strict=True):
         rows.append(Row(f"shear, Ca = {c:g}, integrator stokes: J at γ̇t = 10", float(j), 1.0, CLOSED, 1e-10))
     for nu in (0.49, 0.499):
         cloud = unit_cloud(

@@ -23,16 +23,16 @@ def lag(quick: bool) -> Outcome:
     """Faxén's correction in pipe."""
     rows = []
     unit = 2.0 * MEAN * (R / RADIUS) ** 2
-    for place, found in zip(PLACES, _lags(_bodies(1e4)), strict=True):
+    for place, velocity in zip(PLACES, _lags(_bodies(1e4)), strict=True):
         title = f"stiff sphere at {place:g} a: lag over u_max (R/a)²"
-        rows.append(Row(title, found / unit, 2.0 / 3.0, "Happel & Brenner (1965)", 2e-3, relative=True))
+        rows.append(Row(title, velocity / unit, 2.0 / 3.0, "Happel & Brenner (1965)", 2e-3, relative=True))
     axes = np.array([1.5, 1.0, 1.0 / 1.5])
     p = _bodies(1e4)
     set_rest_shape(p, tuple(axes))
     theirs = _lag_around(axes)
-    for place, found in zip(PLACES, _lags(p), strict=True):
+    for place, velocity in zip(PLACES, _lags(p), strict=True):
         title = f"ellipsoid 1.5 : 1 : 0.67 along the pipe, at {place:g} a: lag over u_max (R/a)²"
-        rows.append(Row(title, found / unit, theirs, "Stokes flow around it", 5e-3, relative=True))
+        rows.append(Row(title, velocity / unit, theirs, "Stokes flow around it", 5e-3, relative=True))
     soft = _bodies(0.4)
     before = soft.x.copy()
     _advance(soft, 1e-4, 200 if quick else 2000)

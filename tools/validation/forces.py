@@ -170,25 +170,25 @@ def forces(quick: bool) -> Outcome:
     start = np.array([radius, 0.0, 0.0, 0.0, omega * radius, 0.0])
     for rho in (400.0, 2500.0):
         for colour, (name, force) in enumerate(kernels.items()):
-            own = sphere_path(force, rho, whirl, start, times, gravity)
+            reference = sphere_path(force, rho, whirl, start, times, gravity)
             for integrator, dt, allowed in integrators:
                 ours = _run(analytic.linear(spin), rho, force, integrator, dt, start, times, gravity)
                 title = f"rotating fluid, ρ_s = {rho:g}, {name}, {integrator}"
                 rows += [
                     worst(f"{title}: x/r₀, worst of all times", (ours[:, :3] / radius).ravel(),
-                          (own[:, :3] / radius).ravel(), ODE, allowed),
+                          (reference[:, :3] / radius).ravel(), ODE, allowed),
                 ]  # fmt: skip
                 if integrator == "rosenbrock":
                     label = f"foamprb, ρ_s = {rho:g}, {name}"
                     away = np.hypot(ours[:, 0], ours[:, 1]) / radius
-                    exact = np.hypot(own[:, 0], own[:, 1]) / radius
+                    exact = np.hypot(reference[:, 0], reference[:, 1]) / radius
                     shade = colour + (3 if rho > RHO_F else 0)
                     turns += compared(times, away, exact, (label, ""), shade, 2)
     # Neutral and with the pressure gradient, a sphere is a piece of the fluid.
     for integrator, dt, allowed in integrators:
         ours = _run(analytic.linear(spin), RHO_F, (1.0, 0.5), integrator, dt, start, times[-1:], np.zeros(3))
-        kept = float(np.hypot(ours[0, 0], ours[0, 1]) / radius)
-        rows.append(Row(f"rotating fluid, ρ_s = ρ_f, {integrator}: r/r₀", kept, 1.0, CLOSED, allowed))
+        radii = float(np.hypot(ours[0, 0], ours[0, 1]) / radius)
+        rows.append(Row(f"rotating fluid, ρ_s = ρ_f, {integrator}: r/r₀", radii, 1.0, CLOSED, allowed))
 
     swing = Swing(0.05, 20.0, 300.0)
 
@@ -202,7 +202,7 @@ def forces(quick: bool) -> Outcome:
     start = np.array([0.0, 0.0, 0.0, swing.speed, 0.0, 0.0])
     for rho in (400.0, 2500.0):
         for colour, (name, force) in enumerate(kernels.items()):
-            own = sphere_path(force, rho, oscillation, start, times, down)
+            reference = sphere_path(force, rho, oscillation, start, times, down)
             for integrator, dt, allowed in integrators:
                 step = min(dt, 5e-4)
                 ours = _run(_swing(swing), rho, force, integrator, step, start, times, down)
@@ -210,13 +210,13 @@ def forces(quick: bool) -> Outcome:
                     worst(
                         f"oscillating fluid, ρ_s = {rho:g}, {name}, {integrator}: v/U, worst of all times",
                         (ours[:, 3:] / swing.speed).ravel(),
-                        (own[:, 3:] / swing.speed).ravel(),
+                        (reference[:, 3:] / swing.speed).ravel(),
                         ODE,
                         allowed,
                     )
                 )
                 if integrator == "rosenbrock" and rho > RHO_F:
-                    speeds = ours[:, 3] / swing.speed, own[:, 3] / swing.speed
+                    speeds = ours[:, 3] / swing.speed, reference[:, 3] / swing.speed
                     swings += compared(times / period, *speeds, (f"foamprb, {name}", ""), colour, 3)
     figure = Figure(
         "forces",

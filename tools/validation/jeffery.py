@@ -38,13 +38,13 @@ def _paths(integrator: str, end: float) -> tuple[Floats, Floats, Floats]:
     cloud = unit_cloud(
         analytic.shear(1.0), np.full(len(ratios), CAPILLARY), 1e-6, dt, models, ratios=ratios, axes=axes
     )
-    found = [principal_axes(cloud.particles)]
+    shapes = [principal_axes(cloud.particles)]
     times = [0.0]
     for _ in range(round(end / (4.0 * dt))):
         cloud.advance(4)
-        found.append(principal_axes(cloud.particles))
+        shapes.append(principal_axes(cloud.particles))
         times.append(cloud.time)
-    return np.array(times), np.array([f[0] for f in found]), np.array([f[1] for f in found])
+    return np.array(times), np.array([f[0] for f in shapes]), np.array([f[1] for f in shapes])
 
 
 def _symmetry_axis(ratio: float, axes: Floats) -> Floats:
@@ -118,12 +118,12 @@ def orbits(quick: bool) -> Outcome:
                 sparse = slice(None, None, 6)
                 mark = "solve_ivp"
                 curves.append(Curve(times[sparse], abs(expected[sparse, 2, 0]), mark, "reference", i))
-        rest = np.sort(np.array([(r, 1.0, 1.0) for r in SPHEROIDS]), axis=1)
-        rest /= np.cbrt(rest.prod(axis=1, keepdims=True))
+        at_rest = np.sort(np.array([(r, 1.0, 1.0) for r in SPHEROIDS]), axis=1)
+        at_rest /= np.cbrt(at_rest.prod(axis=1, keepdims=True))
         rows.append(
             Row(
                 f"{integrator}: semi-axes over those at rest − 1, worst of the spheroids and times",
-                float(abs(lengths[:, :n] / rest - 1.0).max()),
+                float(abs(lengths[:, :n] / at_rest - 1.0).max()),
                 0.0,
                 "rigid body",
                 3e-4,

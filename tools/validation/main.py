@@ -16,15 +16,15 @@ def main(words: Sequence[str] | None = None) -> int:
     """Run the validation; return the exit status, which is 1 if a row fails or a case is unknown."""
     arguments = _parser().parse_args(words)
     try:
-        chosen = choose(CASES, arguments.case)
+        cases = choose(CASES, arguments.case)
     except InputError as error:
         print(f"validate: {error}", file=sys.stderr)
         return 1
     if arguments.list:
-        for name, case in chosen.items():
+        for name, case in cases.items():
             print(f"{name:14s} {case.title} ({case.section})")
         return 0
-    return 0 if validate(chosen, arguments.output, arguments.quick) else 1
+    return 0 if validate(cases, arguments.output, arguments.quick) else 1
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -23,26 +23,27 @@ from validation.runs import (
 def _with_inertia(name: str, steps: Floats) -> Floats:
     """Return the error of x/d and F in the pipe after 2 ms, for each step, s."""
     end, Ca = 2e-3, 0.5
-    own = soft_in_pipe(Ca, np.array([0.0, end]))
+    body = soft_in_pipe(Ca, np.array([0.0, end]))
     errors = []
     for dt in steps:
         cloud = pipe_cloud(Ca, float(dt), Models(integrator=name, tolerance=math.inf))
         advance_to(cloud, end)
-        miss = [*(cloud.particles.x[0] - own.x[-1]) / DIAMETER, *(cloud.particles.F[0] - own.F[-1].ravel())]
+        p = cloud.particles
+        miss = [*(p.x[0] - body.x[-1]) / DIAMETER, *(p.F[0] - body.F[-1].ravel())]
         errors.append(np.linalg.norm(miss))
     return np.array(errors)
 
 
 def _without_inertia(name: str, steps: Floats) -> Floats:
     """Return the error of F in simple shear at γ̇t = 2 without inertia, for each step in 1/γ̇."""
-    own = inertialess_history(SHEAR, 0.4, np.array([2.0]))[-1]
+    body = inertialess_history(SHEAR, 0.4, np.array([2.0]))[-1]
     errors = []
     for dt in steps:
         cloud = unit_cloud(
             analytic.shear(1.0), 0.4, 1e-6, float(dt), Models(integrator=name, tolerance=math.inf)
         )
         advance_to(cloud, 2.0)
-        errors.append(np.linalg.norm(cloud.particles.F[0] - own.ravel()))
+        errors.append(np.linalg.norm(cloud.particles.F[0] - body.ravel()))
     return np.array(errors)
 
 

@@ -51,22 +51,22 @@ def rigid(quick: bool) -> Outcome:
     )
     times = np.round(times / dt) * dt
     ours = history(pipe_cloud(1e-4, dt, _models()), times)
-    own = rigid_sphere(DIAMETER / 2.0, RHO_S, air_around(), START, np.append(0.0, times))
+    reference = rigid_sphere(DIAMETER / 2.0, RHO_S, air_around(), START, np.append(0.0, times))
     # The half axis that starts along x₁ turns about x₃; ours is the first column of F, all but rigid.
     axis = ours.F[:, 0, :2, 0]
     cosines = axis / np.linalg.norm(axis, axis=1, keepdims=True)
-    expected = np.stack([np.cos(own.angle[1:]), np.sin(own.angle[1:])], axis=1)
+    expected = np.stack([np.cos(reference.angle[1:]), np.sin(reference.angle[1:])], axis=1)
     unit = MU_F * WALL_RATE * DIAMETER**3
-    torque, own_torque = abs(ours.torque[:, 0]) / unit, abs(own.torque[1:]) / unit
-    spin, own_spin = abs(ours.spin[:, 0]) / WALL_RATE, abs(own.spin[1:]) / WALL_RATE
+    torque, reference_torque = abs(ours.torque[:, 0]) / unit, abs(reference.torque[1:]) / unit
+    spin, reference_spin = abs(ours.spin[:, 0]) / WALL_RATE, abs(reference.spin[1:]) / WALL_RATE
     title = "cosine of a half axis with {}, worst of all times"
     rows = [
         *worst_of_each(title, ("x₁", "x₂"), cosines, expected, RIGID, (0.02, 0.02)),
-        worst("|ω_s3|/γ̇_max, worst of all times", spin, own_spin, RIGID, 5e-3),
-        worst(f"|ω_s3|/γ̇_max at {end:g} s", spin[-1:], own_spin[-1:], RIGID, 1e-4),
-        worst("M/(μ_f γ̇_max d³), worst of all times", torque, own_torque, RIGID, 0.03),
-        worst(f"x₁/d at {end:g} s", ours.x[-1:, 0, 0], own.x[-1:, 0], RIGID, 1.0, DIAMETER),
-        worst(f"v₂/v_set at {end:g} s", ours.v[-1:, 0, 1], own.v[-1:, 1], RIGID, 1e-4, SETTLING),
+        worst("|ω_s3|/γ̇_max, worst of all times", spin, reference_spin, RIGID, 5e-3),
+        worst(f"|ω_s3|/γ̇_max at {end:g} s", spin[-1:], reference_spin[-1:], RIGID, 1e-4),
+        worst("M/(μ_f γ̇_max d³), worst of all times", torque, reference_torque, RIGID, 0.03),
+        worst(f"x₁/d at {end:g} s", ours.x[-1:, 0, 0], reference.x[-1:, 0], RIGID, 1.0, DIAMETER),
+        worst(f"v₂/v_set at {end:g} s", ours.v[-1:, 0, 1], reference.v[-1:, 1], RIGID, 1e-4, SETTLING),
         Row(
             "|ω_s3| after the spin-up, at 1 ms [1/s]",
             float(WALL_RATE * spin[np.argmin(abs(times - 1e-3))]),
@@ -101,9 +101,9 @@ def rigid(quick: bool) -> Outcome:
             "pipe-rigid",
             "Fig. 12: angular velocity and torque, at the start and over the whole run.",
             [
-                pair(spin, own_spin, "|ω_s3|/γ̇_max", start, start),
-                pair(spin, own_spin, "|ω_s3|/γ̇_max"),
-                pair(torque, own_torque, "M/(μ_f γ̇_max d³)", start, start),
+                pair(spin, reference_spin, "|ω_s3|/γ̇_max", start, start),
+                pair(spin, reference_spin, "|ω_s3|/γ̇_max"),
+                pair(torque, reference_torque, "M/(μ_f γ̇_max d³)", start, start),
             ],
         ),
     ]
@@ -156,29 +156,31 @@ def soft(quick: bool) -> Outcome:
         points = []
         for Ca in stiffness:
             i = int(np.argmin(abs(CAPILLARY - Ca)))
-            own = _soft(Ca, drag)
-            own_spin = abs(float(_spin(own.F[-1], own.A[-1])))
-            points.append((Ca, own.x[-1, 0] / DIAMETER, own_spin))
+            reference = _soft(Ca, drag)
+            reference_spin = abs(float(_spin(reference.F[-1], reference.A[-1])))
+            points.append((Ca, reference.x[-1, 0] / DIAMETER, reference_spin))
             name = f"Ca = {Ca:g}, {drag}: "
             rows += [
-                Row(name + "distance/d", float(x[i]), float(own.x[-1, 0] / DIAMETER), SOFT, 1e-3, True),
-                Row(name + "time [s]", float(t[i]), float(own.t[-1]), SOFT, 1e-3, True),
+                Row(name + "distance/d", float(x[i]), float(reference.x[-1, 0] / DIAMETER), SOFT, 1e-3, True),
+                Row(name + "time [s]", float(t[i]), float(reference.t[-1]), SOFT, 1e-3, True),
                 Row(
                     name + "|ω_s3| on landing/rigid",
                     float(spin[i] / final_rigid),
-                    own_spin / final_rigid,
+                    reference_spin / final_rigid,
                     SOFT,
                     2e-3,
                 ),
             ]
-        known = np.array(points)
+        references = np.array(points)
         curves += [
             Curve(CAPILLARY, x, f"foamprb, {drag}", colour=colour),
-            Curve(known[:, 0], known[:, 1], f"solve_ivp, {drag}", "reference", colour),
+            Curve(references[:, 0], references[:, 1], f"solve_ivp, {drag}", "reference", colour),
         ]
         spins += [
             Curve(CAPILLARY, spin / final_rigid, f"foamprb, {drag}", colour=colour),
-            Curve(known[:, 0], known[:, 2] / final_rigid, f"solve_ivp, {drag}", "reference", colour),
+            Curve(
+                references[:, 0], references[:, 2] / final_rigid, f"solve_ivp, {drag}", "reference", colour
+            ),
         ]
     rows += [
         Row("rigid sphere: distance/d", distance, 8989.0, "closed form", 1.0, note="reference"),
@@ -229,7 +231,7 @@ def _of_third_order() -> list[Row]:
     for integrator in ("rosenbrock", "stokes"):
         x, t, _ = _landing(Ca, "oberbeck", 1e-3, integrator=integrator)
         for i, c in enumerate(Ca):
-            own = _rigid_fall() if i == 0 else _soft(c, "oberbeck")
+            reference = _rigid_fall() if i == 0 else _soft(c, "oberbeck")
             source = RIGID if i == 0 else SOFT
             # Without inertia the shape and the barycentre are ahead by γ̇ τ_s, 0.055 at the wall.
             informs = integrator == "stokes"
@@ -244,8 +246,8 @@ def _of_third_order() -> list[Row]:
                     note="without the particle's inertia" if informs else "",
                 )
                 for name, value, expected in (
-                    ("distance/d", x[i], own.x[-1, 0] / DIAMETER),
-                    ("time [s]", t[i], own.t[-1]),
+                    ("distance/d", x[i], reference.x[-1, 0] / DIAMETER),
+                    ("time [s]", t[i], reference.t[-1]),
                 )
             ]
     return rows
@@ -254,17 +256,17 @@ def _of_third_order() -> list[Row]:
 def _soft_start() -> Outcome:
     """Compute the first 4 ms of the particle with Ca = 0.5."""
     end = 4e-3
-    own = _soft(0.5, "oberbeck", end)
-    found = []
+    reference = _soft(0.5, "oberbeck", end)
+    states = []
     for dt in (8e-6, 4e-6):
         ours = history(pipe_cloud(0.5, dt, _models()), np.array([end]))
-        found.append(np.concatenate([ours.x[0, 0] / DIAMETER, ours.F[0, 0].ravel()]))
-    limit = 2.0 * found[1] - found[0]
+        states.append(np.concatenate([ours.x[0, 0] / DIAMETER, ours.F[0, 0].ravel()]))
+    limit = 2.0 * states[1] - states[0]
     return Outcome(
         [
-            Row("Ca = 0.5: x₁/d at 4 ms", float(limit[0]), float(own.x[-1, 0] / DIAMETER), SOFT, 0.02),
-            Row("Ca = 0.5: x₂/d at 4 ms", float(limit[1]), float(own.x[-1, 1] / DIAMETER), SOFT, 0.002),
-            worst("Ca = 0.5: worst component of F at 4 ms", limit[3:], own.F[-1].ravel(), SOFT, 1e-3),
+            Row("Ca = 0.5: x₁/d at 4 ms", float(limit[0]), float(reference.x[-1, 0] / DIAMETER), SOFT, 0.02),
+            Row("Ca = 0.5: x₂/d at 4 ms", float(limit[1]), float(reference.x[-1, 1] / DIAMETER), SOFT, 0.002),
+            worst("Ca = 0.5: worst component of F at 4 ms", limit[3:], reference.F[-1].ravel(), SOFT, 1e-3),
         ],
         [],
         [],
@@ -308,10 +310,10 @@ def openfoam(quick: bool) -> Outcome:
     Ca = np.array([1e-4] if quick else [1e-4, 0.25, 0.5, 0.75, 1.0])
     for colour, (drag, stiffness) in enumerate(REFERENCES[:1] if quick else REFERENCES):
         x, _, _ = _landing(Ca, drag, 2e-5 if quick else 1e-5, flow)
-        own = {1e-4: float(_rigid_fall().x[-1, 0] / DIAMETER)}
+        references = {1e-4: float(_rigid_fall().x[-1, 0] / DIAMETER)}
         if not quick:
-            own |= {c: float(_soft(c, drag).x[-1, 0] / DIAMETER) for c in stiffness}
-        for c, value in own.items():
+            references |= {c: float(_soft(c, drag).x[-1, 0] / DIAMETER) for c in stiffness}
+        for c, value in references.items():
             i = int(np.argmin(abs(Ca - c)))
             source = RIGID if c == 1e-4 else SOFT
             # The coarse mesh holds the parabola to 0.2 % (rms) of the mean velocity.
@@ -320,7 +322,7 @@ def openfoam(quick: bool) -> Outcome:
                     f"Ca = {c:g}, {drag}: distance/d", float(x[i]), value, f"{source}, exact pipe", 5e-3, True
                 )
             )
-        at, exact = np.array(list(own.items())).T
+        at, exact = np.array(list(references.items())).T
         curves.append(Curve(Ca, x, f"foamprb, OpenFOAM's flow, {drag}", colour=colour))
         curves.append(Curve(at, exact, f"solve_ivp, exact pipe, {drag}", "reference", colour))
     panel = Panel("Ca at the wall shear rate", "x₁ max/d", curves)

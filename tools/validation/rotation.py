@@ -39,13 +39,13 @@ def spin_up(quick: bool) -> Outcome:
     models = Models(integrator="rosenbrock", tolerance=1e-6)
     cloud = unit_cloud(analytic.rotation(1.0), 1e-4, tau, tau / 4.0, models, 0.49)
     coarse = history(cloud, tau * np.arange(1.0, 9.0))
-    own = rigid_sphere(1.0, 15.0 * tau, around, np.zeros(3), np.append(0.0, coarse.t))
+    reference = rigid_sphere(1.0, 15.0 * tau, around, np.zeros(3), np.append(0.0, coarse.t))
     name = "|ω_s3|/γ̇, rosenbrock, worst of all times"
-    rows.append(worst(name, abs(coarse.spin[:, 0]), abs(own.spin[1:]), RIGID, 1e-3))
+    rows.append(worst(name, abs(coarse.spin[:, 0]), abs(reference.spin[1:]), RIGID, 1e-3))
     cloud = unit_cloud(analytic.rotation(1.0), 1e-4, tau, 0.05, Models(integrator="stokes"), 0.49)
     advance_to(cloud, 1.0)
-    found = abs(float(measures(cloud)["angularVelocity"][0, 2]))
-    rows.append(Row("|ω_s3|/γ̇ at γ̇t = 1, stokes", found, 0.5, FLUID, 1e-6))
+    rate = abs(float(measures(cloud)["angularVelocity"][0, 2]))
+    rows.append(Row("|ω_s3|/γ̇ at γ̇t = 1, stokes", rate, 0.5, FLUID, 1e-6))
     t = np.append(0.0, times)
     figure = Figure(
         "rotation",

@@ -82,11 +82,11 @@ def advance_to(cloud: Cloud, t: float) -> None:
 
 def follow(cloud: Cloud, times: Floats, value: Callable[[Cloud], Any]) -> Floats:
     """Advance a cloud to the steps nearest to times (m,), s; return its ``value`` at each, (m, …)."""
-    found = []
+    values = []
     for t in times:
         advance_to(cloud, float(t))
-        found.append(np.array(value(cloud)))
-    return np.array(found)
+        values.append(np.array(value(cloud)))
+    return np.array(values)
 
 
 def gradients(p: Particles) -> tuple[Floats, Floats]:
@@ -201,7 +201,7 @@ class History(NamedTuple):
 
 def history(cloud: Cloud, times: Floats) -> History:
     """Advance a cloud through the steps nearest to the given times (m,), s."""
-    found: list[tuple[Any, ...]] = []
+    states: list[tuple[Any, ...]] = []
     for t in times:
         advance_to(cloud, float(t))
         p = cloud.particles
@@ -213,8 +213,8 @@ def history(cloud: Cloud, times: Floats) -> History:
             measures(cloud)["angularVelocity"][:, 2],
             torque(cloud)[:, 2],
         ]
-        kept = [np.array(a) for a in state]
-        for a in kept:
+        moving = [np.array(a) for a in state]
+        for a in moving:
             a[gone] = np.nan
-        found.append((cloud.time, *kept))
-    return History(*(np.array(column) for column in zip(*found, strict=True)))
+        states.append((cloud.time, *moving))
+    return History(*(np.array(column) for column in zip(*states, strict=True)))

@@ -135,7 +135,7 @@ def settling(quick: bool) -> Outcome:
         for k in range(3):
             g = np.zeros(3)
             g[k] = -GRAVITY
-            found = []
+            speeds = []
             for dt in (4e-6, 2e-6):
                 p = spheres([[0.0, 0.0, 0.0]], d=DIAMETER, rho=RHO_S, mu=MU_F * rate / Ca)
                 p.F[:] = np.diag(axes).ravel()
@@ -143,12 +143,12 @@ def settling(quick: bool) -> Outcome:
                 flow = analytic.linear(np.diag(rates))
                 cloud = Cloud(p, flow, medium, (), dt, Models(drag=drag, integrator="paper"), threads=1)
                 advance_to(cloud, t)
-                found.append(float(p.v[0, k]))
+                speeds.append(float(p.v[0, k]))
             a = (1.0 - float(np.prod(axes)) * RHO_F / RHO_S) * g
             expected = settling_in_extension(K, mass, MU_F, rates, a, t)[1][k]
             name = f"deformed body, gravity along axis {k + 1}, {drag}: velocity [m/s]"
             # Δt → 0 from two steps of a first-order scheme.
-            rows.append(Row(name, 2.0 * found[1] - found[0], float(expected), QUADRATURE, 1e-4, True))
+            rows.append(Row(name, 2.0 * speeds[1] - speeds[0], float(expected), QUADRATURE, 1e-4, True))
     for shape in ((5.0, 3.0, 1.0), (2.0, 1.0, 1.0)):
         ours = np.array(DRAGS["oberbeck"](shape, integrals(shape))) / np.pi
         expected_k = resistances(np.array(shape)) / np.pi

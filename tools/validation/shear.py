@@ -33,12 +33,12 @@ ALLOWED = (1e-4, 1e-4, 1e-4, 0.01, 1e-4)
 
 def _limit(Ca: Floats, end: float, traction: str = "roscoe", stokes: float = 2e-3) -> Floats:
     """Return shapes (n, 5) at the time ``end`` in the limit of no inertia, with the paper's integrator."""
-    found = []
+    runs = []
     for s in (stokes, stokes / 2):
         cloud = unit_cloud(analytic.shear(1.0), Ca, s, 0.2 * s, Models(traction=traction, integrator="paper"))
         advance_to(cloud, end)
-        found.append(shear_shapes(cloud))
-    return without_inertia(*found)
+        runs.append(shear_shapes(cloud))
+    return without_inertia(*runs)
 
 
 def steady(quick: bool) -> Outcome:
@@ -95,7 +95,7 @@ def steady(quick: bool) -> Outcome:
     line = ours if quick else _limit(dense, 60.0)
 
     def panel(k: int, label: str) -> Panel:
-        known = np.array([[c, shape[k]] for c, shape in STEADY_SHAPES.items()])
+        table = np.array([[c, shape[k]] for c, shape in STEADY_SHAPES.items()])
         shown = fine <= 1.0
         return Panel(
             "Ca",
@@ -103,7 +103,7 @@ def steady(quick: bool) -> Outcome:
             [
                 Curve(dense, line[:, k], "foamprb, Roscoe's traction"),
                 Curve(fine[shown], curve[shown, k], "Roscoe (1967)", "reference"),
-                Curve(known[:, 0], known[:, 1], "table", "reference", 2),
+                Curve(table[:, 0], table[:, 1], "table", "reference", 2),
             ],
         )
 
@@ -164,11 +164,11 @@ def formulas(quick: bool) -> Outcome:
 def transient(quick: bool) -> Outcome:
     """Transient shape in shear."""
     times = np.linspace(0.2, 3.0 if quick else 10.0, 15 if quick else 50)
-    found = []
+    runs = []
     for s in (2e-3, 1e-3):
         cloud = unit_cloud(analytic.shear(1.0), 0.4, s, 0.2 * s, Models(integrator="paper"))
-        found.append(follow(cloud, times, shear_shapes)[:, 0])
-    ours = without_inertia(*found)
+        runs.append(follow(cloud, times, shear_shapes)[:, 0])
+    ours = without_inertia(*runs)
     F = inertialess_history(SHEAR, 0.4, times)
     expected = np.array([shear_shape(f, inertialess_rate(f, SHEAR, 0.4)) for f in F])
     # Two extrapolated levels leave errors of second order in the Stokes number, largest at the start.

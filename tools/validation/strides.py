@@ -42,14 +42,14 @@ def strides(quick: bool) -> Outcome:
     """Steps longer than Δt."""
     rows: list[Row] = []
     for Ca in CAPILLARY[1:2] if quick else CAPILLARY:
-        own = inertialess_history(SHEAR, Ca, np.array([_SHEAR_END]))[-1]
+        reference = inertialess_history(SHEAR, Ca, np.array([_SHEAR_END]))[-1]
         for stride in (1, STRIDE):
             models = Models(integrator="stokes", stride=stride)
             shear = unit_cloud(analytic.shear(1.0), Ca, 1e-6, _SHEAR_STEP, models)
-            rows += _rows(shear, own, _SHEAR_END, f"stokes, shear, Ca = {Ca:g}")
+            rows += _rows(shear, reference, _SHEAR_END, f"stokes, shear, Ca = {Ca:g}")
     for Ca in CAPILLARY[1:2] if quick else CAPILLARY:
-        own = soft_in_pipe(Ca, np.array([0.0, _PIPE_END])).F[-1]
+        reference = soft_in_pipe(Ca, np.array([0.0, _PIPE_END])).F[-1]
         for stride in (1, STRIDE):
             pipe = pipe_cloud(Ca, _PIPE_STEP, Models(integrator="rosenbrock", stride=stride))
-            rows += _rows(pipe, own, _PIPE_END, f"rosenbrock, pipe, Ca = {Ca:g}")
+            rows += _rows(pipe, reference, _PIPE_END, f"rosenbrock, pipe, Ca = {Ca:g}")
     return Outcome(rows, [], [])

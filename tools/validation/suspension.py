@@ -45,21 +45,21 @@ def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
     models = Models(integrator="stokes", tolerance=np.inf)
     times = np.arange(0.16, 4.0 if quick else 16.5, 0.16)
     cloud = unit_cloud(analytic.shear(1.0), np.full(6, STIFF), 1e-6, 0.008, models, ratios=shapes, axes=axes)
-    ours, own = [], []
+    ours, theirs = [], []
     for t in times:
         advance_to(cloud, float(t))
         ours.append(stresslets(cloud))
         # Of the body as it lies: an orbit's small error in time is not one of the stress.
         p = principal_axes(cloud.particles)[1][:, 2]
-        own.append([rigid.spheroid_stresslet(r, a, SHEAR) for r, a in zip(shapes[:, 0], p, strict=True)])
-    found, expected = np.array(ours), np.array(own)
+        theirs.append([rigid.spheroid_stresslet(r, a, SHEAR) for r, a in zip(shapes[:, 0], p, strict=True)])
+    stresses, expected = np.array(ours), np.array(theirs)
     for i in range(6):
         plane = "in the plane of shear" if i < 3 else "out of the plane"
         size = float(abs(expected[:, i]).max())
         rows.append(
             worst(
                 f"rigid spheroid, r = {shapes[i, 0]:g}, {plane}: component of S/(μ_f γ̇ V) over its largest",
-                found[:, i].ravel(),
+                stresses[:, i].ravel(),
                 expected[:, i].ravel(),
                 SPHEROID,
                 1e-3,
@@ -70,7 +70,7 @@ def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
             exact = rigid.jeffery_axis(np.array([1.0, 0.0, 0.0]), shapes[i, 0], times)
             closed = [rigid.spheroid_stresslet(shapes[i, 0], a, SHEAR)[0, 1] for a in exact]
             labels = f"foamprb, r = {shapes[i, 0]:g}", "closed form"
-            curves += compared(times, found[:, i, 0, 1], np.array(closed), labels, i, 4)
+            curves += compared(times, stresses[:, i, 0, 1], np.array(closed), labels, i, 4)
     figure = Figure(
         "stresslet",
         "Rigid spheroids that tumble in the plane of shear: contribution of each to the shear stress, per "
@@ -99,9 +99,9 @@ def _average(quick: bool) -> list[Row]:
         psi = 2.0 * np.pi * np.arange(n) / n
         axes = np.stack([r * np.sin(psi), np.cos(psi), np.zeros(n)], axis=1)
         axes /= np.linalg.norm(axes, axis=1, keepdims=True)
-        own = np.mean([rigid.spheroid_stresslet(r, a, SHEAR)[0, 1] for a in axes])
+        reference = np.mean([rigid.spheroid_stresslet(r, a, SHEAR)[0, 1] for a in axes])
         name = f"rigid spheroid, r = {r:g}, in the plane of shear: [η] over a period"
-        rows.append(Row(name, total, float(own), SPHEROID, 1e-3, True))
+        rows.append(Row(name, total, float(reference), SPHEROID, 1e-3, True))
     return rows
 
 
@@ -131,16 +131,16 @@ def stress(quick: bool) -> Outcome:
         line = np.array([soft.roscoe_rheology(c, ratio) for c in fine])
         for k in range(3):
             panels[k].append(Curve(Ca, ours[:, k], f"foamprb, η_s/μ_f = {ratio:g}", colour=colour))
-            known = "Roscoe (1967)" if colour == 0 else ""
-            panels[k].append(Curve(fine, line[:, k], known, "reference", colour))
+            name = "Roscoe (1967)" if colour == 0 else ""
+            panels[k].append(Curve(fine, line[:, k], name, "reference", colour))
 
-    given = np.array(sorted(GIVEN))
-    cloud = unit_cloud(analytic.shear(1.0), given, 1e-6, 0.05, Models(integrator="stokes", tolerance=1e-7))
+    numbers = np.array(sorted(GIVEN))
+    cloud = unit_cloud(analytic.shear(1.0), numbers, 1e-6, 0.05, Models(integrator="stokes", tolerance=1e-7))
     advance_to(cloud, 60.0)
     ours = np.array([soft.rheology(S) for S in stresslets(cloud)])
-    own = np.array([GIVEN[c] for c in given])
+    exact = np.array([GIVEN[c] for c in numbers])
     title = "spheres: {}, worst of Ca = 0.05, 0.1, 0.4"
-    rows += worst_of_each(title, NAMES, ours, own, QUADRATURE, (6e-4,) * 2)
+    rows += worst_of_each(title, NAMES, ours, exact, QUADRATURE, (6e-4,) * 2)
 
     small = np.array([0.01, 0.02])
     cloud = unit_cloud(analytic.shear(1.0), small, 1e-6, 0.02, Models(integrator="stokes", tolerance=1e-7))
@@ -154,7 +154,7 @@ def stress(quick: bool) -> Outcome:
 
     times = np.linspace(0.5, 6.0 if quick else 20.0, 12 if quick else 40)
     body = soft.Body(0.2, soft.stretched((2.0, 1.0, 1.0)))
-    own = np.array([soft.particle_stress(F, SHEAR, body) for F in soft.deformation(SHEAR, body, times)])
+    exact = np.array([soft.particle_stress(F, SHEAR, body) for F in soft.deformation(SHEAR, body, times)])
     cloud = unit_cloud(
         analytic.shear(1.0),
         0.2,
@@ -168,7 +168,7 @@ def stress(quick: bool) -> Outcome:
         worst(
             "soft spheroid, r = 2, Ca = 0.2, tumbling: component of S/(μ_f γ̇ V), worst of all times",
             path.ravel(),
-            own.ravel(),
+            exact.ravel(),
             ODE,
             1e-3,
         )

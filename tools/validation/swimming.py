@@ -31,12 +31,12 @@ def squares(n: int, dt: float, models: tuple[Surrounding, ...]) -> list[tuple[fl
     p = spheres(np.zeros((n, 3)), d=2.0 * R, rho=1000.0, mu=1e5, poissons_ratio=0.4999)
     flow, water = analytic.linear(np.zeros((3, 3))), Medium(MU_F, 1000.0, (0.0, 0.0, 0.0))
     cloud = Cloud(p, flow, water, (), dt, Models(integrator="stokes", surroundings=models), threads=1)
-    found = []
+    means = []
     for t in TIMES:
         cloud.advance(round(t / dt) - cloud.step)
         each = (p.x**2).sum(axis=1)
-        found.append((float(each.mean()), float(each.std() / np.sqrt(n))))
-    return found
+        means.append((float(each.mean()), float(each.std() / np.sqrt(n))))
+    return means
 
 
 def expected(t: float, molecules: bool) -> float:
@@ -50,8 +50,8 @@ def swimmers(quick: bool) -> Outcome:
     n, dt = (1000, 2e-2) if quick else (10000, 2e-3)
     rows = []
     for molecules, name in ((True, "BrownianMotion"), (False, "rotationalDiffusivity")):
-        own = Swimming(speed=V, rotationalDiffusivity=0.0 if molecules else TURNS)
-        models = (BrownianMotion(T=T), own) if molecules else (own,)
+        swimming = Swimming(speed=V, rotationalDiffusivity=0.0 if molecules else TURNS)
+        models = (BrownianMotion(T=T), swimming) if molecules else (swimming,)
         for t, (ours, error) in zip(TIMES, squares(n, dt, models), strict=True):
             reference = expected(t, molecules)
             allowed = 4.0 * error / reference + 1.5 * TURNS * dt

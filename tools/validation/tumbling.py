@@ -94,9 +94,9 @@ def _search(ratios: Floats, Ca: Floats) -> Transitions:
     """Return the transitions among the given capillary numbers, (n, k)."""
     n, k = Ca.shape
     times, along, across = _paths(np.repeat(ratios, k), Ca.ravel())
-    found = [_passages(times, along[:, j], across[:, j]) for j in range(n * k)]
-    nearest = np.array([p.nearest for p in found]).reshape(n, k)
-    lowest = np.array([p.lowest for p in found]).reshape(n, k)
+    passages = [_passages(times, along[:, j], across[:, j]) for j in range(n * k)]
+    nearest = np.array([p.nearest for p in passages]).reshape(n, k)
+    lowest = np.array([p.lowest for p in passages]).reshape(n, k)
     turning, positive = [], []
     for row, b, y in zip(Ca, nearest, lowest, strict=True):
         order = np.argsort(row)
@@ -143,16 +143,16 @@ def _histories(quick: bool) -> tuple[list[Row], list[Curve], list[Curve]]:
 def regimes(quick: bool) -> Outcome:
     """Tumbling, trembling, swinging."""
     ratios = np.array([2.0]) if quick else RATIOS
-    found = transitions(ratios)
+    limits = transitions(ratios)
     rows = []
     for r in (2.0,) if quick else CHECKED:
         i = int(np.argmin(abs(ratios - r)))
-        Ca1, Ca2 = float(found.turning[i]), float(found.positive[i])
-        own = soft.transition(lambda p: p.nearest, r, 0.97 * Ca1, 1.03 * Ca1)
-        rows.append(Row(f"r = {r:g}: Ca₁, tumbling to trembling", Ca1, own, ODE, 1e-4))
+        Ca1, Ca2 = float(limits.turning[i]), float(limits.positive[i])
+        reference = soft.transition(lambda p: p.nearest, r, 0.97 * Ca1, 1.03 * Ca1)
+        rows.append(Row(f"r = {r:g}: Ca₁, tumbling to trembling", Ca1, reference, ODE, 1e-4))
         if not quick:
-            own = soft.transition(lambda p: p.lowest, r, 0.97 * Ca2, 1.03 * Ca2)
-            rows.append(Row(f"r = {r:g}: Ca₂, trembling to swinging", Ca2, own, ODE, 1e-4))
+            reference = soft.transition(lambda p: p.lowest, r, 0.97 * Ca2, 1.03 * Ca2)
+            rows.append(Row(f"r = {r:g}: Ca₂, trembling to swinging", Ca2, reference, ODE, 1e-4))
     if not quick:
         round_one = np.array([1.02])
         nearly = transitions(round_one)
@@ -183,8 +183,8 @@ def regimes(quick: bool) -> Outcome:
                         "aspect ratio at rest",
                         "Ca = μ_f γ̇/μ_s",
                         [
-                            Curve(ratios, found.turning, "Ca₁, foamprb", colour=0),
-                            Curve(ratios, found.positive, "Ca₂, foamprb", colour=1),
+                            Curve(ratios, limits.turning, "Ca₁, foamprb", colour=0),
+                            Curve(ratios, limits.positive, "Ca₂, foamprb", colour=1),
                             Curve(fine, small_deformation(fine), "small deformation", "guide"),
                             *_checked(rows),
                         ],

@@ -62,8 +62,8 @@ def steady(quick: bool) -> Outcome:
         history.append(Curve(times, ours[:, 0], f"foamprb, {integrator}", colour=colour))
         title = f"η_s/μ_f = {ratio_t:g}, Ca = {Ca_t:g}, {integrator}: {{}}, worst of all times"
         for k in (0, 2, 3):
-            found = title.format(NAMES[k]), ours[:, k], expected[:, k]
-            rows.append(worst(*found, ODE, 10.0 * ALLOWED[k]))
+            row = title.format(NAMES[k]), ours[:, k], expected[:, k]
+            rows.append(worst(*row, ODE, 10.0 * ALLOWED[k]))
     figure = Figure(
         "viscoelastic",
         f"Kelvin–Voigt spheres: steady deformation and angle, and the start with Ca = {Ca_t:g} and "

@@ -93,12 +93,12 @@ def _sink(quick: bool, integrators: Sequence[str]) -> tuple[list[Row], Figure]:
     expected = solve_ivp(
         derivative, (0.0, times[-1]), np.eye(3).ravel(), t_eval=times, rtol=1e-10, atol=1e-12
     )
-    known = np.array([shear_shape(F.reshape(3, 3), np.eye(3))[0] for F in expected.y.T])
-    rows, curves = [], [Curve(times, known, "solve_ivp", "reference")]
+    reference = np.array([shear_shape(F.reshape(3, 3), np.eye(3))[0] for F in expected.y.T])
+    rows, curves = [], [Curve(times, reference, "solve_ivp", "reference")]
     for colour, integrator in enumerate(integrators):
         ours = _on_the_way(law, Models(integrator=integrator, tolerance=1e-6), start, times)
         curves.append(Curve(times, ours, f"foamprb, {integrator}", colour=colour))
-        rows.append(worst(f"towards a sink, {integrator}: D, worst of all times", ours, known, ODE, 1e-4))
+        rows.append(worst(f"towards a sink, {integrator}: D, worst of all times", ours, reference, ODE, 1e-4))
     constant = PowerLaw(k=law.at_rate(math.sqrt(12.0)), n=1.0)
     ours = _on_the_way(constant, Models(integrator="stokes"), start, times)
     curves.append(Curve(times, ours, "viscosity of the start", "guide"))
@@ -116,12 +116,12 @@ def carriers(quick: bool) -> Outcome:
         Row(
             f"BirdCarreau of blood, γ̇ = {rate:g} 1/s: μ_f [Pa s]",
             BLOOD.at_rate(rate),
-            known,
+            expected,
             "closed form",
             5e-7,
         )
-        for rate, known in CHO.items()
+        for rate, expected in CHO.items()
     ]
     integrators = ("stokes", "rosenbrock")[: 1 if quick else 2]
-    found, figure = _sink(quick, integrators)
-    return Outcome([*rows, *_pipe(integrators), *found], [figure], [])
+    more, figure = _sink(quick, integrators)
+    return Outcome([*rows, *_pipe(integrators), *more], [figure], [])

@@ -122,8 +122,8 @@ def _onto_slope(number: float) -> tuple[tuple[float, float], tuple[float, float]
 
 
 def _coefficients(p: Particles) -> Floats:
-    found: Floats = p.v[:, 2] * p.x[:, 2] ** 2 / (RATE * R**3)
-    return found
+    coefficients: Floats = p.v[:, 2] * p.x[:, 2] ** 2 / (RATE * R**3)
+    return coefficients
 
 
 def _carried(heights: Floats, Ca: Floats, steps: int, dt: float = 0.02 / RATE) -> Particles:

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.optional import load
 from foamprb.view.colours import NAMES, readable
-from foamprb.view.libraries import load
 from foamprb.view.report.deposits import FEW, Deposits
 
 __all__ = [

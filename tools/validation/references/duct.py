@@ -76,9 +76,9 @@ def coefficient(s: float) -> float:
     most = 40.0 / z0
     # The integrand is smooth in k and goes as 9/32 |U''| k⁻² for large k.
     edges = np.concatenate([[0.0], np.geomspace(0.5, most, 30)])
-    found = 9.0 / 4.0 / most
+    total = 9.0 / 4.0 / most
     for low, high in pairwise(edges):
         k = 0.5 * (low + high) + 0.5 * (high - low) * _COARSE
         values = [_integrand(float(each), z0) for each in k]
-        found += 0.5 * (high - low) * float(_COARSE_WEIGHTS @ np.array(values))
-    return float(5.0 / 4.0 * np.pi * s * found)
+        total += 0.5 * (high - low) * float(_COARSE_WEIGHTS @ np.array(values))
+    return float(5.0 / 4.0 * np.pi * s * total)

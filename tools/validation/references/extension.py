@@ -46,10 +46,10 @@ def _balanced(rates: Floats, Ca: float, start: Floats) -> Floats:
         stress = Ca * diagonal_response(axes) @ rates - axes**2
         return np.asarray(stress[:2] - stress[2])
 
-    found = root(imbalance, start, tol=1e-14)
-    if not np.abs(imbalance(found.x)).max() < 1e-10:
+    solution = root(imbalance, start, tol=1e-14)
+    if not np.abs(imbalance(solution.x)).max() < 1e-10:
         raise ValueError(f"no steady shape at Ca = {Ca:g}")
-    return np.asarray(found.x)
+    return np.asarray(solution.x)
 
 
 def steady_compressible_extension(rates: Floats, Ca: float, poissons_ratio: float) -> Floats:
@@ -64,10 +64,10 @@ def steady_compressible_extension(rates: Floats, Ca: float, poissons_ratio: floa
         load = np.diag(traction_stress(np.diag(axes), np.diag(rates), np.zeros((3, 3))))
         return np.asarray(Ca * np.prod(axes) * load - (axes**2 - 1.0) - ratio * logs.sum())
 
-    found = root(imbalance, np.log(steady_extension(rates, Ca)), tol=1e-14)
-    if not np.abs(imbalance(found.x)).max() < 1e-9:
+    solution = root(imbalance, np.log(steady_extension(rates, Ca)), tol=1e-14)
+    if not np.abs(imbalance(solution.x)).max() < 1e-9:
         raise ValueError(f"no steady shape at Ca = {Ca:g}")
-    return np.asarray(np.exp(found.x))
+    return np.asarray(np.exp(solution.x))
 
 
 def settling_in_extension(

@@ -32,11 +32,11 @@ def shapes(
         recovery = S - 3.0 * np.linalg.det(S) / second * np.eye(3)
         return np.ravel(f3 * (W @ S - S @ W) - f1 * recovery + f2 * (E @ S + S @ E))
 
-    begin = np.eye(3) if start is None else start
-    found = solve_ivp(
-        rate, (0.0, times[-1]), begin.ravel(), method="LSODA", t_eval=times, rtol=1e-10, atol=1e-12
+    F0 = np.eye(3) if start is None else start
+    solution = solve_ivp(
+        rate, (0.0, times[-1]), F0.ravel(), method="LSODA", t_eval=times, rtol=1e-10, atol=1e-12
     )
-    return np.asarray(found.y.T.reshape(-1, 3, 3))
+    return np.asarray(solution.y.T.reshape(-1, 3, 3))
 
 
 def of_drop(ratio: float, Ca: float) -> tuple[float, float, float]:

@@ -76,10 +76,10 @@ def roscoe_at(Ca: float, viscosity_ratio: float = 0.0) -> ShearShape:
         return 1.0 / roscoe(a, viscosity_ratio).Ca - 1.0 / Ca
 
     a1 = float(brentq(miss, 1.0 + 1e-4 * Ca, 6.0, xtol=1e-14))
-    found = roscoe(a1, viscosity_ratio)
-    a, b, c = found.axes
-    nu = roscoe_frequency(a, b, found.angle)
-    return ShearShape((a - b) / (a + b), b / a, c / a, found.angle, nu * (a * a + b * b) / (2 * a * b))
+    ellipsoid = roscoe(a1, viscosity_ratio)
+    a, b, c = ellipsoid.axes
+    nu = roscoe_frequency(a, b, ellipsoid.angle)
+    return ShearShape((a - b) / (a + b), b / a, c / a, ellipsoid.angle, nu * (a * a + b * b) / (2 * a * b))
 
 
 def roscoe_frequency(a: float, b: float, angle: float) -> float:

@@ -254,11 +254,11 @@ def roscoe_rheology(Ca: float, viscosity_ratio: float = 0.0) -> Rheology:
     def miss(a: float) -> float:
         return 1.0 / roscoe(a, viscosity_ratio).Ca - 1.0 / Ca
 
-    found = roscoe(float(brentq(miss, 1.0 + 1e-4 * Ca, 6.0, xtol=1e-14)), viscosity_ratio)
-    a1, a2, _ = found.axes
-    nu = roscoe_frequency(a1, a2, found.angle)
-    S = np.diag(found.axes**2) / Ca
+    ellipsoid = roscoe(float(brentq(miss, 1.0 + 1e-4 * Ca, 6.0, xtol=1e-14)), viscosity_ratio)
+    a1, a2, _ = ellipsoid.axes
+    nu = roscoe_frequency(a1, a2, ellipsoid.angle)
+    S = np.diag(ellipsoid.axes**2) / Ca
     S[0, 1] = S[1, 0] = (viscosity_ratio - 1.0) * nu * (a1 / a2 - a2 / a1)
-    c, s = np.cos(np.radians(found.angle)), np.sin(np.radians(found.angle))
+    c, s = np.cos(np.radians(ellipsoid.angle)), np.sin(np.radians(ellipsoid.angle))
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     return rheology(turn @ S @ turn.T)

@@ -40,14 +40,14 @@ def _solutions(growing: bool, n: int, k: Floats, r: Floats, at: float) -> Any:
     bessel = {m: (ive(m, z) if growing else (-1.0) ** m * kve(m, z)) * scale for m in range(n - 1, n + 3)}
     slope = {m: bessel[m + 1] + m / z * bessel[m] for m in range(n - 1, n + 2)}
     bend = {m: (1.0 + m * m / z**2) * bessel[m] - slope[m] / z for m in slope}
-    found = []
+    solutions = []
     for A, B, C in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)):
         P = -k * (A + B) - 2j * k * C
         parts = ((A, n + 1, 0.5), (B, n - 1, 0.5), (C, n, 0.5j))
         values = [c * bessel[m] + f * P * r * slope[m] for c, m, f in parts]
         slopes = [c * k * slope[m] + f * P * (slope[m] + z * bend[m]) for c, m, f in parts]
-        found.append(np.array([*values, P * bessel[n], *slopes]))
-    return np.array(found)
+        solutions.append(np.array([*values, P * bessel[n], *slopes]))
+    return np.array(solutions)
 
 
 def _factors(n: int, k: Floats, r0: float) -> Any:
@@ -101,11 +101,11 @@ def _mode(n: int, k: Floats, r0: float) -> Floats:
             for node, weight in zip(_NODES, _WEIGHTS, strict=True):
                 r = np.maximum(r0 + sign * (0.5 * (low + high) + 0.5 * (high - low) * node), 1e-12)
                 if sign < 0.0:
-                    fields, own = _solutions(True, n, k, r, r0), factors[:, :3]
+                    fields, weights = _solutions(True, n, k, r, r0), factors[:, :3]
                 else:
                     fields = np.concatenate([_solutions(True, n, k, r, 1.0), _solutions(False, n, k, r, r0)])
-                    own = factors[:, 3:]
-                u, v = np.einsum("kbs,bck->sck", own, fields[:, :3])
+                    weights = factors[:, 3:]
+                u, v = np.einsum("kbs,bck->sck", weights, fields[:, :3])
                 carried = 1j * k * (r0 * r0 - r * r) * v
                 carried[2] -= r * (v[0] + v[1])
                 work = 0.5 * (u[0].conj() * carried[0] + u[1].conj() * carried[1]) + u[2].conj() * carried[2]
