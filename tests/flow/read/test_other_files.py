@@ -75,6 +75,28 @@ def test_a_file_of_cgns_is_read(tmp_path, random, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+def test_times_of_cgns_are_a_transient_flow(tmp_path):
+    shape = block(3, 0.0)
+    centres = build_mesh(shape).centres[:, [1, 2, 0]]
+    write_cgns(tmp_path / "flow.cgns", shape, centres)
+    with h5py.File(tmp_path / "flow.cgns", "r+", track_order=True) as file:
+        base, zone = file["Base"], file["Base/Zone"]
+        later = cgns(zone, "Later", "FlowSolution_t")
+        cgns(later, "GridLocation", "GridLocation_t", "CellCenter")
+        for k, axis in enumerate("XYZ"):
+            cgns(later, f"Velocity{axis}", "DataArray_t", 3.0 * centres[:, k])
+        times = cgns(base, "Times", "BaseIterativeData_t", np.array([2], np.int32))
+        cgns(times, "TimeValues", "DataArray_t", np.array([0.0, 2.0]))
+        names = np.frombuffer(b"Solution".ljust(32) + b"Later".ljust(32), np.int8).reshape(2, 32)
+        of_times = cgns(zone, "ZoneTimes", "ZoneIterativeData_t")
+        cgns(of_times, "FlowSolutionPointers", "DataArray_t", names)
+    flow = read_mesh_series(tmp_path / "flow.cgns", velocity="Velocity")
+    assert flow.times == (0.0, 2.0)
+    x = np.array([[0.2, 0.4, 0.7]])
+    for t in (0.0, 1.0, 2.0):
+        assert flow.sample(x, flow.locate(x), t)[0] == pytest.approx((1.0 + t) * x[:, [1, 2, 0]])
+
+
 @pytest.mark.parametrize("grid_first", [False, True])
 def test_a_series_of_xdmf_is_a_transient_flow(grid_first, tmp_path, monkeypatch):
     """Its grid is there twice: by itself, and at each time."""
