@@ -32,8 +32,8 @@ _ANGLE = 30.0
 """Default angle in degrees at which openings and planes end."""
 _ACROSS, _ROUND_OFF = 0.1, 1e-6
 """Least velocity across a face that is open, over the local velocity and over the largest."""
-_OPEN, _OPEN_GIVEN = 0.5, 0.05
-"""Least flux across an opening over that of the speed inside: continued from the cells, or given there."""
+_OPEN, _OPEN_VALUED = 0.5, 0.05
+"""Least flux across an opening over that of the speed inside: continued from the cells, or stated there."""
 _LEAST_SHARE = 1e-4
 """Least flux across an opening over that across all patches."""
 _LEAST_FACES, _LEAST_FLUX, _LEAST_AREA = 8, 0.01, 0.1
@@ -57,8 +57,8 @@ class BoundaryVelocity(NamedTuple):
     """At the centres of the faces."""
     cells: Floats
     """At the centres of their cells."""
-    given: Mask
-    """(n_boundary,): faces with a velocity of their own."""
+    valued: Mask
+    """(n_boundary,): True where the file has a velocity of the face itself."""
 
     def fluxes(self, mesh: Mesh) -> Floats:
         """Return the fluxes out of the faces, (n_times, n_boundary), m³/s."""
@@ -84,8 +84,8 @@ def boundary_velocity(
     complete = [arrays for arrays in at_times if arrays is not None]
     if not complete:
         return None
-    faces, cells, given = map(np.stack, zip(*complete, strict=True))
-    return BoundaryVelocity(faces, cells, np.any(given, axis=0))
+    faces, cells, valued = map(np.stack, zip(*complete, strict=True))
+    return BoundaryVelocity(faces, cells, np.any(valued, axis=0))
 
 
 def _beside(
@@ -104,14 +104,14 @@ def _beside(
         cells = _means(values[mesh.cell_points], mesh.cell_point_start)[owner]
     else:
         return None
-    given = np.zeros(len(owner), dtype=bool)
+    valued = np.zeros(len(owner), dtype=bool)
     for index, (_, surface) in enumerate(surfaces):
         first, last = mesh.patch_start[index : index + 2]
         if velocity not in surface.cell_data and velocity in surface.point_data:
             surface = surface.point_data_to_cell_data()
         if np.shape(on_patch := _vectors(surface.cell_data, velocity)) == (last - first, 3):
-            faces[first:last], given[first:last] = on_patch, True
-    return faces, cells, given
+            faces[first:last], valued[first:last] = on_patch, True
+    return faces, cells, valued
 
 
 def _vectors(data: Any, name: str) -> Floats:
@@ -163,11 +163,8 @@ def divided(
     patches = [PatchSurface(name, kind, None) for name, kind in zip(names, types, strict=True)]
     patch_start = starts(np.bincount(labels, minlength=len(names)))
     mesh = assemble(poly._replace(patches=patches, patch_start=patch_start), str(path))
-    return (
-        mesh,
-        u and BoundaryVelocity(u.faces[:, order], u.cells[:, order], u.given[order]),
-        _crossings(mesh),
-    )
+    u = u and BoundaryVelocity(u.faces[:, order], u.cells[:, order], u.valued[order])
+    return mesh, u, _crossings(mesh)
 
 
 def _numbered(names: Sequence[str]) -> list[str]:
@@ -207,9 +204,8 @@ def _by_velocity(
     types = _types(mesh, u, labels)
     if angle is None:
         # All walls are one patch.
-        first = {kind if kind == "wall" else str(k): k for k, kind in reversed([*enumerate(types)])}
-        to = np.array([first[kind if kind == "wall" else str(k)] for k, kind in enumerate(types)])
-        used, labels = np.unique(to[labels], return_inverse=True)
+        is_wall = np.array([kind == "wall" for kind in types])
+        used, labels = np.unique(np.where(is_wall[labels], is_wall.argmax(), labels), return_inverse=True)
         types = [types[k] for k in used]
     return labels, types
 
@@ -228,7 +224,7 @@ def _openness(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp]) -> Floa
     """Return the flux across patches, in and out, over that which the speed in the cells allows."""
     areas = np.linalg.norm(mesh.boundary_areas, axis=1)
     flux = np.bincount(labels, np.abs(u.fluxes(mesh)).sum(axis=0))
-    speed = np.where(u.given, np.linalg.norm(u.faces, axis=2), np.linalg.norm(u.cells, axis=2))
+    speed = np.where(u.valued, np.linalg.norm(u.faces, axis=2), np.linalg.norm(u.cells, axis=2))
     allowed = np.bincount(labels, areas * speed.sum(axis=0))
     openness: Floats = flux / np.maximum(allowed, 1e-300)
     return openness
@@ -238,10 +234,10 @@ def _types(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp]) -> list[st
     """Return the types of patches from the patch of each boundary face."""
     areas = np.linalg.norm(mesh.boundary_areas, axis=1)
     total = np.maximum(np.bincount(labels, areas), 1e-300)
-    given = np.bincount(labels, u.given) > 0
+    valued = np.bincount(labels, u.valued) > 0
     flux = np.bincount(labels, np.abs(u.fluxes(mesh)).sum(axis=0))
-    opening = (np.bincount(labels, _open_faces(mesh, u)) > 0) & (given | (flux >= _LEAST_SHARE * flux.sum()))
-    opening &= _openness(mesh, u, labels) >= np.where(given, _OPEN_GIVEN, _OPEN)
+    opening = (np.bincount(labels, _open_faces(mesh, u)) > 0) & (valued | (flux >= _LEAST_SHARE * flux.sum()))
+    opening &= _openness(mesh, u, labels) >= np.where(valued, _OPEN_VALUED, _OPEN)
     vector = np.stack([np.bincount(labels, column) for column in mesh.boundary_areas.T], axis=1)
     normals = vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
     flat = np.linalg.norm(vector, axis=1) > (1.0 - _PLANE) * total

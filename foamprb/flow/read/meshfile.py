@@ -129,8 +129,8 @@ def read_mesh_series(
         See :func:`read_mesh_file`; or the mesh changes, or the times do not fill the period.
     """
     path = Path(path)
-    known = times_of_file(path)
-    names = choose_times(path, known, times) if known else ()
+    all_times = times_of_file(path)
+    names = choose_times(path, all_times, times) if all_times else ()
     if len(names) < 2:
         time = names[0] if names else "latestTime"
         return read_mesh_file(path, velocity, time=time, gradient=gradient, division=division, scale=scale)
@@ -221,8 +221,8 @@ class _NodalVelocity:
             boundary[rows] = _array(surface.cell_data, name, 3, path, f"on patch {patch}, face")
         slopes = None
         if self._gradient:
-            given = _array(grid.cell_data, self._gradient, 9, path, "at cell")
-            slopes = given.reshape(-1, 3, 3).transpose(0, 2, 1) / self._scale
+            gradients = _array(grid.cell_data, self._gradient, 9, path, "at cell")
+            slopes = gradients.reshape(-1, 3, 3).transpose(0, 2, 1) / self._scale
         return self._reconstruct(cells, boundary, slopes)
 
 
