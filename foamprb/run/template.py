@@ -141,7 +141,7 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     """Return the text of a dictionary for the flow of a case."""
     scales = scales_of(flow)
     if _is_at_rest(case, flow, source, scales):
-        scales = replace(scales, speed=0.0)
+        scales = replace(scales, speed=0.0, inlet="")
     fluid = _fluid(case, flow, source, scales)
     for line in fluid.remarks:
         log.info("    %s", " ".join(line.removeprefix("// ").split()))
@@ -262,9 +262,12 @@ def _is_at_rest(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScal
 
 
 def _inflow(faces: PatchFaces) -> Floats:
-    """Return the inflow through the triangles of a patch, m³/s; 0 where the fluid leaves."""
+    """Return the inflow through the triangles of a patch, m³/s; 0 where the fluid leaves.
+
+    If it enters through none of them, but at some corners, these are their areas.
+    """
     rates: Floats = np.einsum("tvi,ti->t", faces.velocity, faces.normals).clip(0.0) * faces.areas / 3.0
-    return rates
+    return rates if rates.any() else faces.areas
 
 
 class _Paths(NamedTuple):
@@ -377,9 +380,9 @@ class _Fluid(NamedTuple):
     """Lines of ``solution``."""
 
 
-def _unknown(key: str, unit: str, why: str) -> str:
-    """Return the comment in place of an entry that the case does not have."""
-    return f"// {key:12s}unknown: {why}; set {key}, {unit}"
+def _unknown(key: str, unit: str, why: str) -> list[str]:
+    """Return comments in place of an entry that the case does not have."""
+    return [f"// {key:12s}unknown: {why}", f"// {'':12s}set {key}, {unit}"]
 
 
 def _fluid(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) -> _Fluid:
@@ -392,13 +395,13 @@ def _fluid(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) -
     time = None if source.file else "latestTime"
     nu: float | None = None
     mu: float | None = None
-    lines, why = list[str](), f"{where} has none that is read"
+    lines, why = list[str](), f"{where} {'does not exist' if file is None else 'has none that is read'}"
     if file is not None:
         try:
             nu, mu, lines = _viscosity(file, case, source.region, time, scales.shear, where)
         except InputError as error:
             why = " ".join(str(error).split(". ")[0].split())
-    lines = lines or [_unknown("nu", "m2/s, or mu, Pa s", why)]
+    lines = lines or _unknown("nu", "m2/s, or mu, Pa s", why)
     density = None
     with suppress(InputError):
         density = find_density(case, source.region, file, "latestTime")
@@ -407,7 +410,8 @@ def _fluid(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) -
         lines.append(f"// {'rhoInf':12s}{rho:.4g}: from {density[1]}")
     elif nu is None:
         rho = None
-        lines.append(_unknown("rhoInf", "kg/m3", f"{where} has none that is read"))
+        lacks = "the case has no density, and no p and T at the latest time that give one"
+        lines += _unknown("rhoInf", "kg/m3", lacks)
     else:
         # Solvers of incompressible flow have none. Gases have about 1e-5 m²/s.
         rho, like = (1.2, "air") if 5e-6 <= nu <= 1e-4 else (1000.0, "water")
@@ -462,23 +466,17 @@ def _typical(
     return nu, mu, [f"// {name:12s}{comment}"]
 
 
-def _fraction_fields(case: Path, source: FlowSource) -> dict[str, str]:
-    """Return the fields of the volume fractions of phases at the latest time, by phase."""
-    if source.file is not None:
-        return {}
+def _with_fractions(case: Path, source: FlowSource) -> FlowSource:
+    """Return the source of a flow with the volume fractions of its phases at the latest time."""
     phases: Sequence[str] = ()
     with suppress(InputError):
         phases = tuple(phases_of(case, source.region))
-    if not phases:
-        return {}
+    if source.file is not None or not phases:
+        return source
     opened = open_case(case, source)
     fields = opened.fields(opened.select_time("latestTime"))
-    return {name: f"alpha.{name}" for name in phases if fields.get(f"alpha.{name}") == "volScalarField"}
-
-
-def _with_fractions(case: Path, source: FlowSource) -> FlowSource:
-    """Return the source of a flow with the volume fractions of its phases."""
-    return replace(source, sampled=tuple(_fraction_fields(case, source).values()))
+    names = [f"alpha.{name}" for name in phases if fields.get(f"alpha.{name}") == "volScalarField"]
+    return replace(source, sampled=tuple(names))
 
 
 def _shares(flow: MeshFlow, scales: FlowScales, phases: Sequence[str]) -> dict[str, float]:
@@ -532,7 +530,7 @@ def _phases(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) 
         start = "" if name == main else "// "
         for key, value, unit in zip(("nu", "rhoInf"), pair, ("m2/s", "kg/m3"), strict=True):
             if value is None:
-                lines.append(_unknown(key, unit, f"{name} has none that is read"))
+                lines += _unknown(key, unit, f"{name} has none that is read")
             else:
                 lines.append(f"{start}{key} {value:.6g}; // {unit}, of {name}{'' if start else why}")
         if name == main:
@@ -540,7 +538,7 @@ def _phases(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) 
     if not main:
         lines.insert(0, f"// unknown: the phase of the particles; no field alpha.{next(iter(phases))}")
     options = []
-    if len(phases) == 2 and shares:
+    if len(phases) == 2 and shares and not of_velocity:
         options = [
             f"// mixture true; // local nu and rho of {' and '.join(phases)}, in place of nu and rhoInf"
         ]

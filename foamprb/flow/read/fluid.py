@@ -295,15 +295,16 @@ class _Fields(NamedTuple):
 def _of_mixture(root: Dictionary, temperature: float | None, here: _Fields | None = None) -> CaseViscosity:
     """Return the viscosity of a ``pureMixture``, constant or by Sutherland's law or a polynomial."""
     law = _transport(root)
-    if law not in (*_LAWS, *_CONSTANT_TRANSPORT) or "mixture" not in root.entries:
+    unread = _not_read(root, law)
+    if unread or "mixture" not in root.entries:
         field = here.viscosity(_MU, "mu", "thermo:mu") if here else None
         if field is not None:
             return CaseViscosity(
                 None, None, field=field, origin=f"{law or 'mixture'}, the field {field.name}"
             )
-    if law not in (*_LAWS, *_CONSTANT_TRANSPORT):
+    if unread:
         raise root.mistake(
-            f"thermoType: {_not_read(root, law)} Write the field thermo:mu at the time of the flow; or add "
+            f"thermoType: {unread}. Write the field thermo:mu at the time of the flow; or add "
             "nu, m2/s, or mu, Pa s, to constantProperties of the cloud."
         )
     transport = _at(root, "mixture/transport")
@@ -325,12 +326,15 @@ def _of_mixture(root: Dictionary, temperature: float | None, here: _Fields | Non
 
 
 def _not_read(root: Dictionary, law: str) -> str:
-    """Return why the viscosity of a mixture is unknown, as a sentence."""
+    """Return why the viscosity of a mixture is not in its dictionary; empty if it is."""
     kind, mixture = root.entries.get("thermoType"), root.entries.get("mixture")
     if isinstance(kind, Dictionary) and word_of(kind, "properties") == "liquid":
         names = ", ".join(mixture.entries) if isinstance(mixture, Dictionary) else "the liquid"
-        return f"the properties of {names} are in OpenFOAM's code, not in the case."
-    return f"the viscosity of transport {law or '(none)'} is not read."
+        return f"the properties of {names} are in OpenFOAM's code, not in the case"
+    if mixture is None and isinstance(kind, Dictionary) and "mixture" in kind.entries:
+        return f"the species of a {word_of(kind, 'mixture')} are not read"
+    known = (*_LAWS, *_CONSTANT_TRANSPORT)
+    return "" if law in known else f"the viscosity of transport {law or '(none)'} is not read"
 
 
 def _sutherland(transport: Dictionary) -> Callable[[Any], Any]:
@@ -443,7 +447,7 @@ def find_density(
     of_state = density_of_state(read_dictionary(file, case), p, T)
     if of_state is None or not math.isfinite(of_state):
         return None
-    return of_state, f"equationOfState of {CaseFile(file, case)} at the mean p and T, {p:.4g} Pa, {T:.4g} K"
+    return of_state, f"equationOfState at the mean p and T ({p:.4g} Pa, {T:.4g} K)"
 
 
 def _state(case: Path, region: str, time: float | str, *temperatures: str) -> tuple[float, float]:
@@ -647,7 +651,8 @@ def read_mixture(case: Path, region: str, time: float | str | None, transient: b
             (nu, rho), (other_nu, other_rho) = (values[name] for name in names)
             return Mixture((names[0], names[1]), (nu, other_nu), (rho, other_rho), field)
     fields = " or ".join(f"alpha.{name}" for name in values)
-    raise InputError(f"{case}: solution/mixture needs the field {fields} at each time of the flow.")
+    follow = "; it does not go with -follow" if time is None else ""
+    raise InputError(f"{case}: solution/mixture needs the field {fields} at each time of the flow{follow}.")
 
 
 def _number(dictionary: Dictionary, key: str) -> float | None:
