@@ -302,6 +302,11 @@ class DistributedFlow:
         """See :meth:`foamprb.flow.base.Flow.ends_at_nodes`."""
         return joined(self._ask("ends_at_nodes", function))
 
+    def gradient_jumps(self) -> NDArray[np.int64]:
+        """See :meth:`foamprb.flow.base.Flow.gradient_jumps`."""
+        counts: NDArray[np.int64] = np.sum(self._ask("gradient_jumps"), axis=0)
+        return counts
+
     def wall_distances(self, x: Floats, hosts: NDArray[Any], *others: Any) -> Floats:
         """See :func:`foamprb.cloud.surroundings.wall_lift.wall_distances`; by the walls listed last."""
         nearest = np.full(len(x), np.inf)

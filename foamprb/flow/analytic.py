@@ -20,6 +20,7 @@ from foamprb.compile.link import bound
 from foamprb.errors import InputError
 from foamprb.flow import channels
 from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
+from foamprb.flow.jumps import NO_JUMPS
 from foamprb.flow.nodes import NO_VALUES, Ends, Function, NodeValues, ends_over
 from foamprb.flow.sampling import sample_with
 
@@ -191,6 +192,10 @@ class AnalyticFlow:
     def ends_at_nodes(self, function: Function) -> Ends:
         """Return no ends: there are no nodes."""
         return ends_over(NO_VALUES, function)
+
+    def gradient_jumps(self) -> NDArray[np.int64]:
+        """Return no faces: there are no cells."""
+        return NO_JUMPS
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return the parameters by name."""

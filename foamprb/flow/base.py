@@ -217,5 +217,8 @@ class Flow(Sampled, Protocol):
     def ends_at_nodes(self, function: Function) -> Ends:
         """Return the smallest and the largest values at all nodes of the quantities of a function."""
 
+    def gradient_jumps(self) -> NDArray[np.int64]:
+        """Return counts of faces by the jump of ∇u at the first time; see :mod:`foamprb.flow.jumps`."""
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return the arrays and numbers by which a resumed run recognises the flow, by name."""

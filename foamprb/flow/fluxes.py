@@ -27,7 +27,7 @@ from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.balance import BALANCED, CONSTANT, Balance, Mass, closed_pieces
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.arrays import arm, point
+from foamprb.flow.mesh.arrays import arm, bends, point
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.interfaces import face_pairs
 from foamprb.flow.mesh.lists import Mask, share
@@ -94,9 +94,15 @@ class Work(NamedTuple):
 
 
 def free_nodes(mesh: Mesh) -> Floats:
-    """Return 0 for nodes on walls, else 1, (n_nodes,)."""
+    """Return 1 for nodes off walls, else −1 if all cells around are simple, else 0, (n_nodes,).
+
+    See :attr:`foamprb.flow.mesh.mesh.Mesh.simple`.
+    """
+    simple = np.ones(mesh.n_points, dtype=bool)
+    simple[mesh.cell_points[np.repeat(~mesh.simple, np.diff(mesh.cell_point_start))]] = False
     free = np.ones(mesh.n_points + mesh.n_cells)
-    free[mesh.triangles[_of_kind(mesh, PatchKind.WALL)[mesh.triangle_face]]] = 0.0
+    on_walls = mesh.triangles[_of_kind(mesh, PatchKind.WALL)[mesh.triangle_face]]
+    free[on_walls] = np.where(simple[on_walls], -1.0, 0.0)
     return free
 
 
@@ -264,7 +270,7 @@ def triangle_flux(at: NodalFlow, a: int, b: int, c: int) -> float:
     for k in range(3):
         flux += s[k] * (u[a, k] + u[b, k] + u[c, k]) / 3.0
     for i, j in ((a, b), (b, c), (c, a)):
-        flux += (free[i] + free[j] - free[i] * free[j]) * inner(s, edge_bend(at.x, at.l, i, j))
+        flux += _off(free[i], free[j]) * inner(s, edge_bend(at.x, at.l, i, j))
     return float(flux)
 
 
@@ -403,16 +409,22 @@ def _put_side(
     s: Vector,
     u: Vector,
     free: Vector,
-    bends: tuple[Vector, Vector, Vector],
+    edges: tuple[Vector, Vector, Vector],
 ) -> None:
     """Write side k from its area vector, and the sum of velocities, free nodes and edges 01, 12, 20."""
     f, g, h = free
-    size, ends = inner(s, s), (inner(s, bends[0]), inner(s, bends[1]), inner(s, bends[2]))
-    flux = inner(s, u) / 3.0 + f * g * ends[0] + g * h * ends[1] + h * f * ends[2]
-    more = (f + g - 2.0 * f * g) * ends[0] + (g + h - 2.0 * g * h) * ends[1] + (h + f - 2.0 * h * f) * ends[2]
-    fluxes[row, k], correction[tet, k] = flux + more, -flux
+    size, ends = inner(s, s), (inner(s, edges[0]), inner(s, edges[1]), inner(s, edges[2]))
+    mean = inner(s, u) / 3.0
+    flux = mean + bends(f, g) * ends[0] + bends(g, h) * ends[1] + bends(h, f) * ends[2]
+    better = mean + _off(f, g) * ends[0] + _off(g, h) * ends[1] + _off(h, f) * ends[2]
+    fluxes[row, k], correction[tet, k] = better, -flux
     sides[row, k, 0], sides[row, k, 1], sides[row, k, 2] = s
-    sides[row, k, _SIZE], sides[row, k, _COUNT] = np.sqrt(size), f + g + h
+    sides[row, k, _SIZE], sides[row, k, _COUNT] = np.sqrt(size), max(f, 0.0) + max(g, 0.0) + max(h, 0.0)
+
+
+def _off(f: float, g: float) -> float:
+    """Return 1 for an edge with an end off the walls, else 0; see :func:`free_nodes`."""
+    return 1.0 if f > 0.0 or g > 0.0 else 0.0
 
 
 def _carry(

@@ -14,6 +14,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
+from foamprb.flow.jumps import count_jumps
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, no_mesh
 from foamprb.flow.mesh.communicator import single_node, total_of
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
@@ -386,6 +387,17 @@ class MeshFlow:
     def ends_at_nodes(self, function: Function) -> Ends:
         """See :meth:`foamprb.flow.base.Flow.ends_at_nodes`."""
         return ends_over(self.values_at_nodes(), function)
+
+    def gradient_jumps(self) -> NDArray[np.int64]:
+        """See :meth:`foamprb.flow.base.Flow.gradient_jumps`."""
+        mesh, n = self.mesh, self.mesh.n_internal
+        walls = np.array([patch.kind is PatchKind.WALL for patch in mesh.patches], dtype=bool)
+        at_walls = np.zeros(mesh.n_cells, dtype=bool)
+        at_walls[mesh.owner[n:][np.repeat(walls, np.diff(mesh.patch_start))]] = True
+        # A face counts where the cell that owns it does.
+        faces = np.flatnonzero(self._numbering().own[mesh.owner[:n]])
+        l = self.values_at_nodes().l[mesh.n_points :]
+        return count_jumps(l, mesh.owner[faces], mesh.neighbour[faces], at_walls)
 
     def fields(self, start: float, end: float) -> Fields:  # noqa: ARG002
         """Return the fields that are sampled, from time ``start`` to ``end``, s."""

@@ -36,6 +36,10 @@ from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import VALUELESS, PatchKind
 
+_SMOOTH = 0.9
+"""Least cosine between a face's normal and the mean around its corner on a surface that is smooth there."""
+_MOST_OFFSET = 0.3
+"""Largest distance of a wall from the face, over that of the cell's centre."""
 _MOST_PASSES = 5
 _CHANGE = 1e-3
 """Change of the gradients in a pass, over the gradients, after which no other one follows; norms."""
@@ -69,7 +73,9 @@ class Reconstruction:
         self._images = images = Images(mesh)
         n = mesh.n_cells
         # Boundary faces with values and images are sites like cell centres.
-        self._sites = np.concatenate([mesh.centres, mesh.boundary_centres[self._valued], images.places])
+        places = mesh.boundary_centres.copy()
+        places[self._walls] += wall_offsets(mesh, self._walls)
+        self._sites = np.concatenate([mesh.centres, places[self._valued], images.places])
         self._of_images = slice(n + len(self._valued), len(self._sites))
         self._of_faces = slice(n, self._of_images.start)
         faces = np.concatenate([self._valued, images.faces])
@@ -333,6 +339,32 @@ class Reconstruction:
                 # Nothing flows through walls that meet at a point, though one of them moves.
                 excess = normals[own] @ u_points[on_wall[row]]
                 u_points[on_wall[row]] -= np.linalg.lstsq(normals[own], excess, rcond=0.1)[0]
+
+
+def wall_offsets(mesh: Mesh, faces: Index) -> Floats:
+    """Return the way from the centres of wall faces to the curved wall that they approximate, (n, 3), m.
+
+    The corners of a face lie on the wall, its centre does not. Thin cells resolve the flow over the faces.
+    In a simple cell (:attr:`~foamprb.flow.mesh.mesh.Mesh.simple`) that is as high as wide the value is that
+    of a flow over the curved wall. The distance is that of a quadratic surface through the n corners with
+    the mean normals there, Σ n_i·(x_i − x)/2n. Zero in all other cells.
+    """
+    corners, columns = points_of_faces(mesh, faces)
+    areas, centres = mesh.boundary_areas[faces], mesh.boundary_centres[faces]
+    normals = areas / np.maximum(np.linalg.norm(areas, axis=1), 1e-300)[:, None]
+    total = np.zeros((mesh.n_points, 3))
+    np.add.at(total, corners, areas[columns])
+    mean = total[corners] / np.maximum(np.linalg.norm(total[corners], axis=1), 1e-300)[:, None]
+    smooth = np.einsum("ni,ni->n", mean, normals[columns]) >= _SMOOTH
+    arms = mesh.points[corners] - centres[columns]
+    terms = np.where(smooth, np.einsum("ni,ni->n", mean - normals[columns], arms), 0.0)
+    n = np.maximum(np.bincount(columns, minlength=len(faces)), 1)
+    depth = np.bincount(columns, terms, len(faces)) / (2 * n)
+    owner = mesh.owner[mesh.n_internal + faces]
+    height = np.einsum("ni,ni->n", centres - mesh.centres[owner], normals)
+    near = mesh.simple[owner] & (np.abs(depth) <= _MOST_OFFSET * height)
+    offsets: Floats = np.where(near, depth, 0.0)[:, None] * normals
+    return offsets
 
 
 def _continued(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
 from foamprb.flow.base import Floats, Turbulence
-from foamprb.flow.mesh.arrays import FREE, TOLERANCE, MeshArrays, arm, frame, nodes_of, point, weights
+from foamprb.flow.mesh.arrays import FREE, TOLERANCE, MeshArrays, arm, bends, frame, nodes_of, point, weights
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
 
@@ -134,27 +134,24 @@ def interpolate(
 ) -> tuple[Vector, Tensor]:
     """Return velocity and gradient from a table with a row for each node, from row ``first`` and column k on.
 
-    The gradient is linear, Σ λ_i l_i. The velocity is quadratic: at the middle of an edge between nodes off
-    the walls it is ½(u_i + u_j) + ⅛(l_i − l_j)·(x_j − x_i). Along other edges it is linear; with its
-    correction it is thus parallel to the wall in a tetrahedron with a side on one.
+    The gradient is linear, Σ λ_i l_i. The velocity is quadratic: at the middle of an edge that bends
+    (:func:`~foamprb.flow.mesh.arrays.bends`) it is ½(u_i + u_j) + ⅛(l_i − l_j)·(x_j − x_i). Along other edges
+    it is linear. In a tetrahedron with a side on a wall and no edge that bends it is thus, with its
+    correction, parallel to the wall.
     """
     a, b, c, d = nodes_of(flow, host)
     at = first + a, first + b, first + c, first + d
     nodes = flow.nodes
     o = point(nodes, a)
-    p, q, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
-    # The velocity is Σ λ_i u_i + ½ Σ m_i l_i·(z − m p_i), with the weights m_i of the nodes off the walls,
-    # their sum m, and z = Σ m_i p_i.
-    ma, mb, mc, md = (
-        nodes[a, FREE] * w[0], nodes[b, FREE] * w[1], nodes[c, FREE] * w[2], nodes[d, FREE] * w[3]
-    )  # fmt: skip
-    m = ma + mb + mc + md
-    z = (
-        mb * p[0] + mc * q[0] + md * r[0],
-        mb * p[1] + mc * q[1] + md * r[1],
-        mb * p[2] + mc * q[2] + md * r[2],
-    )
-    arms = _half(ma, m, z, (0.0, 0.0, 0.0)), _half(mb, m, z, p), _half(mc, m, z, q), _half(md, m, z, r)
+    sides = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
+    fa, fb, fc, fd = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
+    arms = _arms((abs(fa) * w[0], abs(fb) * w[1], abs(fc) * w[2], abs(fd) * w[3]), sides)
+    if min(fa, fb, fc, fd) < 0.0:
+        # Edges between two nodes on walls do not bend.
+        ra, rb, rc, rd = _arms(
+            (min(fa, 0.0) * w[0], min(fb, 0.0) * w[1], min(fc, 0.0) * w[2], min(fd, 0.0) * w[3]), sides
+        )
+        arms = minus(arms[0], ra), minus(arms[1], rb), minus(arms[2], rc), minus(arms[3], rd)
     u = (
         blend(f, k, at, w) + _product(f, at, k + 3, arms),
         blend(f, k + 1, at, w) + _product(f, at, k + 6, arms),
@@ -166,6 +163,27 @@ def interpolate(
         blend(f, k + 9, at, w), blend(f, k + 10, at, w), blend(f, k + 11, at, w),
     )  # fmt: skip
     return u, l
+
+
+def _arms(m: Weights, sides: tuple[Vector, Vector, Vector]) -> tuple[Vector, Vector, Vector, Vector]:
+    """Return what to multiply the gradients at the nodes with for the sum over all edges.
+
+    The sum of ½ m_i m_j (l_i − l_j)·(x_j − x_i) is ½ Σ m_i l_i·(z − m p_i), with the sum m of the weights m_i
+    and z = Σ m_i p_i. The ``sides`` are p_1, p_2 and p_3; p_0 = 0.
+    """
+    (ma, mb, mc, md), (p, q, r) = m, sides
+    total = ma + mb + mc + md
+    z = (
+        mb * p[0] + mc * q[0] + md * r[0],
+        mb * p[1] + mc * q[1] + md * r[1],
+        mb * p[2] + mc * q[2] + md * r[2],
+    )
+    return (
+        _half(ma, total, z, (0.0, 0.0, 0.0)),
+        _half(mb, total, z, p),
+        _half(mc, total, z, q),
+        _half(md, total, z, r),
+    )
 
 
 def _half(weight: float, m: float, z: Vector, p: Vector) -> Vector:
@@ -215,15 +233,16 @@ def correction_at(
     a, b, c, d = nodes_of(flow, host)
     at, nodes = np.uint64(row), flow.nodes
     qa, qb, qc, qd = correction[at, 0], correction[at, 1], correction[at, 2], correction[at, 3]
-    fa, fb, fc, fd = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
+    free = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
+    fa, fb, fc, fd = max(free[0], 0.0), max(free[1], 0.0), max(free[2], 0.0), max(free[3], 0.0)
     q, count = qa + qb + qc + qd, fa + fb + fc + fd
     o, rows = point(nodes, a), (first + a, first + b, first + c, first + d)
     arms = p, m, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
     # The second part is Σ e_k λ_k x_k − (Σ e_k λ_k) x, with x = Σ λ_k x_k and a quarter e of the divergence.
-    if count == 4.0:
+    if min(free[0], free[1], free[2], free[3]) == 1.0:
         eb, ec, ed = _excess(f, k + 3, rows, arms, sides, s)
     else:
-        eb, ec, ed = _excess_at_walls(f, k + 3, rows, (fa, fb, fc, fd), arms, sides, s)
+        eb, ec, ed = _excess_at_walls(f, k + 3, rows, free, arms, sides, s)
     e = eb * w[1] + ec * w[2] + ed * w[3]
     sb, sc, sd = (eb - e) * w[1], (ec - e) * w[2], (ed - e) * w[3]
     if count == 4.0 or count == 0.0:
@@ -296,7 +315,7 @@ def _excess_at_walls(
     sides: tuple[Vector, Vector, Vector],
     s: float,
 ) -> Vector:
-    """Return :func:`_excess` where only edges between free nodes bend."""
+    """Return :func:`_excess` where some edges do not bend."""
     (a, b, c, d), (fa, fb, fc, fd), (p, q, r), (c1, c2, c3) = rows, free, arms, sides
     c0 = -c1[0] - c2[0] - c3[0], -c1[1] - c2[1] - c3[1], -c1[2] - c2[2] - c3[2]
     ab, ac, ad = _bend(f, k, a, b, p), _bend(f, k, a, c, q), _bend(f, k, a, d, r)
@@ -305,12 +324,15 @@ def _excess_at_walls(
         _bend(f, k, c, d, minus(r, q)),
         _bend(f, k, d, b, minus(p, r)),
     )
+    fab, fac, fad, fbc, fcd, fdb = (
+        bends(fa, fb), bends(fa, fc), bends(fa, fd), bends(fb, fc), bends(fc, fd), bends(fd, fb)
+    )  # fmt: skip
     t = 0.125 * s
-    least = fa * (fb * inner(c1, ab) + fc * inner(c2, ac) + fd * inner(c3, ad))
+    least = fab * inner(c1, ab) + fac * inner(c2, ac) + fad * inner(c3, ad)
     return (
-        t * (fb * (fa * inner(c0, ab) + fc * inner(c2, bc) + fd * inner(c3, db)) - least),
-        t * (fc * (fa * inner(c0, ac) + fb * inner(c1, bc) + fd * inner(c3, cd)) - least),
-        t * (fd * (fa * inner(c0, ad) + fb * inner(c1, db) + fc * inner(c2, cd)) - least),
+        t * (fab * inner(c0, ab) + fbc * inner(c2, bc) + fdb * inner(c3, db) - least),
+        t * (fac * inner(c0, ac) + fbc * inner(c1, bc) + fcd * inner(c3, cd) - least),
+        t * (fad * inner(c0, ad) + fdb * inner(c1, db) + fcd * inner(c2, cd) - least),
     )
 
 

@@ -22,6 +22,7 @@ from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloud.surroundings.base import Surrounding, Survey
 from foamprb.cloud.viscosity import PhaseMixture, VaryingViscosity, medium_at, model_of
 from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.jumps import medians
 from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
 from foamprb.results.folder import RECORD_FORMAT
@@ -173,7 +174,8 @@ def _written(selected: Mapping[str, object]) -> dict[str, str]:
 def _ranges(cloud: Cloud) -> dict[str, Any]:
     """Return the time of the flow, s, and the ranges of |U|, m/s, and shear rate, 1/s, at its nodes.
 
-    ``direction`` is the mean velocity of some nodes over their mean speed.
+    ``direction`` is the mean velocity of some nodes over their mean speed, ``gradientJump`` the median
+    difference of ∇u between neighbouring cells over its size: of all, and of those at walls.
     """
     some = cloud.flow.at_some_nodes()
     speeds, rates = cloud.flow.ends_at_nodes(_speeds_and_rates) or (None, None)
@@ -182,6 +184,7 @@ def _ranges(cloud: Cloud) -> dict[str, Any]:
         "time": some.time,
         "U": speeds,
         "shearRate": rates,
+        "gradientJump": medians(cloud.flow.gradient_jumps()),
         "direction": (some.u.sum(axis=0) / total).tolist() if total > 0.0 else None,
     }
 

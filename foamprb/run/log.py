@@ -59,6 +59,8 @@ def log_description(job: Job) -> None:
         log.info("Flow%s", f" at time {flow['time']}{first}" if flow["time"] else "")
         _log_range("|U| [m/s]", flow["U"])
         _log_range("shear rate [1/s]", flow["shearRate"])
+        inside, beside = (math.nan if jump is None else 100.0 * jump for jump in flow["gradientJump"])
+        log.info("    %-24s %.2g %% (median), %.2g %% at walls", "grad U between cells", inside, beside)
     log.info("Selecting tractionModel %s", models["traction"])
     forces = {"ellipsoidDrag": models["drag"], **models["forces"], **models["surroundings"]}
     log.info(

@@ -18,7 +18,7 @@ Weights follow from differences of coordinates: their round-off is about 1e-16 �
 """
 
 FREE = 15
-"""Column of the nodes that is 0 for those on walls, else 1."""
+"""Column of the nodes; see :func:`foamprb.flow.fluxes.free_nodes`."""
 
 
 @record
@@ -26,8 +26,8 @@ class MeshArrays(NamedTuple):
     """Arrays of a flow on a mesh that the kernels read; SI units, indices int32."""
 
     nodes: Floats
-    """(n_nodes, 16): x y z, u v w, the nine ∂u_i/∂x_j row by row, and 1, or 0 if the node lies on a wall: two
-    cache lines a node."""
+    """(n_nodes, 16): x y z, u v w, the nine ∂u_i/∂x_j row by row, and
+    :func:`~foamprb.flow.fluxes.free_nodes`: two cache lines a node."""
     n_points: int
     """Number of mesh points; the centre of cell c is node ``n_points + c``."""
     tets: Ints
@@ -145,3 +145,11 @@ def weights(
     w2 = rx * c2[0] + ry * c2[1] + rz * c2[2]
     w3 = rx * c3[0] + ry * c3[1] + rz * c3[2]
     return volume - w1 - w2 - w3, w1, w2, w3
+
+
+def bends(f: float, g: float) -> float:
+    """Return 1 if the velocity is quadratic along an edge, else 0, from its ends' values of :data:`FREE`.
+
+    One end must lie off the walls, the other one off them or among simple cells.
+    """
+    return abs(f * g) if f + g >= 0.0 else 0.0

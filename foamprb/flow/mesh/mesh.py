@@ -31,6 +31,7 @@ from foamprb.flow.mesh.geometry import (
 )
 from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32, share
 
+_FACES_OF_PRISM = 5
 _MOST_TURNS = 5
 
 
@@ -106,6 +107,11 @@ class Mesh:
     def n_internal(self) -> int:
         """Return the number of faces between two cells."""
         return len(self.neighbour)
+
+    @property
+    def simple(self) -> Mask:
+        """Return which cells have at most five faces: tetrahedra, pyramids and prisms, (n_cells,)."""
+        return np.diff(self.cell_face_start) <= _FACES_OF_PRISM
 
     @property
     def nodes(self) -> Floats:

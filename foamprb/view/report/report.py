@@ -360,6 +360,13 @@ def _along_paths(report: _Report) -> PageSection:
     return PageSection("paths", title, grid(drawn))
 
 
+def _jumps(medians: Sequence[float | None]) -> str:
+    """Return the median differences of ∇u between neighbouring cells as text."""
+    names = ("differs by", "at walls by")
+    shown = [f"{name} {100.0 * jump:.2g} %" for name, jump in zip(names, medians, strict=False) if jump]
+    return ", ".join(shown) + " (median)" if shown else "not known"
+
+
 def _record(report: _Report) -> PageSection:
     record = report.run.record
     if record.get("format") != RECORD_FORMAT:
@@ -372,6 +379,7 @@ def _record(report: _Report) -> PageSection:
         ("versions", ", ".join(f"{name} {number}" for name, number in record["versions"].items())),
         ("mesh", ", ".join(f"{n} {part}" for part, n in mesh.items()) or "none"),
         ("flow", "changes in time" if time["transient"] else "steady"),
+        ("∇u between cells", _jumps(record["flow"].get("gradientJump", ()))),
         ("fluid", f"ρ = {fluid['rho']:g} kg/m³, ν = {nu} m²/s, g = ({g}) m/s²"),
         ("time", f"{time['start']:g} to {time['end']:g} s, {time['steps']} steps of {time['deltaT']:g} s"),
         ("solid", models["solid"]),

@@ -1,0 +1,51 @@
+"""Jumps of ∇u between neighbouring cells: how well a mesh resolves the gradient that deforms bodies."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.lists import Mask
+
+_DECADES, _PER_DECADE = (-6.0, 1.0), 50
+_BINS = int((_DECADES[1] - _DECADES[0]) * _PER_DECADE)
+_AT_ONCE = 1 << 16
+NO_JUMPS: NDArray[np.int64] = np.zeros((2, _BINS), dtype=np.int64)
+"""Counts of a flow without cells."""
+
+
+def count_jumps(l: Floats, first: Ints, second: Ints, at_walls: Mask) -> NDArray[np.int64]:
+    """Count faces by the difference of ∇u in their two cells over the mean of its norms, (2, bins).
+
+    The first row has all faces, the second those of a cell at a wall. Bins are logarithmic; counts of parts
+    of a mesh add up to those of the whole.
+
+    Parameters
+    ----------
+    l
+        (n_cells, 9) gradients, 1/s.
+    first, second
+        (n,) the cells of each face.
+    at_walls
+        (n_cells,) cells with a face on a wall.
+    """
+    counts = NO_JUMPS.copy()
+    for k in range(0, len(first), _AT_ONCE):
+        a, b = first[k : k + _AT_ONCE], second[k : k + _AT_ONCE]
+        sizes = np.linalg.norm(l[a], axis=1) + np.linalg.norm(l[b], axis=1)
+        ratios = 2.0 * np.linalg.norm(l[a] - l[b], axis=1) / np.maximum(sizes, 1e-300)
+        bins = np.floor((np.log10(np.maximum(ratios, 1e-300)) - _DECADES[0]) * _PER_DECADE)
+        bins = np.clip(bins, 0, _BINS - 1).astype(np.intp)
+        counts[0] += np.bincount(bins, minlength=_BINS)
+        counts[1] += np.bincount(bins[at_walls[a] | at_walls[b]], minlength=_BINS)
+    return counts
+
+
+def medians(counts: NDArray[np.int64]) -> tuple[float, float]:
+    """Return the median jumps of all faces and of those at walls, to 2 %; NaN of no faces."""
+    results = []
+    for row in counts:
+        half = int(np.searchsorted(np.cumsum(row), 0.5 * row.sum()))
+        results.append(10.0 ** (_DECADES[0] + (half + 0.5) / _PER_DECADE) if row.any() else np.nan)
+    return results[0], results[1]
