@@ -201,13 +201,17 @@ def prepare(
             flow = _open_flow(settings, comm, case, times, source)
         if flows is not None and not settings.solution.transient:
             flows[source] = flow
+        faults: dict[str, str] = {}
         for note in flow.notes:
             if not isinstance(note, Caveat):
                 log.info("    %s", note)
             elif note.fault and note.fault not in settings.solution.accept:
-                raise InputError(f"{case}: {note} Allowed: to go on, solution/accept ( {note.fault} ).")
+                faults.setdefault(note.fault, note)
             else:
                 log.warning("%s", note)
+        if faults:
+            accept = f"solution/accept ( {' '.join((*settings.solution.accept, *faults))} )"
+            raise InputError(f"{case}: {' '.join(faults.values())} Allowed: to go on, {accept}.")
         if following is not None:
             _wait_for_injections(settings, following)
         job = assemble(settings, flow, threads, following is not None, comm)

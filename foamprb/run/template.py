@@ -600,9 +600,10 @@ def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
 
 
 def _faults(flow: MeshFlow) -> list[str]:
-    """Return a hint for each fault of a flow with which a run ends."""
-    faults = [note for note in flow.notes if isinstance(note, Caveat) and note.fault]
-    return [f"// accept ( {note.fault} ); // to go on, although {note.split(':')[0]}" for note in faults]
+    """Return a hint if a flow has faults with which a run ends."""
+    caveats = [note for note in flow.notes if isinstance(note, Caveat) and note.fault]
+    faults = " ".join(dict.fromkeys(caveat.fault for caveat in caveats))
+    return [f"// accept ( {faults} ); // to go on, although {caveats[0].split(':')[0]}"] if caveats else []
 
 
 def _transient(case: Path, source: FlowSource) -> list[str]:

@@ -206,6 +206,15 @@ def test_fluxes_that_cannot_be_balanced_are_an_error_unless_accepted(case, monke
     assert "// accept ( unbalanced ); // to go on, although the fl" in write_template(case).read_text()
 
 
+def test_all_faults_of_a_flow_are_told_at_once(case, monkeypatch):
+    monkeypatch.setattr(fluxes, "_LARGEST_CHANGE", -1.0)
+    (case / "constant/dynamicMeshDict").write_text("dynamicFvMesh dynamicMotionSolverFvMesh;")
+    with pytest.raises(InputError, match=r"accept \( unbalanced movingMesh \)"):
+        prepare(case)
+    (case / "constant/softCloudProperties").unlink()
+    assert "// accept ( unbalanced movingMesh );" in write_template(case).read_text()
+
+
 def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):
     monkeypatch.setattr(
         "foamprb.run.compilation.subprocess.Popen", lambda *_, **__: pytest.fail("it compiles")
