@@ -524,12 +524,13 @@ def _phases(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) 
         else ""
     )
     why = f", {where} at time {time}" if where else ", of the velocity" if main else ""
-    lines, rho, nu = list[str](), None, None
+    lines, rho, nu, complete = list[str](), None, None, len(phases) == 2
     for name in sorted(phases, key=lambda name: name != main):
         pair = phase_values(case, source.region, name, phases[name], scales.shear, "latestTime")
         start = "" if name == main else "// "
         for key, value, unit in zip(("nu", "rhoInf"), pair, ("m2/s", "kg/m3"), strict=True):
             if value is None:
+                complete = False
                 lines += _unknown(key, unit, f"{name} has none that is read")
             else:
                 lines.append(f"{start}{key} {value:.6g}; // {unit}, of {name}{'' if start else why}")
@@ -538,7 +539,7 @@ def _phases(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) 
     if not main:
         lines.insert(0, f"// unknown: the phase of the particles; no field alpha.{next(iter(phases))}")
     options = []
-    if len(phases) == 2 and shares and not of_velocity:
+    if complete and shares and not of_velocity:
         options = [
             f"// mixture true; // local nu and rho of {' and '.join(phases)}, in place of nu and rhoInf"
         ]

@@ -128,7 +128,7 @@ def test_a_body_settles_through_an_interface():
     total = 0.15 / oil + crossing + 0.15 / water
     cloud.advance(round(total / 100.0) - 2)
     late = cloud.time - total
-    assert cloud.particles.x[0, 2] == pytest.approx(0.1 - water * late, abs=2e-4)
+    assert cloud.particles.x[0, 2] == pytest.approx(0.1 - water * late, abs=1e-4)
     around = medium_at(cloud.medium, cloud.flow, cloud.particles, cloud.time)
     assert (around.mu[0], around.rho[0]) == pytest.approx((1e-3, 1000.0))
     assert measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time), OPTIONAL)["U"][

@@ -226,13 +226,16 @@ def test_the_phase_at_the_inlet_counts_not_the_mean(tmp_path):
     """Below half the height there is oil; the fluid enters through the lid."""
     mesh = write_case(tmp_path, perturbation=0.0, times=("1",))
     (tmp_path / "constant/transportProperties").write_text(
-        "phases ( oil { transportModel Newtonian; nu 2e-06; rho 900; } mercury { nu 1.1e-07; rho 13529; } );"
+        "phases ( oil { transportModel Newtonian; nu 2e-06; rho 900; } "
+        "sludge { transportModel BinghamPlastic; rho 1996; } );"
     )
     put_linear(tmp_path / "1", mesh, "alpha.oil", (0.0, 0.0, 2.0), -0.9, "[0 0 0 0 0 0 0]")
     text = write_template(tmp_path).read_text()
     assert re.search(r"^ +patch +lid;", text, re.MULTILINE)
     assert re.search(r"^ +nu +2e-06; +// m2/s, of oil, \S+ % of the inflow", text, re.MULTILINE)
-    assert "// nu 1.1e-07; // m2/s, of mercury" in text
+    assert "// rhoInf 1996; // kg/m3, of sludge" in text
+    assert "// nu          unknown: sludge has none that is read" in text
+    assert "mixture" not in text
 
 
 @pytest.mark.parametrize("transient", ["yes", "no"])
