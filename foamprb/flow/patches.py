@@ -44,8 +44,8 @@ _CLOSED = (
 )
 WALL_CONDITIONS = frozenset(_CLOSED.split())
 """Conditions of the velocity through which nothing flows."""
-ZERO_CONDITIONS = frozenset({"calculated", "fixedValue"})
-"""Conditions through which nothing flows where all their values are zero."""
+VALUE_CONDITIONS = frozenset({"calculated", "fixedValue"})
+"""Conditions through which nothing flows where their values have no component across the patch."""
 
 
 def kind_of_type(name: str) -> PatchKind:

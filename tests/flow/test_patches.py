@@ -34,8 +34,8 @@ WALLS = (
     "noSlip movingWallVelocity rotatingWallVelocity translatingWallVelocity SRFWallVelocity slip "
     "partialSlip maxwellSlipU JohnsonJacksonParticleSlip filmPyrolysisVelocityCoupled"
 )
-ZERO = ["fixedValue", "calculated"]
-"""Walls where all values are zero."""
+VALUES = ["fixedValue", "calculated"]
+"""Walls where the values have no component across the patch."""
 OPENINGS = (
     "SRFFreestreamVelocity SRFVelocity activeBaffleVelocity activePressureForceBaffleVelocity advective "
     "atmBoundaryLayerInletVelocity codedFixedValue codedMixed cylindricalInletVelocity directionMixed "
@@ -88,26 +88,30 @@ def whole(tmp_path_factory):
     return mesh._replace(mesh=replace(mesh.mesh, patches=plain), patches=infos)
 
 
-def kind_with(whole, condition, value):
-    values = {} if value is None else {"value": np.array([value])}
-    entries = {patch.name: PatchField(condition, fields=values) for patch in whole.patches}
+def kinds_with(whole, condition, value):
+    entries = {p.name: PatchField(condition, fields={"value": np.array([value])}) for p in whole.patches}
     field = FoamField(Path("U"), VELOCITY_FIELD, np.zeros((1, 3)), entries, (0, 1, -1, 0, 0, 0, 0))
     result = with_walls(whole, field)
     assert len(result.notes) - len(whole.notes) == (result.mesh is not whole.mesh)
-    (kind,) = {patch.kind for patch in result.mesh.patches}
-    return kind
+    return {patch.name: patch.kind for patch in result.mesh.patches}
 
 
 def test_every_condition_of_v1912_is_a_wall_or_an_opening(whole):
-    assert len([*WALLS.split(), *ZERO, *OPENINGS.split()]) == 82
-    still, moving = (0.0, 0.0, 0.0), (0.0, 1e-9, 0.0)
+    assert len([*WALLS.split(), *VALUES, *OPENINGS.split()]) == 82
+    still, moving = (0.0, 0.0, 0.0), (1e-9, 1e-9, 1e-9)
     for condition in WALLS.split():
-        assert kind_with(whole, condition, moving) is PatchKind.WALL, condition
-    for condition in ZERO:
-        assert kind_with(whole, condition, still) is PatchKind.WALL, condition
-        assert kind_with(whole, condition, moving) is PatchKind.OPENING, condition
+        assert {*kinds_with(whole, condition, moving).values()} == {PatchKind.WALL}, condition
+    for condition in VALUES:
+        assert {*kinds_with(whole, condition, still).values()} == {PatchKind.WALL}, condition
+        assert {*kinds_with(whole, condition, moving).values()} == {PatchKind.OPENING}, condition
     for condition in OPENINGS.split():
-        assert kind_with(whole, condition, still) is PatchKind.OPENING, condition
+        assert {*kinds_with(whole, condition, still).values()} == {PatchKind.OPENING}, condition
+
+
+def test_a_lid_that_slides_in_its_plane_is_a_wall(whole):
+    kinds = kinds_with(whole, "fixedValue", (1.0, 0.0, 0.0))
+    assert (kinds["lid"], kinds["sides"]) == (PatchKind.WALL, PatchKind.OPENING)
+    assert kinds_with(whole, "fixedValue", (1.0, 0.0, 1e-3))["lid"] is PatchKind.OPENING
 
 
 def types_of(case, **types):

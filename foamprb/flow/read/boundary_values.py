@@ -19,7 +19,7 @@ from foamprb.errors import InputError, closest, suggestion
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.patches import CONSTRAINTS, VALUELESS, WALL_CONDITIONS, ZERO_CONDITIONS, PatchKind
+from foamprb.flow.patches import CONSTRAINTS, VALUE_CONDITIONS, VALUELESS, WALL_CONDITIONS, PatchKind
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.field import FoamField, PatchField
 from foamprb.flow.read.times import listed
@@ -41,6 +41,8 @@ class PatchGeometry(NamedTuple):
 
 
 _MAY_BE_WALLS = PatchKind.OPENING, PatchKind.COUPLED
+_ALONG = 1e-4
+"""Cosine of the angle between a velocity along a face and its normal."""
 FLOW_RATE = "flowRateInletVelocity"
 """Condition whose values depend on the area of the whole patch."""
 AREA = "(area)"
@@ -57,14 +59,24 @@ def with_walls(whole: CaseMesh, field: FoamField, comm: MeshCommunicator = SINGL
         entry = field.of(patch)
         if entry is None or patch.type in CONSTRAINTS or patches[index].kind not in _MAY_BE_WALLS:
             continue
-        values = entry.fields.get("value") if entry.type in ZERO_CONDITIONS else None
-        if entry.type in WALL_CONDITIONS or (values is not None and not comm.any(bool(values.any()))):
+        areas = whole.mesh.boundary_areas[whole.mesh.patch_start[index] :][: patch.faces]
+        values = entry.fields.get("value") if entry.type in VALUE_CONDITIONS else None
+        if entry.type in WALL_CONDITIONS or (values is not None and not comm.any(_passes(values, areas))):
             patches[index] = patches[index]._replace(type="wall", groups=patch.groups | {"wall"})
             names.append(f"{patch.name} ({patch.type}, {entry.type})")
     if not names:
         return whole
     note = f"Walls by the velocity on them, not by their type: {listed(names)}."
     return whole._replace(mesh=replace(whole.mesh, patches=tuple(patches)), notes=(*whole.notes, note))
+
+
+def _passes(values: Floats, areas: Floats) -> bool:
+    """Return whether a velocity (n, 3) or (1, 3) has a component across faces with areas (n, 3)."""
+    if len(values) not in (1, len(areas)):
+        # Their number is an error elsewhere.
+        return True
+    sizes = np.linalg.norm(values, axis=1) * np.linalg.norm(areas, axis=1)
+    return bool((np.abs(np.sum(values * areas, axis=1)) > _ALONG * sizes).any())
 
 
 def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, cells: Floats) -> Floats:
