@@ -52,7 +52,7 @@ class Balanced(NamedTuple):
     """Outcome of :class:`Balance`: ratios of root mean squares to those of the flow, and a count.
 
     A flow that starts from rest moves at its boundary only: the change is compared with the largest velocity
-    through the boundary if that is larger.
+    there if that is larger.
     """
 
     left: float
@@ -135,10 +135,17 @@ class Balance:
         of_equations, self._put, self._get = comm.distribute(rows, blocks, segments)
         self._equations, self._closed = Equations(*of_equations), self._put(closed[self._cells])
 
-    def __call__(self, crossing: Floats, mass: Mass) -> Balanced:
+    def __call__(self, crossing: Floats, mass: Mass, speed: float) -> Balanced:
         """Change the fluxes in place; what remains of a closed piece is shared by volume.
 
-        ``crossing`` (n_pairs,) is the part of the fluxes of coupled faces that crosses each pair.
+        Parameters
+        ----------
+        crossing
+            (n_pairs,) part of the fluxes of coupled faces that crosses each pair.
+        mass
+            Density of the fluid.
+        speed
+            Largest velocity at walls and openings, m/s.
         """
         mesh, pairs, weight, n = self._mesh, self._pairs, self._weight, self._mesh.n_internal
         fluxes = self._fluxes
@@ -167,15 +174,14 @@ class Balance:
         fluxes[:n] -= weight[:n] * y[neighbour]
         crossing = crossing * between + self._across * (y[here] - y[there])
         fluxes[coupled] = pairs.total(crossing)[coupled - n]
-        change = given - fluxes
         fluxes /= density
+        given /= density
         fluxes[coupled] = pairs.total(crossing / between)[coupled - n]
+        change = math.sqrt(self._mean_square(given - fluxes))
         self._comm.fill("faces", fluxes)
-        speed = np.abs(given[n:] / self._area[n:])[self._comm.own_boundary].max(initial=0.0)
-        swelling = (mass.growth * np.cbrt(mesh.volumes))[self._cells] ** 2
+        swelling = (mass.growth / inside * np.cbrt(mesh.volumes))[self._cells] ** 2
         flow = self._mean_square(given) + total_of(swelling, self._of_all) / max(self._n_cells, 1)
-        most = max(math.sqrt(flow), *self._of_all(float(speed)), 1e-300)
-        return Balanced(left / max(size, 1e-300), math.sqrt(self._mean_square(change)) / most, iterations)
+        return Balanced(left / max(size, 1e-300), change / max(math.sqrt(flow), speed, 1e-300), iterations)
 
     def _mean_square(self, fluxes: Floats) -> float:
         """Return the mean over the area of the faces of the squared velocity through them."""

@@ -138,6 +138,8 @@ class Conservation:
         self._open = ~(self._closed | walls)
         if valued is not None:
             self._open |= walls & ~valued
+        ends = (walls | _of_kind(mesh, PatchKind.OPENING))[mesh.triangle_face]
+        self._ends = np.unique(mesh.triangles[ends])
         self._coupled = np.concatenate([np.empty(0, dtype=np.intp), *(c.faces for c in mesh.couplings)])
         self._open[self._coupled] = False
         self._pairs = face_pairs(mesh)
@@ -180,7 +182,9 @@ class Conservation:
             measures = _measured(mesh, at, sides, fluxes)
             openings = self._open, self._closed_pieces
             balance = Balance(mesh, self._pairs, measures, fluxes, *openings, self._comm)
-            left, change, iterations = balance(crossing, mass)
+            speeds = np.linalg.norm(u[self._ends], axis=1)
+            speed = max(self._comm.of_all(float(speeds.max(initial=0.0))))
+            left, change, iterations = balance(crossing, mass, speed)
             if not (left <= 10.0 * BALANCED and change <= _LARGEST_CHANGE):
                 raise UnbalancedFlowError(
                     f"the fluxes of {where} cannot be balanced: after {iterations} iterations the "
