@@ -230,6 +230,26 @@ def test_where_the_density_varies_cells_keep_mass():
     assert np.bincount(cell, fluxes) / mesh.volumes == pytest.approx(0.9 - 0.2 * mesh.centres[:, 0], rel=0.1)
 
 
+def test_mass_that_leaves_through_a_coupled_face_enters_through_its_neighbour(random):
+    mesh = joined_boxes([4, 4], [("cyclic", 0, 0, 1), ("cyclic", 0, 1, 0)])
+    cells = whirl(mesh.centres % 3.0) + np.prod(np.sin(np.pi * mesh.centres[:, 1:]), axis=1)[:, None] * [
+        1,
+        0,
+        0,
+    ]
+    u, l = Reconstruction(mesh)(cells, np.zeros_like(mesh.boundary_centres))
+    inside, n = random.uniform(1.0, 1.2, mesh.n_cells), len(mesh.boundary_centres)
+    mass = Mass(inside, np.ones(n), np.zeros(mesh.n_cells))
+    fluxes = outward(MeshFlow(mesh, u, l, correction=Conservation(mesh)(u, l, mass))).mean(axis=2)[:, 0]
+    beyond = mesh.owner[mesh.n_internal :].copy()
+    for coupling in mesh.couplings:
+        beyond[coupling.faces] = mesh.owner[mesh.n_internal + coupling.partners]
+    cell, beside = mesh.tets[:, 0] - mesh.n_points, mesh.neighbours[:, 0]
+    other = np.where(beside >= 0, cell[beside], beyond[mesh.triangle_face[np.maximum(-1 - beside, 0)]])
+    lost = np.bincount(cell, 0.5 * (inside[cell] + inside[other]) * fluxes)
+    assert lost == pytest.approx(0.0, abs=1e-4 * np.abs(fluxes).max())
+
+
 _HASH = """
 import hashlib
 import numpy as np
