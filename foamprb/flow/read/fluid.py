@@ -22,7 +22,7 @@ from foamprb.dictionary.schema import read_entry
 from foamprb.dictionary.tree import CaseFile, Dictionary, DictionaryList, Stream
 from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
-from foamprb.flow.read.case import find_dictionary, find_file, find_files, word_of
+from foamprb.flow.read.case import find_dictionary, find_files, word_of
 from foamprb.flow.read.cell_values import cell_values, has_field, solution_times
 from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, Kind
 from foamprb.flow.read.times import pick_time
@@ -568,14 +568,6 @@ def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
     own = {key: find_dictionary(case, region, f"{_MIXTURE_FILE}.{key}") for key in names}
     phases = {key: own[key] or entries.get(key) for key in names}
     return {key: phase for key, phase in phases.items() if isinstance(phase, Dictionary)}
-
-
-def surface_tension(case: Path, region: str) -> float | None:
-    """Return ``sigma`` of two phases, N/m; None if the case has none."""
-    for file in (fluid_file(case, region), find_file(case, region, "phaseProperties")):
-        if file is not None and (sigma := _number(read_dictionary(file, case), "sigma")):
-            return sigma
-    return None
 
 
 def phase_values(
