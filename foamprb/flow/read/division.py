@@ -32,8 +32,12 @@ _ANGLE = 30.0
 """Default angle in degrees at which openings and planes end."""
 _ACROSS, _ROUND_OFF = 0.1, 1e-6
 """Least velocity across a face that is open, over the local velocity and over the largest."""
-_OPEN, _OPEN_VALUED = 0.5, 0.05
-"""Least flux across an opening over that of the speed inside: continued from the cells, or stated there."""
+_OPEN, _OPEN_PART, _STEADY, _OPEN_VALUED = 0.5, 0.9, 0.7, 0.05
+"""Least fluxes of an opening.
+
+In the cells over that of their speed, if it is a smooth surface or a part of one; across the faces over that
+in the cells; and across faces with a velocity of their own over that of its magnitude.
+"""
 _LEAST_SHARE = 1e-4
 """Least flux across an opening over that across all patches."""
 _LEAST_FACES, _LEAST_FLUX, _LEAST_AREA = 8, 0.01, 0.1
@@ -190,14 +194,13 @@ def _by_velocity(
     if u is None:
         return (surface, ["wall"] * (surface.max() + 1)) if angle else (np.zeros_like(surface), ["wall"])
     areas, is_open = np.linalg.norm(mesh.boundary_areas, axis=1), _open_faces(mesh, u)
-    mostly = _openness(mesh, u, surface)[surface] >= _OPEN
+    mostly = _are_openings(mesh, u, surface)[surface]
     other = is_open != mostly
     part = _by_angle(mesh, limit, other)
     flux = u.fluxes(mesh) * is_open
     through = np.abs([np.bincount(part, f) for f in flux]).max(axis=0)
-    crossed = (through >= _LEAST_FLUX * 0.5 * np.abs(flux).sum(axis=1).max()) & (
-        _openness(mesh, u, part) >= _OPEN
-    )
+    crossed = through >= _LEAST_FLUX * 0.5 * np.abs(flux).sum(axis=1).max()
+    crossed &= _are_openings(mesh, u, part, _OPEN_PART)
     wide = np.bincount(part, areas)[part] >= _LEAST_AREA * np.bincount(surface, areas)[surface]
     apart = other & (np.bincount(part) >= _LEAST_FACES)[part] & np.where(mostly, wide, crossed[part])
     labels = _by_angle(mesh, limit, mostly ^ apart)
@@ -220,24 +223,32 @@ def _open_faces(mesh: Mesh, u: BoundaryVelocity) -> Mask:
     return is_open
 
 
-def _openness(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp]) -> Floats:
-    """Return the flux across patches, in and out, over that which the speed in the cells allows."""
-    areas = np.linalg.norm(mesh.boundary_areas, axis=1)
-    flux = np.bincount(labels, np.abs(u.fluxes(mesh)).sum(axis=0))
-    speed = np.where(u.valued, np.linalg.norm(u.faces, axis=2), np.linalg.norm(u.cells, axis=2))
-    allowed = np.bincount(labels, areas * speed.sum(axis=0))
-    openness: Floats = flux / np.maximum(allowed, 1e-300)
-    return openness
+def _are_openings(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp], least: float = _OPEN) -> Mask:
+    """Return True for patches that the flow crosses, from the patch of each boundary face.
+
+    Towards a wall the velocity across it decreases, so that it is continued to another value or direction.
+    ``least`` is the fraction of the speed in the cells that must be across the patch.
+    """
+    normals = mesh.boundary_areas
+    at_faces, in_cells = (np.einsum("tfi,fi->tf", v, normals) for v in (u.faces, u.cells))
+    steady = np.where(at_faces * in_cells > 0.0, np.minimum(np.abs(at_faces), np.abs(in_cells)), 0.0)
+    stated = np.abs(at_faces) * u.valued
+    # The largest fluxes that the speeds in the cells and on the faces allow.
+    allowed = np.linalg.norm(u.cells, axis=2) * np.linalg.norm(normals, axis=1)
+    at_most = np.linalg.norm(u.faces, axis=2) * np.linalg.norm(normals, axis=1)
+    sums = (np.bincount(labels, f.sum(axis=0)) for f in (steady, np.abs(in_cells), stated, allowed, at_most))
+    steady, across, stated, allowed, at_most = sums
+    openings: Mask = (steady >= _STEADY * across) & (across >= least * allowed)
+    openings &= steady > _LEAST_SHARE * steady.sum()
+    openings |= (stated > _ROUND_OFF * stated.sum()) & (stated >= _OPEN_VALUED * at_most)
+    return openings
 
 
 def _types(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp]) -> list[str]:
     """Return the types of patches from the patch of each boundary face."""
     areas = np.linalg.norm(mesh.boundary_areas, axis=1)
     total = np.maximum(np.bincount(labels, areas), 1e-300)
-    valued = np.bincount(labels, u.valued) > 0
-    flux = np.bincount(labels, np.abs(u.fluxes(mesh)).sum(axis=0))
-    opening = (np.bincount(labels, _open_faces(mesh, u)) > 0) & (valued | (flux >= _LEAST_SHARE * flux.sum()))
-    opening &= _openness(mesh, u, labels) >= np.where(valued, _OPEN_VALUED, _OPEN)
+    opening = _are_openings(mesh, u, labels)
     vector = np.stack([np.bincount(labels, column) for column in mesh.boundary_areas.T], axis=1)
     normals = vector / np.maximum(np.linalg.norm(vector, axis=1, keepdims=True), 1e-300)
     flat = np.linalg.norm(vector, axis=1) > (1.0 - _PLANE) * total
