@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
@@ -19,7 +18,7 @@ from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.fields import FieldColumns
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
-from foamprb.flow.mesh.communicator import SINGLE_NODE
+from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
@@ -69,7 +68,10 @@ from foamprb.flow.series import SeriesFlow, series_of
 from foamprb.memory import trim
 
 _STEADY = 0.01
-"""Change of the velocity, over itself and at the last rate since time 0, below which a flow is steady."""
+"""Change of the velocity, over itself and at the last rate since time 0, below which a flow is steady.
+
+By then the fluid must have crossed the domain.
+"""
 PRECISION_NOTE = (
     "Coordinates have passed through single precision in VTK's OpenFOAM reader: a relative error of up to "
     "6e-8 of their distance from the origin."
@@ -404,13 +406,19 @@ def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) ->
     with suppress(InputError):
         if earlier and case.mesh_folder(earlier[-1]) == case.mesh_folder(name):
             changes = cells - at_cells(case.field(earlier[-1], velocity, VELOCITY_FIELD), mesh)
-            squares = (case.comm.total(np.einsum("ci,ci->c", v, v)) for v in (changes, cells))
-            change = math.sqrt(next(squares) / max(next(squares), 1e-300))
-            if change * float(name) < _STEADY * (float(name) - float(earlier[-1])):
+            change, speed = (_mean_square(v, case.comm) ** 0.5 for v in (changes, cells))
+            length = max(case.comm.of_all(float(np.linalg.norm(np.ptp(mesh.points, axis=0)))))
+            crossed, change = speed * float(name) > length, change / max(speed, 1e-300)
+            if crossed and change * float(name) < _STEADY * (float(name) - float(earlier[-1])):
                 return []
             text += f": its velocity changed by {100.0 * change:.3g} % since {earlier[-1]} s"
             return [Caveat(f"{text}. solution/transient true follows all times.")]
     return [Caveat(f"{text}: right if it is steady by then.")]
+
+
+def _mean_square(vectors: Floats, comm: MeshCommunicator) -> float:
+    """Return the mean of the squares of vectors at the cells."""
+    return comm.total(np.einsum("ci,ci->c", vectors, vectors)) / comm.total(np.ones(len(vectors)))
 
 
 def _refuse_moving(case: Case, time: str) -> None:
