@@ -214,13 +214,14 @@ def closed_pieces(mesh: Mesh, pairs: FacePairs, free: Mask, comm: MeshCommunicat
     piece += np.int32(sum(counts[: comm.rank]))
     of_owner = piece.copy()
     comm.fill("cells", of_owner)
-    links = np.concatenate(comm.of_all(np.unique([piece, of_owner], axis=1)), axis=1)
+    held = np.stack([piece, of_owner])[:, piece != of_owner]
+    links = np.concatenate(comm.of_all(np.unique(held, axis=1)), axis=1)
     count, number = joined(links, sum(counts))
     piece = number[piece]
     is_open = np.zeros(count, dtype=bool)
     is_open[piece[outer[comm.own_boundary]][free[comm.own_boundary]]] = True
     is_open = np.any(comm.of_all(is_open), axis=0)
-    return np.where(is_open, -1, np.cumsum(~is_open) - 1)[piece]
+    return np.where(is_open, -1, np.cumsum(~is_open) - 1).astype(np.int32)[piece]
 
 
 def _segments(cells: int) -> Index:
