@@ -157,8 +157,8 @@ class Solution:
         Meaning(
             "`( name … )`, faults of the flow with which the run goes on, where it would end with an error: "
             "`movingMesh`, a mesh that moves is read at one time; `pseudoTime`, iterations are taken for "
-            "times; `unbalanced`, inflow and outflow differ by more than half of the larger one, or the "
-            "velocity cannot be corrected to [keep volume](flow.md#volume)",
+            "times; `unbalanced`, half of the flow is lost by `phi`, or the velocity cannot be corrected to "
+            "[keep volume](flow.md#volume)",
             default="none",
         ),
     ] = ()

@@ -41,7 +41,7 @@ _HEAD = 1 << 16
 LEAST_LOSS = 1e-3
 """Fraction of the flux by which inflow and outflow must differ for a warning."""
 _MOST_LOSS = 0.5
-"""The fraction from which on fates are worthless."""
+"""The fraction of ``phi`` from which on fates are worthless; values on patches may be stale."""
 ROUND_OFF = 1e-9
 """Fraction of the largest velocity times the area of the boundary by which they must differ, too."""
 
@@ -188,7 +188,7 @@ def caveat_of_flux(
             f"the flow does not conserve {'mass' if unit == 'kg/s' else 'volume'}: {inflow:.6g} {unit} enter "
             f"and {outflow:.6g} {unit} leave (from {source}). Has the solver converged at this time? "
             "Particles follow a flow that loses or makes fluid.",
-            "unbalanced" if lost > _MOST_LOSS * most else "",
+            "unbalanced" if phi and lost > _MOST_LOSS * most else "",
         )
     ]
 
