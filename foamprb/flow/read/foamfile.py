@@ -29,6 +29,8 @@ _NOTE = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _WORD = re.compile(rb'"(?:[^"\\]|\\.)*"|[^\s(){};"]+')
 _COUNT = re.compile(rb"(?:List<\w+>\s*)?(\d+)")
 COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
+_MOST_UNPACKED = 1 << 22
+"""Bytes of a compressed file up to which it is unpacked for a look at its end."""
 _ENDS = [re.compile(rb"%b\s*(?://[^\n]*\s*)*\Z" % bracket) for bracket in (rb"\}", rb"\)")]
 """Ends of a field and of a collated one, perhaps before comments."""
 _MOST_ENTRIES = 1 << 31
@@ -336,6 +338,8 @@ def damage(path: Path) -> str:
     file = existing(path)
     if file is None:
         return "missing"
+    if file.suffix == ".gz" and file.stat().st_size > _MOST_UNPACKED:
+        return ""
     try:
         with opened(file) as stream:
             first = stream.read(HEADER_BYTES)
