@@ -262,6 +262,12 @@ def would_touch(
     return bool(clearance < CLOSE * R)
 
 
+def would_stick(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int) -> bool:
+    """Return True if the centre in lane i would meet a patch to which it sticks on its way to the goal."""
+    _, _, patch, _ = walk_on(flow, s.host[i], ahead, load3(s.block, at.x, i), goal)
+    return bool(patch >= 0 and patches.code[patch] == STICK)
+
+
 def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
     """Return the gap between the ellipsoid in lane i and the walls, m, and the nearest patch and triangle.
 

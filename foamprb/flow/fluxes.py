@@ -423,7 +423,7 @@ def _put_side(
     better = mean + _off(f, g) * ends[0] + _off(g, h) * ends[1] + _off(h, f) * ends[2]
     fluxes[row, k], correction[tet, k] = better, -flux
     sides[row, k, 0], sides[row, k, 1], sides[row, k, 2] = s
-    sides[row, k, _SIZE], sides[row, k, _COUNT] = np.sqrt(size), max(f, 0.0) + max(g, 0.0) + max(h, 0.0)
+    sides[row, k, _SIZE], sides[row, k, _COUNT] = np.sqrt(size), abs(f) + abs(g) + abs(h)
 
 
 def _off(f: float, g: float) -> float:

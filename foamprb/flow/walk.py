@@ -219,7 +219,7 @@ def correction_at(
 
     Row ``row`` of ``correction`` holds its fluxes q over volume and free nodes. A flux through the side
     opposite vertex k moves along the edges from k to the free vertices j of the side, as λ_j q_k (x_j − x_k).
-    With f_j = 1 for free vertices, else 0, the sum is Σ_j x_j (f_j λ_j Σ_k q_k − q_j Σ_k f_k λ_k).
+    With the absolute values f_j of :data:`FREE` the sum is Σ_j x_j (f_j λ_j Σ_k q_k − q_j Σ_k f_k λ_k).
 
     Parameters
     ----------
@@ -234,7 +234,7 @@ def correction_at(
     at, nodes = np.uint64(row), flow.nodes
     qa, qb, qc, qd = correction[at, 0], correction[at, 1], correction[at, 2], correction[at, 3]
     free = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
-    fa, fb, fc, fd = max(free[0], 0.0), max(free[1], 0.0), max(free[2], 0.0), max(free[3], 0.0)
+    fa, fb, fc, fd = abs(free[0]), abs(free[1]), abs(free[2]), abs(free[3])
     q, count = qa + qb + qc + qd, fa + fb + fc + fd
     o, rows = point(nodes, a), (first + a, first + b, first + c, first + d)
     arms = p, m, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)

@@ -132,7 +132,7 @@ def test_what_leaves_a_tetrahedron_enters_the_next_at_every_point(kind):
 
 
 def test_walls_keep_their_velocity_and_let_nothing_through(random):
-    """In simple cells the correction may be along walls, as its divergence varies between their corners."""
+    """In simple cells the correction is along walls."""
     flow = whirling(closed("mixed"))
     mesh = flow.mesh
     corners = mesh.points[mesh.triangles]
@@ -141,8 +141,9 @@ def test_walls_keep_their_velocity_and_let_nothing_through(random):
     simple = np.any(free_nodes(mesh)[mesh.triangles] < 0.0, axis=1)
     assert 0 < simple.sum() < len(simple)
     assert np.abs(u[~simple]).max() < 1e-14
-    assert np.abs(np.einsum("ni,ni->n", u, mesh.triangle_normals)).max() < 1e-14
-    assert np.abs(u).max() < 0.1
+    through = np.einsum("ni,ni->n", u, mesh.triangle_normals)
+    # The correction is stored in single precision.
+    assert np.abs(through).max() < 1e-6 * np.abs(u).max()
 
 
 def test_beside_a_wall_the_flow_is_parallel_to_it():
@@ -422,12 +423,13 @@ def test_between_two_times_the_correction_is_linear(random):
 
 
 @pytest.mark.parametrize("corrected", [True, False])
-def test_a_uniform_seed_stays_uniform(corrected):
+@pytest.mark.parametrize(("kind", "n"), [("hexahedra", 5), ("tetrahedra", 3)])
+def test_a_uniform_seed_stays_uniform(kind, n, corrected):
     """χ² of the counts per cell is about their number, and followers of the fluid come to no wall.
 
     Of 1000, finite steps may throw a few at one.
     """
-    flow = whirling(closed("hexahedra", 5, 0.2))
+    flow = whirling(closed(kind, n, 0.2))
     if not corrected:
         flow = MeshFlow(flow.mesh, *flow.at_nodes()[1:])
     x = np.random.default_rng(7).uniform(0.0, 1.0, (1000, 3))
@@ -440,7 +442,7 @@ def test_a_uniform_seed_stays_uniform(corrected):
     expected = len(x) * flow.mesh.volumes / flow.mesh.volumes.sum()
     chi = np.mean((count - expected) ** 2 / expected)
     if corrected:
-        assert np.count_nonzero(~active) <= 5
+        assert np.count_nonzero(~active) <= 3
         assert chi < 1.0 + 4.0 * np.sqrt(2.0 / len(count))
     else:
         assert np.count_nonzero(~active) > 100

@@ -102,7 +102,9 @@ def test_nothing_flows_through_walls_of_tetrahedra(tetrahedra, random):
     x = np.einsum("nk,nki->ni", random.dirichlet(np.ones(3), len(corners)), corners)
     assert np.all(free_nodes(mesh)[mesh.triangles[on_wall]] == -1.0)
     u = tetrahedra[0].sample(x, mesh.triangle_tet[on_wall], 0.0)[0]
-    assert np.abs(np.einsum("ni,ni->n", u, mesh.triangle_normals[on_wall])).max() < 1e-14
+    through = np.einsum("ni,ni->n", u, mesh.triangle_normals[on_wall])
+    # The correction is stored in single precision.
+    assert np.abs(through).max() < 1e-6 * np.abs(u).max()
 
 
 def test_jumps_of_the_gradient():

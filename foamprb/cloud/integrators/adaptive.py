@@ -91,12 +91,16 @@ from foamprb.cloud.motion import (
     is_sound,
     overspent,
     reach_end,
+    would_stick,
     would_touch,
 )
 from foamprb.cloud.state import Particles
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
+
+_LAST_STEP = 1.0 / 4096.0
+"""Longest step, in Δt, of a centre onto a patch to which it sticks."""
 
 
 class StepRows(NamedTuple):
@@ -436,6 +440,8 @@ def track_adaptive(
         if most > 1:
             for i in range(LANES):
                 keep_short(flow, patches, scratch, i, dt, tolerance)
+        for i in range(LANES):
+            approach(flow, patches, scratch, i, dt, tolerance)
         accept_stage(block, tolerance)
 
         for i in range(LANES):
@@ -525,6 +531,24 @@ def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, to
         elif would_touch(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal)):
             block[at.moving * LANES + i] = 0.0
             block[at.h * LANES + i] = dt
+
+
+def approach(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
+    """Reject a step of lane i that leads the centre onto a patch to which it sticks, unless it is short.
+
+    Where the velocity of the fluid jumps, a step may end in a wall along which the fluid flows.
+    """
+    block = s.block
+    h = block[at.dt * LANES + i]
+    if (
+        h > _LAST_STEP * dt
+        and block[at.moving * LANES + i] > 0.0
+        and block[at.error * LANES + i] <= tolerance
+    ):
+        goal = load3(block, at.new_x, i)
+        if not holds_end(block, i, goal) and would_stick(flow, patches, s, i, goal, s.ahead[i]):
+            block[at.moving * LANES + i] = 0.0
+            block[at.h * LANES + i] = 0.25 * h
 
 
 def longest_over_cells(block: Any, i: int, dt: float) -> float:
