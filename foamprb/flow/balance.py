@@ -52,7 +52,7 @@ class Balanced(NamedTuple):
     """Outcome of :class:`Balance`: ratios of root mean squares to those of the flow, and a count.
 
     A flow that starts from rest moves at its boundary only: the change is compared with the largest velocity
-    there if that is larger.
+    there if that is larger. A change of the density counts as flow, too.
     """
 
     left: float
@@ -179,8 +179,10 @@ class Balance:
         fluxes[coupled] = pairs.total(crossing / between)[coupled - n]
         change = math.sqrt(self._mean_square(given - fluxes))
         self._comm.fill("faces", fluxes)
-        swelling = (mass.growth / inside * np.cbrt(mesh.volumes))[self._cells] ** 2
-        flow = self._mean_square(given) + total_of(swelling, self._of_all) / max(self._n_cells, 1)
+        # What a change of the density moves, it may move through all of the mesh.
+        rates = total_of((mass.growth / inside)[self._cells] ** 2, self._of_all) / max(self._n_cells, 1)
+        length = total_of(mesh.volumes[self._cells], self._of_all) ** (1.0 / 3.0)
+        flow = self._mean_square(given) + rates * length**2
         return Balanced(left / max(size, 1e-300), change / max(math.sqrt(flow), speed, 1e-300), iterations)
 
     def _mean_square(self, fluxes: Floats) -> float:

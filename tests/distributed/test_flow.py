@@ -181,7 +181,7 @@ def test_bodies_that_settle_pass_more_cells(flow):
     flow.expect(0.0)
 
 
-def put(case, name, unit, values, kind="volScalarField"):
+def put(case, name, unit, values, kind="volScalarField", boundary=1.0):
     """Write a field of the processors; ``values`` returns those of cells, by their numbers, at a time."""
     for folder in case.glob("processor*/[01]"):
         cells = FoamFile(folder.parent / "constant/polyMesh/cellProcAddressing").labels()
@@ -189,7 +189,7 @@ def put(case, name, unit, values, kind="volScalarField"):
         (folder / name).write_text(
             f"{header(kind, name)} dimensions {unit};\n"
             f"internalField nonuniform List<scalar> {len(found)} ({' '.join(map(str, found))});\n"
-            'boundaryField { ".*" { type calculated; value uniform 1; } }\n'
+            f'boundaryField {{ ".*" {{ type calculated; value uniform {boundary}; }} }}\n'
         )
 
 
@@ -222,9 +222,15 @@ def test_a_flow_of_varying_density_is_that_of_the_whole(known, times, case, rand
         (case / "constant/thermophysicalProperties").write_text(
             header("dictionary", "thermophysicalProperties") + GAS
         )
-        put(case, "p", "[1 -1 -2 0 0 0 0]", lambda cells, t: 1e5 * (1.0 + t + cells))
+        put(case, "p", "[1 -1 -2 0 0 0 0]", lambda cells, t: 1e5 * (1.0 + t + 0.01 * cells), boundary=1e5)
         other = 310.0 if known == "p and T" else -1.0
-        put(case, "T", "[0 0 0 1 0 0 0]", lambda cells, _: np.where(np.isin(cells, half), 300.0, other))
+        put(
+            case,
+            "T",
+            "[0 0 0 1 0 0 0]",
+            lambda cells, _: np.where(np.isin(cells, half), 300.0, other),
+            boundary=300,
+        )
     whole, flow = flow_of(DecomposedCase(case), times, FlowSource()), distributed(case, times)
     assert flow.notes == whole.notes
     assert any("density is from" in note for note in flow.notes) == (known == "rho")

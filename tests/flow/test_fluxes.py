@@ -251,6 +251,18 @@ def test_mass_that_leaves_through_a_coupled_face_enters_through_its_neighbour(ra
     assert lost == pytest.approx(0.0, abs=1e-4 * np.abs(fluxes).max())
 
 
+def test_a_gas_at_rest_that_is_pumped_up_flows():
+    """Before its first step a solver has U = 0, and the density of the next time is another one."""
+    shape = block(6, 0.2)
+    patches = box_patches(shape)
+    mesh = build_mesh(shape, [patches[0]._replace(type="patch"), *patches[1:]])
+    u, l = np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3))
+    ones = np.ones(mesh.n_cells), np.ones(len(mesh.boundary_centres)), np.full(mesh.n_cells, 0.1)
+    flow = MeshFlow(mesh, u, l, correction=Conservation(mesh)(u, l, Mass(*ones)))
+    inflow = outward(flow).mean(axis=2)[mesh.triangle_tet, 0].sum()
+    assert inflow == pytest.approx(-0.1 * mesh.volumes.sum(), rel=1e-5)
+
+
 _HASH = """
 import hashlib
 import numpy as np
