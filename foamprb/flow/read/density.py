@@ -35,14 +35,15 @@ def mass_of(
     times: Sequence[str],
     reads: Sequence[Read],
     index: int,
+    velocity: str = "U",
     comm: MeshCommunicator = SINGLE_NODE,
 ) -> Mass | None:
     """Return the density of a flow at one of its times; None if it varies, but is not known.
 
     A case without ``rho`` and without a mixture (``thermoType``) keeps volume. Where ``phi`` is a flux of
-    volume, it does so, even if the density of phases differs. Else the density is ``rho``, or
-    follows from ``p``, ``T`` and the equation of state. Its rate of change is that between the times before
-    and after.
+    volume, it does so, even if the density of phases differs; the velocity of one phase (``U.air``) keeps
+    neither volume nor mass. Else the density is ``rho``, or follows from ``p``, ``T`` and the equation of
+    state. Its rate of change is that between the times before and after.
 
     Parameters
     ----------
@@ -52,9 +53,13 @@ def mass_of(
         The times of the flow, and the functions that read a field there.
     index
         Which of them.
+    velocity
+        Name of the velocity.
     comm
         The nodes that hold the mesh.
     """
+    if "." in velocity:
+        return None
     root, read = _mixture(case, region), reads[index]
     if root is None and not len(densities(read)):
         return CONSTANT

@@ -269,7 +269,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     del reconstruct
     trim()
     conserve = Conservation(whole.mesh, comm=case.comm)
-    mass = mass_of(case.root, case.region, whole, (name,), [read], 0, case.comm)
+    mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity, case.comm)
     notes: list[Any] = [*case.notes, *whole.notes]
     correction = corrected(conserve, u, l, mass, case.folder(name) / source.velocity, notes=notes)
     if float(name) == 0.0:
@@ -326,7 +326,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         reads = [partial(case.field, name) for name in names]
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
-        mass = mass_of(case.root, case.region, whole, names, reads, names.index(name), case.comm)
+        index = names.index(name)
+        mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity, case.comm)
         where = case.folder(name) / source.velocity
         correction = corrected_in_time(conserve, u, l, mass, where, accept=source.accept)
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)

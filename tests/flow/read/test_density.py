@@ -33,11 +33,14 @@ def put(case, time, field, values, kind="volScalarField"):
     )
 
 
-def mass(case, *times, index=0):
+def mass(case, *times, index=0, velocity="U"):
     source = Case(case)
-    return mass_of(
-        case, "", source.mesh("1e1"), times, [partial(source.field, name) for name in times], index
-    )
+    reads = [partial(source.field, name) for name in times]
+    return mass_of(case, "", source.mesh("1e1"), times, reads, index, velocity)
+
+
+def test_the_velocity_of_one_phase_keeps_no_volume(case):
+    assert mass(case, "1e1", velocity="U.air") is None
 
 
 def gas(case):
