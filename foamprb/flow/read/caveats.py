@@ -105,7 +105,7 @@ def caveats_of_case(
     """
     caveats = [*_rotating(case, region, relative), *_porous(case, region)]
     caveats += () if turbulent else _turbulent(folder)
-    caveats += () if mixed else (*_compressible(read, comm), *_phases(folder, read, comm))
+    caveats += () if mixed else tuple(_phases(folder, read, comm)) or tuple(_compressible(read, comm))
     return [*caveats, *(_moving(case, region, folder) if moving else ())]
 
 
@@ -259,10 +259,10 @@ def _phases(folder: Path, read: Callable[[str, Kind], FoamField], comm: MeshComm
     paths = sorted(path for path in folder.glob("alpha.*") if path.is_file() and ".orig" not in path.name)
     names = [path.name.removesuffix(".gz") for path in paths if _VARIES.search(read_bytes(path, _HEAD))]
     if any(_LEAST_PHASE < _mean(read(name, FRACTION_FIELD), comm) < 1.0 - _LEAST_PHASE for name in names):
+        hint = " solution/mixture true takes those of the local mixture." if len(names) <= 2 else ""
         yield Caveat(
             f"the flow has several phases ({', '.join(names)}), but to particles the fluid is one, with "
-            "rhoInf and one viscosity everywhere: they cross interfaces as if there were none. "
-            "solution/mixture true takes those of the local mixture of two phases."
+            f"rhoInf and one viscosity everywhere: they cross interfaces as if there were none.{hint}"
         )
 
 

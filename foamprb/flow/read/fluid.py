@@ -309,6 +309,10 @@ def _of_mixture(root: Dictionary, temperature: float | None, here: _Fields | Non
         )
     transport = _at(root, "mixture/transport")
     if law in _CONSTANT_TRANSPORT:
+        if _number(transport, "mu") == 0.0:
+            raise transport.entries["mu"].mistake(
+                "is 0, of an inviscid flow. Add nu, m2/s, or mu, Pa s, to constantProperties of the cloud."
+            )
         return CaseViscosity(None, float(read_entry(transport, "mu", Annotated[DynamicViscosity, Positive])))
     by_temperature = _LAWS[law](transport)
     if temperature is None:
@@ -561,7 +565,8 @@ def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
     listed = entries.get("phases")
     if isinstance(listed, DictionaryList):
         return {phase.key: phase for phase in listed.items}
-    files = (case / "constant" / region).glob(f"{_MIXTURE_FILE}.*")
+    # Beside a mixture of the case, such files are alternatives to it.
+    files = () if "thermoType" in entries else (case / "constant" / region).glob(f"{_MIXTURE_FILE}.*")
     names = sorted(file.name.removeprefix(f"{_MIXTURE_FILE}.").removesuffix(".gz") for file in files)
     if isinstance(listed, Stream):
         names = re.findall(r"[\w.]+", listed.text)

@@ -224,6 +224,18 @@ def test_phases_are_one_fluid_to_particles(case):
     assert caveats(case) == []
 
 
+def test_a_mixture_is_offered_for_two_phases(case):
+    """That their densities differ needs no second warning."""
+    put(case / "1e1/rho", rho(scalars(range(1, 9))), "volScalarField")
+    for names in ("alpha.air, alpha.water", "alpha.air, alpha.oil, alpha.water"):
+        for name in names.split(", "):
+            values = f"internalField {scalars([0, 1] * 4)}; boundaryField {{}}"
+            put(case / "1e1" / name, f"dimensions []; {values}", "volScalarField")
+        (caveat,) = caveats(case)
+        assert f"several phases ({names})" in caveat
+        assert ("solution/mixture true" in caveat) == ("oil" not in names)
+
+
 def test_round_off_in_a_closed_domain_is_no_loss(case):
     fluxes(case, -1e-17, 2e-17)
     assert caveats(case) == []

@@ -16,6 +16,7 @@ from foamprb.flow.read.fluid import (
     find_density,
     fluid_file,
     mean_field,
+    phases_of,
     read_density,
     read_viscosity,
 )
@@ -75,6 +76,10 @@ def test_a_polynomial_of_the_temperature(tmp_path):
             r"the viscosity of transport WLF is not read. .*or add nu, m2/s, or mu",
         ),
         (AIR % ("const", "rhoConst", "", "Pr 1;"), r"mixture/transport/mu is missing"),
+        (
+            AIR % ("const", "rhoConst", "", "mu 0;"),
+            r"is 0, of an inviscid flow\. Add nu, m2/s, or mu, Pa s, to",
+        ),
         (AIR % ("const", "rhoConst", "", "mu -1;"), r"mixture/transport/mu is '-1'"),
         (
             AIR % ("const", "rhoConst", "", "mu [0 2 -1 0 0 0 0] 1;"),
@@ -180,6 +185,14 @@ def test_a_dictionary_without_a_fluid_gives_way(tmp_path):
 
 
 TWO = "phases (water air); water { nu 1e-06; rho 1000; } air { transportModel Newtonian; nu 1.5e-05; rho 1; }"
+
+
+def test_alternatives_to_a_mixture_are_no_phases(tmp_path):
+    for name in ("thermophysicalProperties.water", "thermophysicalProperties.air"):
+        write(tmp_path, f"constant/{name}", SUTHERLAND)
+    assert [*phases_of(tmp_path, "")] == ["air", "water"]
+    write(tmp_path, "constant/thermophysicalProperties", SUTHERLAND)
+    assert phases_of(tmp_path, "") == {}
 
 
 def put_fraction(time, name, value):
