@@ -59,8 +59,10 @@ def log_description(job: Job) -> None:
         log.info("Flow%s", f" at time {flow['time']}{first}" if flow["time"] else "")
         _log_range("|U| [m/s]", flow["U"])
         _log_range("shear rate [1/s]", flow["shearRate"])
-        inside, beside = (math.nan if jump is None else 100.0 * jump for jump in flow["gradientJump"])
-        log.info("    %-24s %.2g %% (median), %.2g %% at walls", "grad U between cells", inside, beside)
+        jumps = zip(flow["gradientJump"], ("(median)", "at walls"), strict=True)
+        said = ", ".join(f"{100.0 * jump:.2g} % {where}" for jump, where in jumps if jump is not None)
+        if said:
+            log.info("    %-24s %s", "grad U between cells", said)
     log.info("Selecting tractionModel %s", models["traction"])
     forces = {"ellipsoidDrag": models["drag"], **models["forces"], **models["surroundings"]}
     log.info(

@@ -92,3 +92,14 @@ def test_caveat_of_the_flow_is_logged_once_and_recorded(case, monkeypatch):
     run_log.log_description(job)
     assert logged.count("The flow is doubtful.") == 1
     assert job.description["warnings"].count("The flow is doubtful.") == 1
+
+
+def test_jumps_of_the_gradient_are_logged_where_there_are_any(case, caplog):
+    """A flow between mirrors has no walls."""
+    job = prepare(case)
+    for jumps, text in (((0.19, None), "19 % (median)"), ((0.19, 0.08), "19 % (median), 8 % at walls")):
+        job.description["flow"]["gradientJump"] = jumps
+        caplog.clear()
+        with caplog.at_level("INFO", "foamprb"):
+            run_log.log_description(job)
+        assert f"    grad U between cells     {text}" in caplog.messages

@@ -111,17 +111,33 @@ class CaseViscosity(NamedTuple):
 def fluid_file(case: Path, region: str) -> Path | None:
     """Return the dictionary of the fluid, of the region or else of the case; None if there is none.
 
-    It is the first of :data:`FILES` with an entry about a fluid, or else the first one.
+    It is the first of :data:`FILES` with an entry about a fluid, or else the first one. If ``p`` is in Pa, a
+    ``thermoType`` goes before a viscosity that the solver does not read.
     """
     files = tuple(find_files(case, region, *FILES))
+    first = None
     for file in files:
         try:
             entries = read_dictionary(file, case).entries
         except InputError:
-            return file
-        if _FLUID & entries.keys():
-            return file
-    return files[0] if files else None
+            return first or file
+        if first is None and _FLUID & entries.keys():
+            first = file
+            if "phases" in entries:
+                break
+        elif first is not None and file.parent == first.parent and "thermoType" in entries:
+            return file if _is_compressible(case, region) else first
+    return first or (files[0] if files else None)
+
+
+def _is_compressible(case: Path, region: str) -> bool:
+    """Return True if the pressure at the latest time is in Pa."""
+    times = solution_times(case, region)
+    if not times or not has_field(case, region, times[-1], "p"):
+        return False
+    with suppress(InputError):
+        return bool(cell_values(case, region, times[-1], "p", PRESSURE_FIELD).size)
+    return False
 
 
 def read_viscosity(
@@ -572,7 +588,14 @@ def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
         names = re.findall(r"[\w.]+", listed.text)
     own = {key: find_dictionary(case, region, f"{_MIXTURE_FILE}.{key}") for key in names}
     phases = {key: own[key] or entries.get(key) for key in names}
-    return {key: phase for key, phase in phases.items() if isinstance(phase, Dictionary)}
+    return {
+        key: phase for key, phase in phases.items() if isinstance(phase, Dictionary) and not _is_solid(phase)
+    }
+
+
+def _is_solid(phase: Dictionary) -> bool:
+    kind = phase.entries.get("thermoType")
+    return isinstance(kind, Dictionary) and "Solid" in word_of(kind, "type")
 
 
 def phase_values(
@@ -592,7 +615,7 @@ def phase_values(
     p, T = _state(case, region, time, f"T.{name}")
     if "thermoType" not in phase.entries:
         law = apparent_viscosity(phase, rate, T)
-        return (law[1] if law else _number(phase, "nu")), _number(phase, "rho")
+        return (law[1] if law else _number(phase, "nu")) or None, _number(phase, "rho") or None
     rho = density_of_state(phase, p, T)
     if rho is None or not math.isfinite(rho):
         return None, None

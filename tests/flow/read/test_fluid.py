@@ -16,6 +16,7 @@ from foamprb.flow.read.fluid import (
     find_density,
     fluid_file,
     mean_field,
+    phase_values,
     phases_of,
     read_density,
     read_viscosity,
@@ -187,6 +188,15 @@ def test_a_dictionary_without_a_fluid_gives_way(tmp_path):
 TWO = "phases (water air); water { nu 1e-06; rho 1000; } air { transportModel Newtonian; nu 1.5e-05; rho 1; }"
 
 
+def test_solids_are_no_phases_and_zero_is_no_property(tmp_path):
+    """Particles move in the liquid of a melt; tutorials of interIsoFoam have phases without viscosity."""
+    write(tmp_path, "constant/transportProperties", "phases (solid liquid); liquid { nu 0; rho 0; }")
+    write(tmp_path, "constant/thermophysicalProperties.solid", "thermoType { type heSolidThermo; }")
+    phases = phases_of(tmp_path, "")
+    assert [*phases] == ["liquid"]
+    assert phase_values(tmp_path, "", "liquid", phases["liquid"], 1.0, "latestTime") == (None, None)
+
+
 def test_alternatives_to_a_mixture_are_no_phases(tmp_path):
     for name in ("thermophysicalProperties.water", "thermophysicalProperties.air"):
         write(tmp_path, f"constant/{name}", SUTHERLAND)
@@ -234,6 +244,16 @@ def test_the_dictionary_of_the_region_and_of_the_solver_counts_first(tmp_path):
         path = write(tmp_path, f"constant/{name}", "nu 1;")
         assert fluid_file(tmp_path, "air") == path
     assert fluid_file(tmp_path, "") == tmp_path / "constant/transportProperties"
+
+
+def test_a_compressible_solver_reads_the_mixture(tmp_path):
+    """Beside it, mixerVessel2D of rhoPimpleFoam keeps a ν that is 1.5 times too small."""
+    first = write(tmp_path, "constant/transportProperties", "transportModel Newtonian; nu 1e-5;")
+    mixture = write(tmp_path, "constant/thermophysicalProperties", SUTHERLAND)
+    (tmp_path / "1").mkdir()
+    for units, file in (("1 -1 -2", mixture), ("0 2 -2", first)):
+        put_scalar(tmp_path / "1", "p", units, 1e5)
+        assert fluid_file(tmp_path, "") == file
 
 
 RHO = header("volScalarField", "rho") + (
