@@ -192,7 +192,7 @@ def test_after_compile_no_run_has_to(fluid, kind, tmp_path, monkeypatch, capsys)
     laws = f"transportModel {fluid}; CrossPowerLawCoeffs {{ nu0 3e-5; nuInf 1e-5; m 0.01; n 0.7; }}"
     edit(case, r"transportModel\s+Newtonian;", laws, "constant/transportProperties")
     if kind == "transient":
-        edit(case, r"deltaT\s", "transient yes; deltaT ")
+        edit(case, r"deltaT\s", "transient yes; accept ( pseudoTime ); deltaT ")
         shutil.copytree(case / "249", case / "0", dirs_exist_ok=True)
     if kind == "rotating":
         zones = "1(rotor { type cellZone; cellLabels List<label> 2(0 1); })"

@@ -9,7 +9,8 @@ r > 0.9, less 1, and its standard deviation.
 
 from __future__ import annotations
 
-import gmsh
+import argparse
+
 import numpy as np
 import pyvista
 from numpy.typing import NDArray
@@ -37,6 +38,8 @@ def velocity(x: Floats) -> Floats:
 
 def meshed(kind: str, size: float) -> Mesh:
     """Return a pipe of cells of a size, m."""
+    import gmsh
+
     gmsh.initialize()
     gmsh.option.setNumber("General.Verbosity", 1)
     for bound in ("Min", "Max"):
@@ -88,6 +91,9 @@ def row(name: str, flow: MeshFlow) -> str:
 
 def main() -> None:
     """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
+    parser.parse_args()
     heads = [f"{low:g} ≤ r < {high:g}" for low, high in RINGS]
     print(f"| cells | u | {' | '.join(heads)} | all | across | ∇u, % | between cells, % |")
     print("|" + "---|" * (len(heads) + 6))

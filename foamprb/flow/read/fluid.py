@@ -225,6 +225,9 @@ def describe_viscosity(case: Path, region: str, fields: Collection[str]) -> list
 def _newtonian(root: Dictionary) -> CaseViscosity:
     """Return the viscosity of a Newtonian fluid."""
     coefficients = root.entries.get("NewtonianCoeffs", root).dictionary()
+    if not any(key in coefficients.entries for key in _VISCOSITIES):
+        # OpenFOAM v1912 reads nu beside them.
+        coefficients = root
     key = next((key for key in _VISCOSITIES if key in coefficients.entries), None)
     if key is None:
         phases = "; or solution { mixture true; }" if "phases" in root.entries else ""

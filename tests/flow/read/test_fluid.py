@@ -111,6 +111,7 @@ LIQUID = "thermoType { mixture pureMixture; properties liquid; } mixture { H2O; 
 PLACES = [
     ("transportProperties", "nu nu [0 2 -1 0 0 0 0] 1e-6; rho 998;", (1e-6, None), 998.0),
     ("transportProperties", "NewtonianCoeffs { nu 2e-6; } rhoInf 900;", (2e-6, None), 900.0),
+    ("transportProperties", "nu 2e-6; NewtonianCoeffs { } rhoInf 900;", (2e-6, None), 900.0),
     ("transportProperties", "mu 0.001; rho 800;", (None, 1e-3), 800.0),
     ("transportProperties", "mu [1 -1 -1 0 0 0 0] 3e-3;", (None, 3e-3), 1000.0),
     ("transportProperties", "rho 1; nu 1; mu 1; sigma 1;", (1.0, None), 1.0),
