@@ -271,7 +271,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     conserve = Conservation(whole.mesh, comm=case.comm)
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity, case.comm)
     notes: list[Any] = [*case.notes, *whole.notes]
-    correction = corrected(conserve, u, l, mass, case.folder(name) / source.velocity, notes=notes)
+    file = (case.folder(name) / source.velocity).relative_to(case.root)
+    correction = corrected(conserve, u, l, mass, file, notes=notes)
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     caveats = _caveats(case, name, source, relative=bool(rotations))
@@ -328,7 +329,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
         index = names.index(name)
         mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity, case.comm)
-        where = case.folder(name) / source.velocity
+        where = (case.folder(name) / source.velocity).relative_to(case.root)
         correction = corrected_in_time(conserve, u, l, mass, where, accept=source.accept)
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
 
