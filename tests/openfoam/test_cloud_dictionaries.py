@@ -15,7 +15,7 @@ pytestmark = pytest.mark.openfoam
 
 HOPPER = "lagrangian/icoUncoupledKinematicParcelFoam/hopper"
 DRAG, SOLID = "particleForces/{}Drag is not known", "youngsModulus is not known: use solid"
-DENSE = ["coupled is 'true'", "U.air is not known: use U", "rhoInf is missing", "solid is missing",
+DENSE = ["coupled is 'true'", "U.air is not known: use U", "solid is missing",
          "isotropyModel is 'stochastic'"]  # fmt: skip
 PAIRS = [SOLID, "poissonsRatio is not known: use solid", DRAG.format("sphere"),
          "collisionModel is 'pairCollision'"]  # fmt: skip
@@ -33,7 +33,7 @@ EXPECTED = {
     "lagrangian/MPPICFoam/Goldschmidt": [*DENSE, DRAG.format("PlessisMasliyah"),
                                          "packingModel is 'explicit'"],
     "lagrangian/DPMFoam/Goldschmidt": [*UNKNOWN, "coupled is 'true'", "U.air is not known: use U",
-                                       "rhoInf is missing", SOLID,
+                                       SOLID,
                                        "poissonsRatio is not known: use solid", DRAG.format("ErgunWenYu"),
                                        "Did you mean 'standardWallInteractionCoeffs'",
                                        "collisionModel is 'pairCollision'"],
