@@ -6,9 +6,10 @@ order (Numer. Math. 47, 217, 1985): linear in each tetrahedron, with a normal co
 across the triangles between them. Its fluxes give each tetrahedron its share of what the cell makes, which is
 nothing in an incompressible flow; where the density varies, cells make and lose no mass. On a triangle c is
 distributed over the free nodes, those that lie on no wall, so that walls keep their velocity at every point.
-A face between cells whose nodes all lie on walls carries a uniform flux. A second part, with no component
-normal to the triangles, makes the divergence the same everywhere in a tetrahedron: ¼ Σ d_k λ_k (x_k − x),
-with the divergence d_k of u at vertex k (:func:`foamprb.flow.walk.correction_at`).
+In tetrahedra, pyramids and prisms, most of whose nodes lie on walls beside one, all nodes are free: c is then
+along walls. A face between cells whose nodes all lie on walls carries a uniform flux. A second part, with no
+component normal to the triangles, makes the divergence the same everywhere in a tetrahedron:
+¼ Σ d_k λ_k (x_k − x), with the divergence d_k of u at vertex k (:func:`foamprb.flow.walk.correction_at`).
 
 The fluxes through the faces of the cells are the smallest change of the interpolated ones that conserves
 volume; those through the triangles in a cell likewise. OpenFOAM's ``phi`` is not used: it is the velocity at
