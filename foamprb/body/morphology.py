@@ -34,6 +34,7 @@ from foamprb.body.tensor import (
     cofactor,
     ddot,
     det,
+    dev,
     dot,
     log_ratio,
     scale,
@@ -137,13 +138,21 @@ def drop_drag_factor(ratio: Scalar) -> Scalar:
     return (2.0 + 3.0 * ratio) / (3.0 + 3.0 * ratio)
 
 
-def drop_stress(ratio: Scalar, Ca: Scalar, E: Tensor, d_s: Tensor) -> Tensor:
+def drop_stress(ratio: Scalar, Ca: Scalar, E: Tensor, d_s: Tensor, S: Tensor) -> Tensor:
     """Return the extra stress of a drop over μ_f, its stresslet over its volume, 1/s.
 
-    10 (λ − 1)/(2λ + 3) E + 4/(2λ + 3) σ'/μ_f: exact to first order in its deformation, in steady shear μ_f E
-    (5λ + 2)/(λ + 1) (Taylor 1932). σ' follows from d_s = f₂ E − ½ f₁ σ'/μ_f.
+        10 (λ − 1)/(2λ + 3) E + 4/(2λ + 3) σ'/μ_f + k dev sym(X E),        X = I − g S⁻¹,
+        k = 3 (25λ² + 41λ + 4)/(35 (λ + 1)²).
+
+    In steady flow it is exact to second order in the deformation, with the normal stresses of Schowalter,
+    Chaffey & Brenner (J. Colloid Interface Sci. 26, 152, 1968); to first order it is Taylor's (1932)
+    (5λ + 2)/(λ + 1) E. k makes up for the second-order error of the shape too. σ' follows from d_s = f₂ E −
+    ½ f₁ σ'/μ_f.
     """
     f1, f2 = recovery_of_drop(ratio), strain_of_drop(ratio, Ca)
     k = 1.0 / (2.0 * ratio + 3.0)
     elastic = scale(8.0 * k / f1, subtract(scale(f2, E), d_s))
-    return add(scale(10.0 * (ratio - 1.0) * k, E), elastic)
+    n = 1.0 / (ratio + 1.0)
+    second = (3.0 / 35.0) * n * n * (4.0 + ratio * (41.0 + 25.0 * ratio))
+    bent = scale(second, dev(sym(dot(recovering(S), E))))
+    return add(add(scale(10.0 * (ratio - 1.0) * k, E), elastic), bent)

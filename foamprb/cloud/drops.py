@@ -9,7 +9,7 @@ import numpy as np
 
 from foamprb.body.morphology import drop_drag_factor, drop_mobility, drop_stress
 from foamprb.body.stokes import Mobility
-from foamprb.body.tensor import Scalar, Tensor, Vector, ddot, dev, from_frame, scale, sym
+from foamprb.body.tensor import Scalar, Tensor, Vector, ddot, dev, dot, from_frame, scale, sym, transpose
 from foamprb.cloud.block import Medium, at, load9, viscosity_at
 from foamprb.cloud.integrators.adaptive import drag_rate as drag_rate_of_solid
 from foamprb.cloud.layout import LANES
@@ -47,7 +47,8 @@ def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> T
     """Return the stresslet, N m; l_f in space's axes, l_s in the particle's."""
     ratio, Ca = _numbers(block, i, medium)
     Q = load9(block, at.Q, i)
-    s = drop_stress(ratio, Ca, dev(sym(l_f)), from_frame(Q, sym(l_s)))
+    F = load9(block, at.new_F, i)
+    s = drop_stress(ratio, Ca, dev(sym(l_f)), from_frame(Q, sym(l_s)), dot(F, transpose(F)))
     return scale(volume_at_rest(block, i) * viscosity_at(block, i, medium), s)
 
 

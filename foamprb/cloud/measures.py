@@ -201,10 +201,11 @@ def drop_stage(block: Any) -> None:
     """Replace the stresslet by that of drops."""
     for i in range(LANES):
         l, R = load9(block, at.l, i), block[at.R * LANES + i]
-        body = dot(load9(block, at.A, i), inverse(load9(block, at.new_F, i)))
+        F = load9(block, at.new_F, i)
+        body = dot(load9(block, at.A, i), inverse(F))
         mu = block[result.viscosity * LANES + i]
         Ca = mu * block[result.rate * LANES + i] / block[at.mu * LANES + i]
-        s = drop_stress(block[at.eta * LANES + i] / mu, Ca, dev(sym(l)), sym(body))
+        s = drop_stress(block[at.eta * LANES + i] / mu, Ca, dev(sym(l)), sym(body), dot(F, transpose(F)))
         S = scale(4.0 / 3.0 * np.pi * R * R * R * mu, s)
         store3(block, result.stresslet, i, diagonal(S))
         store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))

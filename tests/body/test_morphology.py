@@ -93,10 +93,26 @@ def test_drops_of_small_deformation_are_taylors(ratio):
     )
     E = np.zeros((3, 3))
     E[0, 1] = E[1, 0] = 0.5
-    S = square(drop_stress(ratio, 0.0, flat(E), ZERO))
+    S = square(drop_stress(ratio, 0.0, flat(E), ZERO, flat(np.eye(3))))
     np.testing.assert_allclose(S, (5.0 * ratio + 2.0) / (ratio + 1.0) * E, rtol=1e-12)
     assert drop_drag_factor(0.0) == pytest.approx(2.0 / 3.0)
     assert drop_drag_factor(1e9) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("ratio", "N2"), [(0.1, -2.708), (1.0, -2.1875), (2.0, -2.057), (6.0, -1.976)])
+def test_the_second_normal_stress_of_steady_drops_is_schowalters(ratio, N2):
+    """−(19λ + 16)(29λ² + 61λ + 50)/(280 (λ + 1)³) Ca μ_f γ̇ V in shear (1968)."""
+    Ca, l = 1e-3, np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    rates = recovery_of_drop(ratio) / Ca, strain_of_drop(ratio, Ca), 1.0
+
+    def slope(t, y):
+        return textbook(y.reshape(3, 3), l, *rates).ravel()
+
+    S = solve_ivp(slope, (0.0, 1.0), np.eye(3).ravel(), method="LSODA", rtol=1e-12, atol=1e-14).y[:, -1]
+    recovery = 0.5 * rates[0] * square(recovering(flat(S)))
+    E, W = 0.5 * (l + l.T), 0.5 * (l - l.T)
+    stress = square(drop_stress(ratio, Ca, flat(E), flat(W + rates[1] * E - recovery), flat(S)))
+    assert (stress[1, 1] - stress[2, 2]) / Ca == pytest.approx(N2, rel=1e-3)
 
 
 def test_the_velocity_gradient_of_a_drop_is_that_of_its_equation():

@@ -12,6 +12,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.flow.base import Flow
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared, worst
+from validation.references.drop import steady_stress
 from validation.references.morphology import angle, of_drop, shapes, taylor
 from validation.references.shear import SHEAR
 from validation.runs import advance_to, follow, measures
@@ -92,6 +93,40 @@ def _settling(ratio: float) -> list[Row]:
     ]
 
 
+def _normal_stresses(ratio: float) -> list[Row]:
+    """Compare the stress of second order in shear and in uniaxial extension, over Ca μ_f γ̇ V."""
+    Ca = 5e-4
+    by_shear = _stress(analytic.shear(1.0), Ca, ratio)
+    second = steady_stress(ratio).second
+    N1 = (19.0 * ratio + 16.0) ** 2 / (40.0 * (ratio + 1.0) ** 2)
+    N2 = -(19.0 * ratio + 16.0) * (29.0 * ratio**2 + 61.0 * ratio + 50.0) / (280.0 * (ratio + 1.0) ** 3)
+    extension = analytic.linear(np.diag([-0.5, -0.5, 1.0]) / np.sqrt(3.0))
+    by_extension = _stress(extension, Ca, ratio)
+    first = (5.0 * ratio + 2.0) / (ratio + 1.0) / np.sqrt(3.0)
+    name = f"λ = {ratio:g}, Ca = {Ca:g}: "
+    theory = "Schowalter, Chaffey & Brenner (1968)"
+    return [
+        Row(f"{name}N₁/(Ca μ_f γ̇ V)", float(by_shear[0] - by_shear[1]) / Ca, N1, theory, 1e-2, True),
+        Row(f"{name}N₂/(Ca μ_f γ̇ V)", float(by_shear[1] - by_shear[2]) / Ca, N2, theory, 1e-2, True),
+        Row(f"{name}N₂ + N₁/2", N2 + 0.5 * N1, 0.25 * second, "perturbation of a sphere", 1e-12),
+        Row(
+            f"{name}stress of second order in extension",
+            (float(by_extension[2]) - first) / Ca,
+            second / 6.0,
+            "perturbation of a sphere",
+            1e-2,
+            True,
+        ),
+    ]
+
+
+def _stress(flow: Flow, Ca: float, ratio: float) -> Floats:
+    """Return the steady stresslet over μ_f γ̇ V, (6,): xx yy zz xy yz xz."""
+    cloud = _cloud(flow, Ca, ratio, 0.01)
+    advance_to(cloud, 40.0 * Ca * (1.0 + ratio))
+    return np.asarray(measures(cloud)["stresslet"][0] / (4.0 / 3.0 * np.pi))
+
+
 def steady(quick: bool) -> Outcome:
     """Drops in shear flow."""
     rows: list[Row] = []
@@ -100,7 +135,7 @@ def steady(quick: bool) -> Outcome:
         more, lines = _steady(ratio)
         rows += more
         curves += lines
-        rows += _settling(ratio)
+        rows += [*_settling(ratio), *_normal_stresses(ratio)]
     more, lines = _transient(quick)
     figure = Figure(
         "drops",
