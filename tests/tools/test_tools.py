@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
-from benchmarks import pipe
+from benchmarks import observed, pipe
 from benchmarks.records import Results, Row, isolated, peak_memory, read_rows
-from benchmarks.report import TARGETS, Target, written_table
+from benchmarks.report import TARGETS, Target, costs_table, written_table
 
 import foamprb
+from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.results.tables import write_table
 
 GRID = pipe.Grid(6, 3, 8)
@@ -64,3 +67,28 @@ def test_targets_know_their_sense():
     table = written_table(Results(rows))
     assert table.count("not measured") == len(TARGETS) - 1
     assert "**not met** (1.23 of the limit)" in table
+
+
+def test_every_cloud_function_is_measured_in_settings_that_are_read(tmp_path):
+    case, types = pipe.write_case(tmp_path, GRID), set()
+    for row in observed.ROWS.values():
+        file = observed.write_setup(case, "with", row.setup, 3, 2e-4)
+        job = foamprb.prepare(case, dictionary=Path(file))
+        types |= {type(function) for function in job.functions.functions.values()}
+        assert job.cloud.dt * job.steps == pytest.approx(2e-4)
+    assert types == {*FUNCTIONS.values()}
+
+
+def test_writing_every_step_is_measured_as_dearer_and_leaves_no_results(tmp_path):
+    case = pipe.write_case(tmp_path, GRID)
+    ((bare, writing),) = observed.compare("writeInterval deltaT", case, observed.Size(50, 0, 1, 20, 1, 0))
+    assert writing > max(bare, 0.0)
+    assert not [*(case / "postProcessing").iterdir()]
+
+
+def test_a_missed_target_stands_out():
+    ratios = {"particleStatistics": 1.3, "particleTracks": 1.04}
+    rows = [Row("observed", observed.RATIO, name, 0.0, value, "") for name, value in ratios.items()]
+    table = costs_table(Results(rows))
+    assert "**1.3**" in table
+    assert "| 1.04 " in table

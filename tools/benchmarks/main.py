@@ -25,9 +25,9 @@ from benchmarks.records import (
 CSV = "performance.csv"
 
 
-def measure(part: str, quick: bool, large: bool) -> list[Row]:
+def measure(part: str, quick: bool, large: bool, bodies: int) -> list[Row]:
     """Return the rows of one part."""
-    rows: list[Row] = importlib.import_module(f"benchmarks.{part}").measure(Options(quick, large))
+    rows: list[Row] = importlib.import_module(f"benchmarks.{part}").measure(Options(quick, large, bodies))
     return rows
 
 
@@ -52,9 +52,11 @@ def _arguments() -> argparse.ArgumentParser:
         "-large", action="store_true", help="also 1e7 particles and 8e6 cells: 20 GB of memory"
     )
     parser.add_argument(
+        "-bodies", type=int, default=0, metavar="N", help="bodies in the runs of part observed [50000]"
+    )
+    parser.add_argument(
         "-output", type=Path, default=TOOLS.parent / "docs", metavar="DIR",
-        help="folder of performance.csv, whose other parts are kept, performance.md and the "
-        "plots [docs]",
+        help="folder of performance.csv, whose other parts are kept, and performance.md [docs]",
     )  # fmt: skip
     parser.add_argument(
         "-report", action="store_true", help="measure nothing, write the page from performance.csv"
@@ -70,7 +72,7 @@ def main(arguments: list[str] | None = None) -> int:
         for part in PARTS:
             print(f"{part:12s} {_first_line(part)}")
         return 0
-    from benchmarks.report import write_report, written_table
+    from benchmarks.report import costs_table, write_report, written_table
     from foamprb.results.tables import write_table
 
     parsed.output.mkdir(parents=True, exist_ok=True)
@@ -83,7 +85,7 @@ def main(arguments: list[str] | None = None) -> int:
             print(f"{part}: {_first_line(part)}", flush=True)
             busy = load()
             try:
-                child = isolated(measure, part, parsed.quick, parsed.large)
+                child = isolated(measure, part, parsed.quick, parsed.large, parsed.bodies)
             except RuntimeError as error:
                 print(f"    failed: {error}", file=sys.stderr)
                 failed.append(part)
@@ -101,6 +103,6 @@ def main(arguments: list[str] | None = None) -> int:
         if parsed.scratch is None:
             shutil.rmtree(scratch, ignore_errors=True)
     results = Results(row for part in PARTS for row in of_parts[part])
-    print(f"\n{written_table(results)}")
+    print(f"\n{costs_table(results)}\n\n{written_table(results)}")
     write_report(results, parsed.output)
     return 1 if failed else 0

@@ -252,6 +252,7 @@ def write_parcels(
     patches: str = PATCHES,
     interpolation: str = "cellPoint",
     integration: str = "Euler",
+    functions: str = "",
 ) -> None:
     """Write OpenFOAM's ``kinematicCloudProperties``: rigid point spheres at the positions (n, 3).
 
@@ -263,6 +264,8 @@ def write_parcels(
         As :data:`PATCHES`.
     interpolation, integration
         Of the fluid's velocity, and of the parcel's in time.
+    functions
+        Cloud functions.
     """
     write_positions(folder / "constant" / "kinematicCloudPositions", x)
     _dictionary(
@@ -278,7 +281,7 @@ def write_parcels(
         "dispersionModel none; patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
         f"{patches} ); }}\n"
         "heatTransferModel none; surfaceFilmModel none; collisionModel none; "
-        "stochasticCollisionModel none; }\ncloudFunctions {}",
+        f"stochasticCollisionModel none; }}\ncloudFunctions {{ {functions} }}",
     )
 
 
@@ -297,11 +300,25 @@ def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int, s
 
 
 def write_default_cloud(
-    folder: Path, cloud: str, Ca: float, dt: float, steps: int, fluid: Fluid = AIR, more: str = ""
+    folder: Path,
+    cloud: str,
+    Ca: float,
+    dt: float,
+    steps: int,
+    fluid: Fluid = AIR,
+    more: str = "",
+    forces: str = "",
+    functions: str = "",
+    places: str = "softCloudPositions",
 ) -> Path:
-    """Write the properties of a cloud with nothing in them that has a default; return the file.
+    """Write the properties of a cloud without entries that have a default; return the file.
 
-    But for what ``more`` adds to ``solution``.
+    Parameters
+    ----------
+    more, forces, functions
+        Further entries of ``solution``, ``particleForces`` and ``cloudFunctions``.
+    places
+        File of positions.
     """
     end, path = steps * dt, folder / "constant" / f"{cloud}Properties"
     _write_properties(
@@ -309,22 +326,32 @@ def write_default_cloud(
         f"deltaT {dt:g}; endTime {end:.9g}; writeInterval {end:.9g}; {more}",
         fluid,
         fluid.rho * fluid.nu * WALL_RATE / Ca,
-        'all { type manualInjection; SOI 0; U0 (0 0 0); positionsFile "softCloudPositions"; '
-        "ignoreOutOfBounds true;",
+        f'all {{ type manualInjection; SOI 0; U0 (0 0 0); positionsFile "{places}"; ignoreOutOfBounds true;',
+        forces,
+        functions,
     )
     return path
 
 
-def _write_properties(path: Path, solution: str, fluid: Fluid, modulus: float, injection: str) -> None:
-    """Write the properties of a cloud of soft particles, by the entries of the solution and the injection."""
+def _write_properties(
+    path: Path,
+    solution: str,
+    fluid: Fluid,
+    modulus: float,
+    injection: str,
+    forces: str = "",
+    functions: str = "",
+) -> None:
+    """Write the properties of a cloud of soft particles, by entries of its dictionaries."""
     _dictionary(
         path,
         f"solution {{ {solution} }}\n"
         f"constantProperties {{ rho0 {fluid.rho_s}; rhoInf {fluid.rho}; nu {fluid.nu}; "
         f"solid {{ type neoHooke; poissonsRatio 0.499; shearModulus {modulus:.9g}; }} }}\n"
-        f"subModels {{ particleForces {{ ellipsoidDrag; gravity; }} injectionModels {{ {injection} "
+        f"subModels {{ particleForces {{ ellipsoidDrag; gravity; {forces} }} injectionModels {{ {injection} "
         f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
-        f"patchInteractionModel localInteraction; localInteractionCoeffs {{ patches ( {PATCHES} ); }} }}",
+        f"patchInteractionModel localInteraction; localInteractionCoeffs {{ patches ( {PATCHES} ); }} }}\n"
+        f"cloudFunctions {{ {functions} }}",
     )
 
 

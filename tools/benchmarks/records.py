@@ -24,8 +24,7 @@ from typing import Any, NamedTuple
 TOOLS = Path(__file__).parents[1]
 KILO, MEGA, GIGA = 1e3, 1e6, 1e9
 PARTS = (
-    "tracker", "whole", "tutorials", "threads", "memory", "run", "mesh", "start", "output", "integrators",
-    "surroundings", "peers", "scaling",
+    "observed", "tracker", "whole", "tutorials", "threads", "memory", "run", "mesh", "start", "scaling",
 )  # fmt: skip
 
 
@@ -50,6 +49,8 @@ class Options:
     """Few steps and repeats: to see that all works."""
     large: bool = False
     """Also what needs 16 to 20 GB of memory."""
+    bodies: int = 0
+    """Of the runs of part ``observed``; 0: its own number."""
 
 
 class Results:
@@ -68,14 +69,6 @@ class Results:
             ):
                 return row.value
         return None
-
-    def curve(self, quantity: str, subject: str) -> list[tuple[float, float]]:
-        """Return (size, value) of the matching rows, in rising size."""
-        return sorted((r.size, r.value) for r in self.rows if (r.quantity, r.subject) == (quantity, subject))
-
-    def subjects(self, quantity: str) -> list[str]:
-        """Return subjects of a quantity, in order of appearance."""
-        return list(dict.fromkeys(row.subject for row in self.rows if row.quantity == quantity))
 
     def part(self, name: str) -> list[Row]:
         """Return rows of one part."""

@@ -1,4 +1,4 @@
-"""Targets, tables and plots: from the raw results to ``performance.md``."""
+"""Targets and tables: from the raw results to ``performance.md``."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from pathlib import Path
 from string import Template
 from typing import NamedTuple
 
-from benchmarks import pipe
-from benchmarks.records import PARTS, Results
+from benchmarks import observed, pipe, scaling
+from benchmarks.records import Results
 
 TEMPLATE = Path(__file__).with_name("performance.md.in")
 _BUSY = 0.5
@@ -52,13 +52,6 @@ def _compiled(results: Results) -> float | None:
     return None if first is None or second is None else first - second
 
 
-def _written(results: Results) -> float | None:
-    """Return bytes per second of a snapshot of a million particles, over the rate of disk or compressor."""
-    alone = [results.get("throughput", name, 1e6) for name in ("disk, with fsync", "zlib alone, level 1")]
-    rates = [rate for rate in alone if rate is not None]
-    return _quotient(results.get("throughput", "snapshot to file", 1e6), min(rates)) if rates else None
-
-
 _KEPT = _got("memory kept per cell, kB", "", pipe.GRIDS["1M"].cells)
 _PEAK = _got("peak memory, GB", "foamprb", pipe.GRIDS["8M"].cells)
 
@@ -84,28 +77,15 @@ TARGETS = (
     Target("1e6 cells: memory kept per cell, kB", _KEPT, 1.5),
     Target("8e6 cells: peak memory, GB", _PEAK, 20),
     Target("CPU per particle-step, 1e6 cells over 5e3", _got("cost of fine over coarse", "1M over 5k"), 2),
-    Target("writing 1e6 particles: rate over the disk's or zlib's own", _written, 0.5, least=True),
     Target(
-        "1e6 particles, 1000 steps: default run over computing alone",
-        _got("run over computing alone", "default"),
-        1.1,
-    ),
-    Target("the same by `paper`", _got("run over computing alone", "paper"), 1.1),
-    Target(
-        "share of a default run's time in which it waits for output",
-        _got("share of the run that waits for output", "default"),
-        0.1,
+        "1e6 particles, 1000 steps: run with ten snapshots over computing alone",
+        _got("run over computing alone"),
+        1.15,
     ),
     Target("`foamprb -help`, s", _got("start", "help"), 0.4),
     Target("`foamprb info` of 1e6 cells, s", _got("start", INFO), 2),
     Target("compilation in the first run, s on the wall: it less a later one", _compiled, 10),
     Target("first run says that it compiles", _got("first run says so"), 1, least=True),
-    Target(
-        "water: CPU of `paper` over `stokes` at equal error",
-        _got("cost of paper over stokes", "error of F 1e-3"),
-        20,
-        least=True,
-    ),
 )
 
 
@@ -152,8 +132,44 @@ def _machines(results: Results) -> str:
     return "\n".join(lines)
 
 
+def costs_table(results: Results) -> str:
+    """Return the cost of each run of part ``observed``, over the bare run and beside OpenFOAM's function."""
+    lines = []
+    theirs = results.get(observed.COST, observed.openfoam(observed.BARE))
+    for name in (observed.BARE, *observed.ROWS, observed.CALL, observed.SNAPSHOT):
+        cost, ratio = results.get(observed.COST, name), results.get(observed.RATIO, name)
+        limit, other = observed.LIMITS.get(name), results.get(observed.COST, observed.openfoam(name))
+        missed = ratio is not None and limit is not None and ratio > limit
+        over = _quotient(other, theirs)
+        lines.append((
+            name,
+            "" if cost is None else number(cost),
+            "" if ratio is None else f"**{number(ratio)}**" if missed else number(ratio),
+            "" if limit is None else f"{limit:g}",
+            "" if other is None else number(other),
+            "" if over is None else number(over),
+        ))  # fmt: skip
+    tracer = results.get(observed.COST, observed.VTK)
+    lines.append((observed.VTK, "" if tracer is None else number(tracer), "", "", "", ""))
+    head = "a run with", "cost, µs", "over the run without", "at most", "OpenFOAM, µs", "over its run without"
+    return table(head, lines)
+
+
+SHOWN = {
+    "whole": {"default run over OpenFOAM's"},
+    "tutorials": {
+        "default run in a tutorial's flow over OpenFOAM's",
+        "error of the place after 20 Δt over the way",
+        "the same at equal error of the place",
+    },
+    "mesh": {"time to ready", "memory kept per cell, kB", "peak memory, GB"},
+    "scaling": {scaling.SPEED_UP, scaling.MEMORY, scaling.PARTICLE},
+}
+"""Quantities on the page, by part; ``performance.csv`` has all."""
+
+
 def _rows_table(results: Results, part: str) -> str:
-    rows = [r for r in results.part(part) if r.quantity != "machine"]
+    rows = [r for r in results.part(part) if r.quantity in SHOWN[part]]
     if not rows:
         return "Not measured."
     lines = [(r.quantity, r.subject, f"{r.size:g}" if r.size else "", number(r.value), r.unit) for r in rows]
@@ -161,46 +177,11 @@ def _rows_table(results: Results, part: str) -> str:
 
 
 def write_report(results: Results, folder: Path) -> None:
-    """Write ``performance.md`` and its plots."""
+    """Write ``performance.md``."""
     text = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
-        {part: _rows_table(results, part) for part in PARTS},
+        {part: _rows_table(results, part) for part in SHOWN},
+        costs=costs_table(results),
         targets=written_table(results),
         machines=_machines(results),
     )
     (folder / "performance.md").write_text(text, encoding="utf-8")
-    _plot(results, folder / "performance.png")
-
-
-def _plot(results: Results, file: Path) -> None:
-    """Time per particle-step against particles, cells and threads."""
-    try:
-        import matplotlib as mpl
-    except ImportError:
-        print("Without matplotlib there are no plots.")
-        return
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
-    figure, panels = plt.subplots(1, 3, figsize=(11, 3.6), sharey=True, layout="constrained")
-    for panel, thing in zip(panels, ("particles", "cells", "threads"), strict=True):
-        quantity = f"{'wall time' if thing == 'threads' else 'cost'} by {thing}"
-        for subject in results.subjects(quantity):
-            curve = results.curve(quantity, subject)
-            panel.plot(*zip(*curve, strict=True), "o-", ms=4, label=subject)
-            if thing == "threads" and curve[0][0] == 1:
-                ideal = [(n, curve[0][1] / n) for n, _ in curve]
-                panel.plot(*zip(*ideal, strict=True), ":", color="0.5", label="ideal")
-        openfoam = results.get("cost", "OpenFOAM")
-        if openfoam is not None and thing != "threads":
-            panel.axhline(openfoam, color="0.4", lw=0.8, label="OpenFOAM, rigid point spheres")
-        panel.set(xlabel=f"number of {thing}", ylim=(0, None))
-        if thing == "threads":
-            panel.xaxis.get_major_locator().set_params(integer=True)
-        else:
-            panel.set_xscale("log")
-        panel.grid(alpha=0.3)
-        if panel.get_legend_handles_labels()[0]:
-            panel.legend(frameon=False, fontsize=8)
-    panels[0].set_ylabel("µs per particle-step")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)

@@ -37,7 +37,14 @@ def openfoam_environment() -> dict[str, str]:
     return ({"WM_PROJECT_DIR": str(debian)} if debian.is_dir() else {}) | os.environ
 
 
-def openfoam_cost(case: Path, n: int, steps: int, dt: float = OPENFOAM_STEP, left: float = 0.99) -> float:
+def openfoam_cost(
+    case: Path,
+    n: int,
+    steps: int,
+    dt: float = OPENFOAM_STEP,
+    left: float = 0.99,
+    interval: int = 1_000_000,
+) -> float:
     """Measure CPU µs per parcel-step of OpenFOAM's solver, without start and injection.
 
     Parameters
@@ -50,13 +57,15 @@ def openfoam_cost(case: Path, n: int, steps: int, dt: float = OPENFOAM_STEP, lef
         Δt, s.
     left
         So large a share of the parcels must be there at the end.
+    interval
+        Steps between two writings.
 
     Raises
     ------
     RuntimeError
         If the solver failed or lost parcels.
     """
-    pipe.write_control(case, dt, (steps + 5) * dt)
+    pipe.write_control(case, dt, (steps + 5) * dt, interval)
     done = subprocess.run([SOLVER], cwd=case, env=openfoam_environment(), capture_output=True, text=True)
     times = [float(t) for t in re.findall(r"ExecutionTime = (\S+) s", done.stdout)]
     parcels = [int(m) for m in re.findall(r"Current number of parcels\s*= (\d+)", done.stdout)]
