@@ -10,6 +10,7 @@ import sys
 
 import numpy as np
 import pytest
+from benchmarks import pipe
 from paths import ROOT
 from thread_mpi import on_nodes
 
@@ -168,7 +169,7 @@ def test_foam_to_vtk_gives_the_flow_of_the_case(tool, cases, tmp_path):
     tool.run(case, "foamToVTK", "-latestTime", "-name", "VTK")
     flow, file = read_case(case), read_mesh_file(next(case.glob("VTK/*.vtm.series")))
     assert {p.name: p.type for p in file.patches} == {"inlet": "patch", "outlet": "patch", "wall": "wall"}
-    x = tool.everywhere(flow.mesh, 2000)
+    x = pipe.places_in(flow.mesh, 2000)
     u, l = flow.sample(x, flow.locate(x), 0.0)
     u_file, l_file = file.sample(x, file.locate(x), 0.0)
     # Both in single precision, each in its way: some faces are cut along their other diagonal.
