@@ -156,30 +156,43 @@ def costs_table(results: Results) -> str:
 
 
 SHOWN = {
-    "whole": {"default run over OpenFOAM's"},
+    "whole": {"default run over OpenFOAM's": "over OpenFOAM's"},
     "tutorials": {
-        "default run in a tutorial's flow over OpenFOAM's",
-        "error of the place after 20 Δt over the way",
-        "the same at equal error of the place",
+        "default run in a tutorial's flow over OpenFOAM's": "over OpenFOAM's",
+        "error of the place after 20 Δt over the way": "error of the place",
+        "the same at equal error of the place": "over OpenFOAM's, equal error",
     },
-    "mesh": {"time to ready", "memory kept per cell, kB", "peak memory, GB"},
-    "scaling": {scaling.SPEED_UP, scaling.MEMORY, scaling.PARTICLE},
+    "mesh": {
+        "time to ready": "ready, s CPU",
+        "memory kept per cell, kB": "kept per cell, kB",
+        "peak memory, GB": "peak, GB",
+    },
+    "scaling": {
+        scaling.SPEED_UP: "speed-up",
+        scaling.MEMORY: "memory of the largest process, MB",
+        scaling.PARTICLE: "memory per particle, kB",
+    },
 }
-"""Quantities on the page, by part; ``performance.csv`` has all."""
+"""Quantities on the page and their columns, by part; ``performance.csv`` has all."""
 
 
-def _rows_table(results: Results, part: str) -> str:
-    rows = [r for r in results.part(part) if r.quantity in SHOWN[part]]
-    if not rows:
-        return "Not measured."
-    lines = [(r.quantity, r.subject, f"{r.size:g}" if r.size else "", number(r.value), r.unit) for r in rows]
-    return table(("quantity", "of", "size", "value", "unit"), lines)
+def _part_table(results: Results, part: str) -> str:
+    columns = SHOWN[part]
+    values = {(r.subject, r.size, r.quantity): r.value for r in results.part(part) if r.quantity in columns}
+    lines = [
+        (of, f"{size:g}" if size else "", *(
+            number(values[of, size, quantity]) if (of, size, quantity) in values else ""
+            for quantity in columns
+        ))
+        for of, size in dict.fromkeys(key[:2] for key in values)
+    ]  # fmt: skip
+    return table(("of", "size", *columns.values()), lines) if lines else "Not measured."
 
 
 def write_report(results: Results, folder: Path) -> None:
     """Write ``performance.md``."""
     text = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
-        {part: _rows_table(results, part) for part in SHOWN},
+        {part: _part_table(results, part) for part in SHOWN},
         costs=costs_table(results),
         targets=written_table(results),
         machines=_machines(results),
