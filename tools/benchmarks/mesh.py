@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import shutil
 import time
+from pathlib import Path
 
 from benchmarks import pipe
 from benchmarks.records import (
@@ -18,7 +20,9 @@ from benchmarks.records import (
     resident_memory,
     rows,
 )
+from benchmarks.tracker import OPENFOAM_STEP
 
+FURTHER = "a further time of a transient flow"
 NEEDED = 21e9
 """Free memory, bytes, without which 8e6 cells are not tried."""
 
@@ -58,6 +62,49 @@ def ready(grid: str) -> dict[str, float]:
     return {"spent": spent, "kept": resident_memory() - before, "peak": peak_memory()}
 
 
+def write_times(grid: str, count: int, n: int) -> str:
+    """Write the case with so many times of the same U, a tenth of a cell apart, and n bodies; return it."""
+    case = pipe.case(grid)
+    folder = case.with_name(f"{grid}_transient")
+    shutil.rmtree(folder, ignore_errors=True)
+    (folder / "constant").mkdir(parents=True)
+    for name in ("system", "constant/polyMesh"):
+        (folder / name).symlink_to(case / name)
+    for k in range(count):
+        (folder / f"{k * OPENFOAM_STEP:.4g}").mkdir()
+        (folder / f"{k * OPENFOAM_STEP:.4g}" / "U").symlink_to(case / "0" / "U")
+    pipe.write_dictionaries(folder, pipe.NU, pipe.RHO)
+    pipe.write_positions(folder / "constant" / "softCloudPositions", pipe.positions(n))
+    more = "transient true;"
+    pipe.write_default_cloud(folder, "softCloud", 0.5, OPENFOAM_STEP / 2, 2 * (count - 1), more=more)
+    return str(folder)
+
+
+def run(case: str) -> None:
+    """Run a case on one thread."""
+    from foamprb import execute, prepare
+
+    execute(prepare(case, threads=1), "startTime")
+
+
+def read_velocity(case: str, count: int) -> float:
+    """Return the CPU seconds of reading U."""
+    from foamprb.flow.read.field import VELOCITY_FIELD, read_field
+
+    folder = Path(case)
+    start = time.process_time()
+    for _ in range(count):
+        read_field(folder / "0" / "U", VELOCITY_FIELD, folder)
+    return (time.process_time() - start) / count
+
+
+def further_time(grid: str, count: int, n: int) -> dict[str, float]:
+    """Return the CPU seconds that a further time of a transient flow takes, and those of reading U."""
+    short, long = (isolated(run, write_times(grid, k, n)).cpu for k in (2, 2 + count))
+    reading = isolated(read_velocity, str(pipe.case(grid)), count).result
+    return {"foamprb, 1000 bodies": (long - short) / count, "reading U": reading}
+
+
 def costs(grids: list[str], n: int, steps: int, repeats: int) -> dict[str, float]:
     """Return CPU per particle-step on each mesh, μs."""
     import foamprb
@@ -89,11 +136,12 @@ def measure(options: Options) -> list[Row]:
         table += rows("mesh", "time to ready", times, "s CPU", cells)
         table += rows("mesh", "memory kept per cell, kB", {"foamprb": used / cells / KILO}, "kB", cells)
         table += rows("mesh", "peak memory, GB", {"foamprb": peak / GIGA}, "GB", cells)
+    spent = further_time(finest := grids[-1], 4 if options.quick else 20, 1000)
+    table += rows("mesh", FURTHER, spent, "s CPU", pipe.GRIDS[finest].cells)
     by_cells = isolated(costs, grids, n, steps, repeats).result
     for grid, cost in by_cells.items():
         size = pipe.GRIDS[grid].cells
         table += rows("mesh", "cost by cells", {"foamprb paper": cost}, "us/particle-step", size)
-    finest = grids[-1]
     table += rows(
         "mesh", "cost of fine over coarse", {f"{finest} over 5k": by_cells[finest] / by_cells["5k"]}, ""
     )
