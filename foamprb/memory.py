@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import ctypes
 import errno
+import math
+import mmap
 import os
 import resource
 from contextlib import suppress
+from typing import Any
 
-__all__ = ["OutOfMemory", "memory", "ran_out", "size_text", "spread_over", "trim"]
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+__all__ = ["OutOfMemory", "clear", "memory", "ran_out", "size_text", "sparse_zeros", "spread_over", "trim"]
 
 _machines = [1]
 """Number of machines of a run."""
@@ -52,6 +58,40 @@ def size_text(size: float) -> str:
         if size >= factor:
             return f"{size / factor:.3g} {unit}"
     return f"{size / 1e6:.3g} MB"
+
+
+def sparse_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
+    """Return zeros that take memory only where they are written."""
+    size = math.prod(shape) * np.dtype(dtype).itemsize
+    if size == 0:
+        return np.zeros(shape, dtype)
+    pages = mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    with suppress(OSError, AttributeError):
+        # A huge page would take 2 MB at once.
+        pages.madvise(mmap.MADV_NOHUGEPAGE)
+    return np.frombuffer(pages, dtype).reshape(shape)
+
+
+def clear(rows: NDArray[Any]) -> None:
+    """Set consecutive rows to zero; those of :func:`sparse_zeros` free their memory."""
+    base: Any = rows
+    while isinstance(base, np.ndarray):
+        base = base.base
+    flat, pages = rows.reshape(-1).view(np.uint8), getattr(base, "obj", None)
+    if isinstance(pages, mmap.mmap) and hasattr(mmap, "MADV_DONTNEED"):
+        offset = _address(rows) - _address(np.frombuffer(pages, np.uint8))
+        begin = -(-offset // mmap.PAGESIZE) * mmap.PAGESIZE
+        end = (offset + len(flat)) // mmap.PAGESIZE * mmap.PAGESIZE
+        if begin < end:
+            pages.madvise(mmap.MADV_DONTNEED, begin, end - begin)
+            flat[: begin - offset] = flat[end - offset :] = 0
+            return
+    flat[:] = 0
+
+
+def _address(array: NDArray[Any]) -> int:
+    address: int = array.__array_interface__["data"][0]
+    return address
 
 
 def trim() -> None:

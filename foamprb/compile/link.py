@@ -35,7 +35,7 @@ from foamprb.compile.trace import TRACED, branch
 if TYPE_CHECKING:
     from foamprb.compile.internals import Role
 
-__all__ = ["bound", "is_compiled", "link", "linked", "read_by", "traced"]
+__all__ = ["allocating", "bound", "is_compiled", "link", "linked", "read_by", "traced"]
 
 log = logging.getLogger("foamprb")
 
@@ -51,10 +51,9 @@ _OPTIONS: dict[str, Any] = {
     "boundscheck": False,
     "nogil": True,
     "fastmath": set(_FAST_MATH),
-    # No function allocates an array, or outlives its arguments.
-    "_nrt": False,
     "no_cfunc_wrapper": True,
 }
+_ALLOCATES = "allocates"
 _OPTIONS_OF: dict[Role, dict[str, Any]] = {
     "entry": {"forceinline": False},
     "stage": {"forceinline": False, "no_cpython_wrapper": True},
@@ -137,6 +136,12 @@ def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
     return stage
 
 
+def allocating(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Mark a function that allocates arrays; wherever it is called, it is a separate callee."""
+    setattr(function, _ALLOCATES, True)
+    return function
+
+
 def is_compiled(dispatcher: Any) -> bool:
     """Return True if a function that :func:`link` returned is compiled, here or in the cache."""
     import numba
@@ -186,7 +191,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role, called: s
 
 def _link_callee(name: str, function: Callable[..., Any], linkage: _Linkage) -> Part:
     """Return a function that others call by a name."""
-    if function not in linkage.separate:
+    if function not in linkage.separate and not hasattr(function, _ALLOCATES):
         return _link(function, linkage, "inlined")
     if not hasattr(function, TRACED) or _internals() is None:
         return _link(function, linkage, "separate")
@@ -231,6 +236,8 @@ def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, call
         clone.__module__ = function.__module__
         if is_traced:
             traced(clone)
+        if hasattr(function, _ALLOCATES):
+            allocating(clone)
         _parts[keys.full] = Part(_compile(clone, role, keys, linkage.stages), keys)
     return _parts[keys.full]
 
@@ -325,9 +332,11 @@ def _compile(function: Callable[..., Any], role: Role, keys: Keys, stages: Mappi
     import numba
 
     internals = _internals()
+    # No function outlives its arguments, and only some allocate arrays.
+    options = _OPTIONS | _OPTIONS_OF[role] | {"_nrt": hasattr(function, _ALLOCATES)}
     if internals is None:
-        return numba.njit(**_OPTIONS, **_OPTIONS_OF[role])(function)
-    dispatcher = numba.njit(**_OPTIONS, **_OPTIONS_OF[role], **internals.pipeline(role))(function)
+        return numba.njit(**options)(function)
+    dispatcher = numba.njit(**options, **internals.pipeline(role))(function)
     if role == "entry":
         of_stages = [_stores[id(part.dispatcher)] for part in stages.values()]
         store_of_entry = internals.use_cache_of_entry(dispatcher, keys, stages)

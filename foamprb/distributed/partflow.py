@@ -91,9 +91,7 @@ class PartFlow(MeshFlow):
         mesh, part = self.mesh, self.halo.part
         triangles = self._own_triangles(mesh)
         nodes = np.concatenate([part.points, self.counts[1] + part.cells])
-        return Numbering(
-            part.owned, part.cells, nodes, self._first_tet, triangles, self._faces_of(mesh, triangles)
-        )
+        return Numbering(part.owned, part.cells, nodes, triangles, self._faces_of(mesh, triangles))
 
     def _own_triangles(self, mesh: Mesh) -> Index:
         """Return the boundary triangles of owned cells."""
@@ -350,8 +348,8 @@ class PartSeries(PartFlow, SeriesFlow):
         super().move(place)
         self._place = place
 
-    def _grown(self, array: NDArray[Any], n: int) -> NDArray[Any]:
-        return self._place(super()._grown(array, n), array)
+    def _placed(self, array: NDArray[Any], before: NDArray[Any]) -> NDArray[Any]:
+        return self._place(array, before)
 
     def _fetch(self, index: int) -> None:
         super()._fetch(index)

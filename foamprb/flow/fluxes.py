@@ -21,14 +21,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector_product
+from foamprb.body.tensor import inner, plus, scale_vector
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.balance import BALANCED, CONSTANT, Balance, Mass, closed_pieces
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.arrays import arm, bends, point
+from foamprb.flow.correction import NodalFlow, area_vector, triangle_flux
+from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.interfaces import face_pairs
 from foamprb.flow.mesh.lists import Mask, share
@@ -39,35 +39,15 @@ _LEAST_ALONG = 0.02
 """Least cosine between a face's normal and the line of the cell centres that counts in its weight."""
 _LARGEST_CHANGE = 1.0
 """Largest change of the velocity through faces; see :class:`~foamprb.flow.balance.Balanced`."""
-# Sum of squares of what the tetrahedra of a cell may still lack, over that of their fluxes.
-_EXACT = 1e-14
-_ROWS = 7
-"""Rows of working memory of :func:`correct`."""
-_SIZE, _COUNT = 3, 4
-"""Columns of its sides: the length of the area vector, m², and the number of free nodes."""
-
-
-class NodalFlow(NamedTuple):
-    """Places x, m, velocity u, m/s, its gradient l, 1/s, and mask ``free`` at the nodes of a mesh."""
-
-    x: Floats
-    u: Floats
-    l: Floats
-    free: Floats
 
 
 class Sides(NamedTuple):
-    """Faces and cells of a mesh; see :class:`~foamprb.flow.mesh.mesh.Mesh`."""
+    """Faces of a mesh and their cells; see :class:`~foamprb.flow.mesh.mesh.Mesh`."""
 
     face_start: Ints
     face_points: Ints
     owner: Ints
     neighbour: Ints
-    cell_face_start: Ints
-    cell_faces: Ints
-    cell_start: Ints
-    tets: Ints
-    neighbours: Ints
 
 
 class Measures(NamedTuple):
@@ -79,19 +59,6 @@ class Measures(NamedTuple):
     """Error of the velocity out of the face, m/s."""
     area: Floats
     """Area, m²."""
-
-
-class Work(NamedTuple):
-    """Working memory for the n tetrahedra of the largest cell."""
-
-    fluxes: Floats
-    """(n, 4), of the better velocity out of each side, m³/s."""
-    weight: Floats
-    """(n, 4)."""
-    sides: Floats
-    """(n, 4, 5): the area vector of each side, m², its length, and the number of free nodes."""
-    rows: Floats
-    """(7, n)."""
 
 
 def free_nodes(mesh: Mesh) -> Floats:
@@ -118,7 +85,7 @@ class UnbalancedFlowError(InputError):
 
 
 class Conservation:
-    """Operator from u and ∇u at the nodes of a mesh to the correction that keeps volume.
+    """Operator from u and ∇u at the nodes of a mesh to the fluxes through its faces that keep volume.
 
     Parameters
     ----------
@@ -132,7 +99,7 @@ class Conservation:
     """
 
     def __init__(self, mesh: Mesh, valued: Mask | None = None, comm: MeshCommunicator = SINGLE_NODE) -> None:
-        self._comm, self.n_tets = comm, len(mesh.tets)
+        self._comm, self.n_faces = comm, len(mesh.owner)
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
         self._closed, walls = _of_kind(mesh, PatchKind.MIRROR), _of_kind(mesh, PatchKind.WALL)
         # The flux through an open face may change.
@@ -146,10 +113,8 @@ class Conservation:
         self._pairs = face_pairs(mesh)
         self._closed_pieces = closed_pieces(mesh, self._pairs, self._open, comm)
 
-    def __call__(
-        self, u: Floats, l: Floats, mass: Mass | None = CONSTANT, where: object = "flow"
-    ) -> NDArray[np.float32]:
-        """Return the correction (n_tets, 4), 1/s; see :class:`~foamprb.flow.mesh.arrays.MeshArrays`.
+    def __call__(self, u: Floats, l: Floats, mass: Mass | None = CONSTANT, where: object = "flow") -> Floats:
+        """Return the flux out of the owner of each face, (n_faces,), m³/s.
 
         Parameters
         ----------
@@ -167,8 +132,8 @@ class Conservation:
             If no fluxes are found that keep mass, or if they are not those of the flow; on all nodes.
         """
         mesh = self._mesh
-        at, sides = NodalFlow(self._nodes, u, l, self._free), sides_of(mesh)
-        fluxes, integrate, fill = np.empty(len(mesh.owner)), link(face_fluxes), link(correct)
+        at = NodalFlow(self._nodes, u, l.reshape(-1, 9), self._free[:, None], 0, 0, 0, 0)
+        sides, fluxes, integrate = sides_of(mesh), np.empty(self.n_faces), link(face_fluxes)
 
         def faces(low: int, high: int) -> None:
             integrate(low, high, at, sides, fluxes)
@@ -195,21 +160,11 @@ class Conservation:
                     "and stick at walls. Possible causes: a velocity that is no solution of the flow "
                     "equations, or cells without volume (see checkMesh)."
                 )
-        correction = np.empty((len(mesh.tets), 4), dtype=np.float32)
-        most = int(np.diff(mesh.cell_start).max(initial=0))
-
-        def cells(low: int, high: int) -> None:
-            work = Work(
-                np.empty((most, 4)), np.empty((most, 4)), np.empty((most, 4, 5)), np.empty((_ROWS, most))
-            )
-            fill(low, high, at, sides, fluxes, correction, work)
-
-        share(mesh.n_cells, cells)
-        return correction
+        return fluxes
 
 
 def sides_of(mesh: Mesh) -> Sides:
-    """Return the faces and cells of a mesh."""
+    """Return the faces of a mesh and their cells."""
     return Sides(*(getattr(mesh, name) for name in Sides._fields))
 
 
@@ -260,241 +215,3 @@ def weigh_faces(
         measures.weight[f] = max(inner(s, d), _LEAST_ALONG * size * np.sqrt(reach)) / reach
         measures.error[f] = (inner(s, v) - fluxes[f]) / size
         measures.area[f] = size
-
-
-def area_vector(nodes: Floats, a: int, b: int, c: int) -> Vector:
-    """Return the area vector of a triangle, m²."""
-    o = point(nodes, a)
-    s = vector_product(minus(point(nodes, b), o), minus(point(nodes, c), o))
-    return 0.5 * s[0], 0.5 * s[1], 0.5 * s[2]
-
-
-def triangle_flux(at: NodalFlow, a: int, b: int, c: int) -> float:
-    """Return the flux of the better velocity (:func:`measure_sides`) through a triangle, m³/s."""
-    u, free, s, flux = at.u, at.free, area_vector(at.x, a, b, c), 0.0
-    for k in range(3):
-        flux += s[k] * (u[a, k] + u[b, k] + u[c, k]) / 3.0
-    for i, j in ((a, b), (b, c), (c, a)):
-        flux += _off(free[i], free[j]) * inner(s, edge_bend(at.x, at.l, i, j))
-    return float(flux)
-
-
-def edge_bend(nodes: Floats, l: Floats, i: int, j: int) -> Vector:
-    """Return (l_i − l_j)·(x_j − x_i)/24, m/s: a third of what an edge adds to a mean velocity."""
-    d, s = arm(nodes, j, point(nodes, i)), 1.0 / 24.0
-    return (
-        s * _change(l, i, j, 0, d),
-        s * _change(l, i, j, 1, d),
-        s * _change(l, i, j, 2, d),
-    )
-
-
-def _change(l: Floats, i: int, j: int, k: int, d: Vector) -> float:
-    """Return row k of (l_i − l_j)·d."""
-    x, y, z = l[i, k, 0] - l[j, k, 0], l[i, k, 1] - l[j, k, 1], l[i, k, 2] - l[j, k, 2]
-    return x * d[0] + y * d[1] + z * d[2]  # type: ignore[no-any-return]
-
-
-def correct(
-    begin: int,
-    end: int,
-    at: NodalFlow,
-    mesh: Sides,
-    phi: Floats,
-    correction: NDArray[np.float32],
-    memory: Work,
-) -> None:
-    """Fill ``correction``, (n_tets, 4), for the cells from ``begin`` to before ``end``.
-
-    ``phi`` is the flux out of the owner of each face, m³/s.
-    """
-    fluxes, weight, sides, work = memory.fluxes, memory.weight, memory.sides, memory.rows
-    cell_start, face_start, neighbours = mesh.cell_start, mesh.face_start, mesh.neighbours
-    rest, change, volume = work[0], work[4], work[5]
-    for c in range(begin, end):
-        first, n = cell_start[c], cell_start[c + 1] - cell_start[c]
-        total = space = 0.0
-        for t in range(n):
-            volume[t] = measure_sides(at, mesh.tets, first + t, t, memory, correction)
-            space += volume[t]
-        # The triangles of a face share its flux by their areas and free nodes.
-        t = 0
-        for h in range(mesh.cell_face_start[c], mesh.cell_face_start[c + 1]):
-            f = mesh.cell_faces[h]
-            size = face_start[f + 1] - face_start[f] - 2
-            interpolated = area = 0.0
-            for k in range(t, t + size):
-                interpolated += fluxes[k, 0]
-                work[1, k] = sides[k, 0, _SIZE] * sides[k, 0, _COUNT]
-                area += work[1, k]
-            if area == 0.0:
-                for k in range(t, t + size):
-                    work[1, k] = sides[k, 0, _SIZE]
-                    area += work[1, k]
-            out = phi[f] if mesh.owner[f] == c else -phi[f]
-            total += out
-            for k in range(t, t + size):
-                fluxes[k, 0] += (out - interpolated) * work[1, k] / max(area, 1e-300)
-            t += size
-        _carry(at.x, mesh.tets, first, n, space, memory, correction)
-        square = lost = 0.0
-        for t in range(n):
-            rest[t] = total * volume[t] / space
-            for k in range(4):
-                rest[t] -= fluxes[t, k]
-                square += fluxes[t, k] * fluxes[t, k]
-            lost += rest[t] / n
-        for t in range(n):
-            # Round-off in the sum, for which there is no solution.
-            rest[t] -= lost
-        for t in range(n):
-            for k in range(1, 4):
-                reach = abs(volume[t]) + abs(volume[neighbours[first + t, k] - first])
-                size = sides[t, k, _SIZE]
-                weight[t, k] = sides[t, k, _COUNT] * size * size / max(reach, 1e-300)
-        _share(neighbours, first, n, weight, work, _EXACT * square)
-        for t in range(n):
-            tet = first + t
-            for k in range(1, 4):
-                fluxes[t, k] += weight[t, k] * (change[t] - change[neighbours[tet, k] - first])
-            for k in range(4):
-                # All nodes of a side are free if none is.
-                count = sides[t, k, _COUNT] if sides[t, k, _COUNT] > 0.0 else 3.0
-                flux = fluxes[t, k] + correction[tet, k]
-                correction[tet, k] = flux / (count * volume[t]) if volume[t] != 0.0 else 0.0
-
-
-def measure_sides(
-    at: NodalFlow, tets: Ints, tet: int, row: int, memory: Work, correction: NDArray[np.float32]
-) -> float:
-    """Measure the sides of a tetrahedron; return its signed volume, m³.
-
-    Side k is opposite vertex k. The interpolated velocity (:func:`foamprb.flow.walk.interpolate`) is straight
-    along an edge to a wall. A better one is quadratic there, too, but straight along edges on a wall.
-
-    Parameters
-    ----------
-    tet, row
-        The tetrahedron, and its row in working memory.
-    memory
-        Results are its fluxes and sides.
-    correction
-        Result (n_tets, 4): minus the flux of the interpolated velocity, m³/s.
-    """
-    nodes, u, l, free = at
-    o, a, b, c = tets[tet, 0], tets[tet, 1], tets[tet, 2], tets[tet, 3]
-    x = point(nodes, o)
-    p, q, r = arm(nodes, a, x), arm(nodes, b, x), arm(nodes, c, x)
-    so, sa = _half_product(minus(q, p), minus(r, p)), _half_product(r, q)
-    sb, sc = _half_product(p, r), _half_product(q, p)
-    oa, ob, oc = edge_bend(nodes, l, o, a), edge_bend(nodes, l, o, b), edge_bend(nodes, l, o, c)
-    ab, bc, ca = edge_bend(nodes, l, a, b), edge_bend(nodes, l, b, c), edge_bend(nodes, l, c, a)
-    fo, fa, fb, fc = free[o], free[a], free[b], free[c]
-    uo, ua, ub, uc = point(u, o), point(u, a), point(u, b), point(u, c)
-    results = row, memory.fluxes, memory.sides, tet, correction
-    _put_side(*results, 0, so, plus(plus(ua, ub), uc), (fa, fb, fc), (ab, bc, ca))
-    _put_side(*results, 1, sa, plus(plus(uo, uc), ub), (fo, fc, fb), (oc, bc, ob))
-    _put_side(*results, 2, sb, plus(plus(uo, ua), uc), (fo, fa, fc), (oa, ca, oc))
-    _put_side(*results, 3, sc, plus(plus(uo, ub), ua), (fo, fb, fa), (ob, ab, oa))
-    volume = -inner(p, sa) / 3.0
-    return float(volume)
-
-
-def _half_product(v: Vector, w: Vector) -> Vector:
-    return scale_vector(0.5, vector_product(v, w))
-
-
-def _put_side(
-    row: int,
-    fluxes: Floats,
-    sides: Floats,
-    tet: int,
-    correction: NDArray[np.float32],
-    k: int,
-    s: Vector,
-    u: Vector,
-    free: Vector,
-    edges: tuple[Vector, Vector, Vector],
-) -> None:
-    """Write side k from its area vector, and the sum of velocities, free nodes and edges 01, 12, 20."""
-    f, g, h = free
-    size, ends = inner(s, s), (inner(s, edges[0]), inner(s, edges[1]), inner(s, edges[2]))
-    mean = inner(s, u) / 3.0
-    flux = mean + bends(f, g) * ends[0] + bends(g, h) * ends[1] + bends(h, f) * ends[2]
-    better = mean + _off(f, g) * ends[0] + _off(g, h) * ends[1] + _off(h, f) * ends[2]
-    fluxes[row, k], correction[tet, k] = better, -flux
-    sides[row, k, 0], sides[row, k, 1], sides[row, k, 2] = s
-    sides[row, k, _SIZE], sides[row, k, _COUNT] = np.sqrt(size), abs(f) + abs(g) + abs(h)
-
-
-def _off(f: float, g: float) -> float:
-    """Return 1 for an edge with an end off the walls, else 0; see :func:`free_nodes`."""
-    return 1.0 if f > 0.0 or g > 0.0 else 0.0
-
-
-def _carry(
-    nodes: Floats,
-    tets: Ints,
-    first: int,
-    n: int,
-    space: float,
-    memory: Work,
-    correction: NDArray[np.float32],
-) -> None:
-    """Add to the fluxes inside a cell those of the mean correction that the ones through its sides make.
-
-    The mean is Σ x δ over the volume ``space``, with the additional flux δ out of a side with the middle x.
-    """
-    fluxes, sides = memory.fluxes, memory.sides
-    o, mean = point(nodes, tets[first, 0]), (0.0, 0.0, 0.0)
-    for t in range(n):
-        tet = first + t
-        s = (fluxes[t, 0] + correction[tet, 0]) / (3.0 * space)
-        p, q, r = arm(nodes, tets[tet, 1], o), arm(nodes, tets[tet, 2], o), arm(nodes, tets[tet, 3], o)
-        mean = (
-            mean[0] + s * (p[0] + q[0] + r[0]),
-            mean[1] + s * (p[1] + q[1] + r[1]),
-            mean[2] + s * (p[2] + q[2] + r[2]),
-        )
-    for t in range(n):
-        for k in range(1, 4):
-            area = sides[t, k, 0], sides[t, k, 1], sides[t, k, 2]
-            fluxes[t, k] += inner(area, mean) * sides[t, k, _COUNT] / 3.0
-
-
-def _share(neighbours: Ints, first: int, n: int, weight: Floats, work: Floats, enough: float) -> None:
-    """Solve for potentials of the tetrahedra of a cell, whose differences drive fluxes that balance ``rest``.
-
-    ``rest``, row 0 of ``work``, is what each tetrahedron lacks; the potentials go into row 4. The fluxes are
-    the smallest change in the sum of squares over ``weight`` (n, 4). Conjugate gradients end when the sum of
-    squares of what is still lacking is ``enough``.
-    """
-    rest, way, residual, image, change, diagonal = work[0], work[1], work[2], work[3], work[4], work[6]
-    energy = square = 0.0
-    for t in range(n):
-        change[t] = 0.0
-        diagonal[t] = weight[t, 1] + weight[t, 2] + weight[t, 3]
-        residual[t] = rest[t]
-        way[t] = rest[t] / diagonal[t]
-        energy += rest[t] * way[t]
-        square += rest[t] * rest[t]
-    for _ in range(8 * n):
-        if square <= enough:
-            break
-        curve = 0.0
-        for t in range(n):
-            image[t] = 0.0
-            for k in range(1, 4):
-                image[t] += weight[t, k] * (way[t] - way[neighbours[first + t, k] - first])
-            curve += way[t] * image[t]
-        if curve <= 0.0:
-            break
-        s, before = energy / curve, energy
-        square = energy = 0.0
-        for t in range(n):
-            change[t] += s * way[t]
-            residual[t] -= s * image[t]
-            square += residual[t] * residual[t]
-            energy += residual[t] * residual[t] / diagonal[t]
-        for t in range(n):
-            way[t] = residual[t] / diagonal[t] + energy / before * way[t]

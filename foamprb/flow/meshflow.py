@@ -44,7 +44,7 @@ from foamprb.flow.walk import (
 )
 from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
 from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall, walls_at
-from foamprb.memory import trim
+from foamprb.memory import sparse_zeros, trim
 
 LONG: tuple[Callable[..., Any], ...] = (
     follow,
@@ -120,8 +120,6 @@ class Numbering(NamedTuple):
     """(n_cells,)."""
     nodes: NDArray[np.int64]
     """(n_nodes,)."""
-    first_tet: NDArray[Any]
-    """(n_cells,) number of the first tetrahedron of each cell."""
     triangles: NDArray[np.intp]
     """Boundary triangles here, of own cells."""
     faces: NDArray[Any]
@@ -144,7 +142,7 @@ class MeshSizes(NamedTuple):
 
 
 class MeshFlow:
-    """Flow given by u and ∇u at the nodes of a mesh, and a correction of u in each tetrahedron.
+    """Flow given by u and ∇u at the nodes of a mesh, and the fluxes through its faces.
 
     Parameters
     ----------
@@ -160,8 +158,9 @@ class MeshFlow:
         Name of the time that was read, if there are times.
     turbulence
         (n_nodes, 8): k, ε, ∇k and ∇(k²/3ε) at the nodes, if they were read.
-    correction
-        (n_tets, 4) correction of u that keeps volume, by :class:`foamprb.flow.fluxes.Conservation`.
+    fluxes
+        (n_faces,) fluxes that keep volume, m³/s, by :class:`foamprb.flow.fluxes.Conservation`; without them u
+        is not corrected.
     viscosity
         (n_nodes, 4): a field of the viscosity and its gradient, if it was read.
     """
@@ -192,7 +191,7 @@ class MeshFlow:
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
         time: str = "",
         turbulence: Floats | None = None,
-        correction: NDArray[np.float32] | None = None,
+        fluxes: Floats | None = None,
         viscosity: Floats | None = None,
     ) -> None:
         self._time = time
@@ -244,7 +243,12 @@ class MeshFlow:
             viscosity=np.empty((0, 4)) if viscosity is None else viscosity,
             wall_boxes=np.empty((2, 6)),
             seen_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
-            correction=np.empty((0, 4), dtype=np.float32) if correction is None else correction,
+            correction=sparse_zeros((0 if fluxes is None else len(mesh.tets), 4), np.float32),
+            phi=np.empty(0) if fluxes is None else fluxes,
+            owner=mesh.owner,
+            face_start=mesh.face_start,
+            cell_face_start=mesh.cell_face_start,
+            cell_faces=mesh.cell_faces,
             strayed=np.zeros(1, dtype=np.int32),
         )
 
@@ -421,7 +425,7 @@ class MeshFlow:
             "cells": corners,
             "patches": of_pairs(whole.faces, mesh.triangle_patch[whole.triangles]),
             **{name: self._node_sums(table) for name, table in tables.items()},
-            "correction": self._tet_sums(arrays.correction),
+            "fluxes": self._flux_sums(arrays.phi),
             **({"sampled": self._node_sums(self._first_table)} if self.field_columns else {}),
         }
 
@@ -437,7 +441,6 @@ class MeshFlow:
             np.ones(mesh.n_cells, dtype=bool),
             np.arange(mesh.n_cells),
             np.arange(mesh.n_points + mesh.n_cells),
-            mesh.cell_start[:-1],
             np.arange(len(mesh.triangle_face)),
             mesh.n_internal + mesh.triangle_face,
         )
@@ -451,16 +454,15 @@ class MeshFlow:
             np.add.at(counts, mesh.cell_points[rows][np.repeat(whole.own[cells], sizes)], 1.0)
         return of_rows(table[: len(counts)], whole.nodes, counts)
 
-    def _tet_sums(self, table: NDArray[np.float32]) -> Floats:
-        """Return :func:`of_rows` of values in the tetrahedra of own cells."""
+    def _flux_sums(self, phi: Floats) -> Floats:
+        """Return :func:`of_rows` of the sum of the absolute fluxes through the faces of each own cell."""
         mesh, whole = self.mesh, self._numbering()
-        total = np.zeros((2, table.shape[1]))
-        # There are no rows for no correction.
-        for cells in self._some_cells() if len(table) else ():
-            rows, sizes = _lists_of(mesh.cell_start, cells)
-            before = whole.first_tet[cells] - mesh.cell_start[cells]
-            numbers = np.arange(rows.start, rows.stop) + np.repeat(before, sizes)
-            total += of_rows(table[rows], numbers, np.repeat(whole.own[cells], sizes).astype(np.float64))
+        total = np.zeros((2, 1))
+        # There are no fluxes for no correction.
+        for cells in self._some_cells() if len(phi) else ():
+            rows, sizes = _lists_of(mesh.cell_face_start, cells)
+            sums = np.add.reduceat(np.abs(phi[mesh.cell_faces[rows]]), np.cumsum(sizes) - sizes)
+            total += of_rows(sums[:, None], whole.cells[cells], whole.own[cells].astype(np.float64))
         return total
 
     def _some_cells(self) -> Iterable[slice]:

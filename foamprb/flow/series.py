@@ -45,6 +45,7 @@ from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walk import walk_on as walk_on_mesh
 from foamprb.flow.walls import gap as gap_mesh
+from foamprb.memory import clear, sparse_zeros
 
 _OF_VELOCITY, _OF_TURBULENCE, _OF_VISCOSITY = 12, 8, 4
 """Columns of u and ∇u, of the turbulence after them, and of the viscosity at the end."""
@@ -68,6 +69,10 @@ class SeriesArrays(NamedTuple):
     """(n,) row of ``correction`` at which the tetrahedra of each time begin."""
     correction: NDArray[np.float32]
     """(rows, 4) as that of :class:`MeshArrays`, time by time; no rows for none."""
+    first_face: NDArray[np.int64]
+    """(n,) row of ``phi`` at which the faces of each time begin."""
+    phi: Floats
+    """(rows,) as that of :class:`MeshArrays`, time by time."""
 
 
 def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
@@ -90,11 +95,11 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
     )  # fmt: skip
     c = between(
         correction_at(
-            flow.mesh, flow.correction, flow.first_tet[k] + host,
+            flow.mesh, flow.correction, flow.first_tet[k] + host, flow.phi, flow.first_face[k],
             flow.fields, 0, flow.first[k], host, w, sides, scale,
         ),
         correction_at(
-            flow.mesh, flow.correction, flow.first_tet[k + 1] + host,
+            flow.mesh, flow.correction, flow.first_tet[k + 1] + host, flow.phi, flow.first_face[k + 1],
             flow.fields, 0, flow.first[k + 1], host, w, sides, scale,
         ),
         s,
@@ -209,7 +214,7 @@ class SeriesFlow(Timeline, MeshFlow):
         Returns u (n_nodes, 3), m/s, and l (n_nodes, 3, 3), 1/s, at the time of an index; with ``turbulent``
         also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8); with ``viscous`` also the viscosity and its gradient,
         (n_nodes, 4); with ``sampled`` also these fields, (n_nodes, columns); with ``conservative`` last the
-        correction of u, (n_tets, 4) (:mod:`foamprb.flow.fluxes`). It is called by one thread at a time, not
+        fluxes that keep volume, (n_faces,) (:mod:`foamprb.flow.fluxes`). One thread at a time calls it, not
         always the same.
     period
         Duration after which the flow repeats itself, s. Times from ``times[0] + period`` on are ignored; at
@@ -221,7 +226,7 @@ class SeriesFlow(Timeline, MeshFlow):
     zones
         Returns the cells of each zone by name; called when a zone is requested.
     turbulent, conservative, viscous
-        Whether ``read`` returns the turbulence, the correction, and the viscosity.
+        Whether ``read`` returns the turbulence, the fluxes, and the viscosity.
     sampled
         Further fields that ``read`` returns.
     names
@@ -274,6 +279,7 @@ class SeriesFlow(Timeline, MeshFlow):
         self.field_table: NDArray[np.float64] = np.empty((0, nodes, width(sampled)))
         self._fields = np.empty((0, nodes, _width(turbulent, viscous)))
         self._corrections = np.empty((0, len(mesh.tets) if conservative else 0, 4), dtype=np.float32)
+        self._fluxes = np.empty((0, len(mesh.owner) if conservative else 0))
         self._in_memory: dict[int, int] = {}
         """Row in ``_fields`` of each loaded time by its index, the least recently used first."""
         self._levels = range(0)
@@ -287,8 +293,9 @@ class SeriesFlow(Timeline, MeshFlow):
         """See :meth:`MeshFlow.nothing`."""
         rows = np.empty(0, dtype=np.int64)
         return SeriesArrays(
-            no_mesh(), np.empty(0), rows, np.empty((0, 12)), 0.0, rows, np.empty((0, 4), dtype=np.float32)
-        )
+            no_mesh(), np.empty(0), rows, np.empty((0, 12)), 0.0,
+            rows, np.empty((0, 4), dtype=np.float32), rows, np.empty(0),
+        )  # fmt: skip
 
     def load(self, start: float, end: float) -> float:
         """Load the times from the last one up to ``start`` to the first one from ``end`` on.
@@ -329,7 +336,7 @@ class SeriesFlow(Timeline, MeshFlow):
 
     def loaded(self) -> SeriesArrays:
         """Return the arrays at the times loaded last, without a mesh."""
-        nodes, tets = self._fields.shape[1], self._corrections.shape[1]
+        nodes, tets, faces = self._fields.shape[1], self._corrections.shape[1], self._fluxes.shape[1]
         places = np.array([self._in_memory[self._index(level)] for level in self._levels], dtype=np.int64)
         times = np.array([self._time_of(level) for level in self._levels])
         return SeriesArrays(
@@ -340,6 +347,8 @@ class SeriesFlow(Timeline, MeshFlow):
             self._slack(float(times.max(initial=self.times[0]))),
             places * tets,
             self._corrections.reshape(-1, 4),
+            places * faces,
+            self._fluxes.reshape(-1),
         )
 
     def _first(self) -> Floats:
@@ -402,7 +411,7 @@ class SeriesFlow(Timeline, MeshFlow):
             "times": times,
             "period": self.period or 0.0,
             "fields": self._node_sums(first),
-            "correction": self._tet_sums(self._corrections[self._in_memory[0]]),
+            "fluxes": self._flux_sums(self._fluxes[self._in_memory[0]]),
         }
 
     def sums_around(self, t: float) -> Floats:
@@ -431,7 +440,9 @@ class SeriesFlow(Timeline, MeshFlow):
         capacity = max(len(set(wanted)), min(self._keep, len(self.times)))
         if capacity > len(self._fields):
             self._fields = self._grown(self._fields, capacity)
-            self._corrections = self._grown(self._corrections, capacity)
+            empty = sparse_zeros((capacity, *self._corrections.shape[1:]), np.float32)
+            self._corrections = self._placed(empty, self._corrections)
+            self._fluxes = self._grown(self._fluxes, capacity)
             self.field_table = self._grown(self.field_table, capacity)
         for index in wanted:
             if index in self._in_memory:
@@ -441,7 +452,11 @@ class SeriesFlow(Timeline, MeshFlow):
         """Return a copy of an array with n rows; further ones are not set."""
         grown = np.empty((n, *array.shape[1:]), dtype=array.dtype)
         grown[: len(array)] = array
-        return grown
+        return self._placed(grown, array)
+
+    def _placed(self, array: NDArray[Any], before: NDArray[Any]) -> NDArray[Any]:  # noqa: ARG002
+        """Return an array, or its copy in shared memory, in place of the array before."""
+        return array
 
     def _fetch(self, index: int) -> None:
         if index in self._in_memory:
@@ -454,7 +469,8 @@ class SeriesFlow(Timeline, MeshFlow):
         self._fields[place, :, :3] = u
         self._fields[place, :, 3:_OF_VELOCITY] = l.reshape(-1, 9)
         if self._corrections.shape[1] > 0:
-            self._corrections[place] = more.pop()
+            self._fluxes[place] = more.pop()
+            clear(self._corrections[place])
         if self.field_columns:
             self.field_table[place] = more.pop()
         if more:

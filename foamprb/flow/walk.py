@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
 from foamprb.flow.base import Floats, Turbulence
+from foamprb.flow.correction import correct_cell, is_stored, stored
 from foamprb.flow.mesh.arrays import FREE, TOLERANCE, MeshArrays, arm, bends, frame, nodes_of, point, weights
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
@@ -51,7 +52,8 @@ def parts(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Vector, Tenso
     """Return u at x in the tetrahedron ``host``, its correction c, both m/s, and l, 1/s."""
     sides, s, w = shape_and_sides(flow, host, x)
     u, l = interpolate(flow, host, flow.nodes, 3, 0, w)
-    return u, correction_at(flow, flow.correction, host, flow.nodes, 3, 0, host, w, sides, s), l
+    c = correction_at(flow, flow.correction, host, flow.phi, 0, flow.nodes, 3, 0, host, w, sides, s)
+    return u, c, l
 
 
 def sample_ahead(
@@ -81,7 +83,7 @@ def sample_ahead(
     s = 1.0 / volume
     w = (s * w0, s * w1, s * w2, s * w3)
     u, l = interpolate(flow, last, flow.nodes, 3, 0, w)
-    c = correction_at(flow, flow.correction, last, flow.nodes, 3, 0, last, w, (c1, c2, c3), s)
+    c = correction_at(flow, flow.correction, last, flow.phi, 0, flow.nodes, 3, 0, last, w, (c1, c2, c3), s)
     # The gradient of a weight is its cofactor vector; that of the origin minus the sum of the others.
     room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
     return last, room, entered, plus(u, c), l, minus(STEADY, dot_vector(l, c))
@@ -207,6 +209,8 @@ def correction_at(
     flow: MeshArrays,
     correction: NDArray[np.float32],
     row: int,
+    phi: Floats,
+    first_face: int,
     f: Floats,
     k: int,
     first: int,
@@ -223,6 +227,8 @@ def correction_at(
 
     Parameters
     ----------
+    phi, first_face
+        Fluxes through the faces, from row ``first_face`` on; see :class:`MeshArrays`.
     f, k, first
         Table of velocities and gradients, from row ``first`` and column k on; see :func:`interpolate`.
     sides, s
@@ -232,7 +238,10 @@ def correction_at(
         return 0.0, 0.0, 0.0
     a, b, c, d = nodes_of(flow, host)
     at, nodes = np.uint64(row), flow.nodes
-    qa, qb, qc, qd = correction[at, 0], correction[at, 1], correction[at, 2], correction[at, 3]
+    if not is_stored(correction, at):
+        correct_cell(flow, correction, row, phi, first_face, f, k, first, host)
+    qa, qb = stored(correction, at, 0), stored(correction, at, 1)
+    qc, qd = stored(correction, at, 2), stored(correction, at, 3)
     free = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
     fa, fb, fc, fd = abs(free[0]), abs(free[1]), abs(free[2]), abs(free[3])
     q, count = qa + qb + qc + qd, fa + fb + fc + fd

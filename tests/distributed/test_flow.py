@@ -111,7 +111,7 @@ def assert_alike(found, expected):
 
 def test_what_tells_a_flow_from_another_is_that_of_the_whole(flow, whole):
     assert_alike(flow.traits(), whole.traits())
-    assert np.any(whole.traits()["correction"])
+    assert np.any(whole.traits()["fluxes"])
 
 
 @pytest.mark.parametrize("few", [100, 8])

@@ -115,8 +115,7 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
     u, l = Reconstruction(mesh)(cells, boundary)
     positive = np.exp(cells), np.exp(boundary)
     scalars, linear = Reconstruction(mesh).scalars(*positive)[0], Reconstruction(mesh).linear(*positive)
-    correction = Conservation(mesh)(u, l)
-    flow = MeshFlow(mesh, u, l, correction=correction)
+    flow = MeshFlow(mesh, u, l, fluxes=Conservation(mesh)(u, l))
     points = np.concatenate([mesh.points[::7], random.uniform(*flow.bounds, (300, 3))])
     hosts = flow.locate(points)
     near = [k for k, patch in enumerate(mesh.patches) if patch.type == "wall"]
@@ -143,8 +142,7 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         u, l = reconstruct(own_cells, on_faces)
         at_points = reconstruct.scalars(np.exp(own_cells), np.exp(on_faces))[0]
         also = reconstruct.linear(np.exp(own_cells), np.exp(on_faces))
-        correction = Conservation(sub.mesh, comm=halo)(u, l)
-        part = PartFlow(halo, sub.mesh, u, l, correction=correction)
+        part = PartFlow(halo, sub.mesh, u, l, fluxes=Conservation(sub.mesh, comm=halo)(u, l))
         assert part.width == flow.width
         # Walls within sight alone, without those beside them.
         part._hold_walls(2.0 * reach)
@@ -160,13 +158,13 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         np.testing.assert_array_equal(there, planes[place[found]])
         sampled = part.sample(points[found], local, 0.0)[0]
         np.testing.assert_array_equal(sampled, flow.sample(points[found], hosts[found], 0.0)[0])
-        return sub, (u, l, at_points, also), correction, found, numbers
+        return sub, (u, l, at_points, also), part, found, numbers
 
     results = on_nodes(3, work)
     located = np.concatenate([found for *_, found, _ in results])
     np.testing.assert_array_equal(np.sort(located), np.flatnonzero(hosts >= 0))
     np.testing.assert_array_equal(np.concatenate([numbers for *_, numbers in results]), hosts[located])
-    for sub, parts_of, c_part, _, _ in results:
+    for sub, parts_of, part, _, _ in results:
         n, inner = sub.mesh.n_points, sub.layer <= 2
         nodes = np.concatenate([sub.points, mesh.n_points + sub.cells])
         of_inner = sub.mesh.cell_points[np.repeat(inner, np.diff(sub.mesh.cell_point_start))]
@@ -177,7 +175,9 @@ def test_nodes_compute_the_flow_of_the_whole(shape, random, monkeypatch):
         tets = np.concatenate([np.arange(*mesh.cell_start[c : c + 2]) for c in sub.cells[inner]])
         owned = np.concatenate([np.arange(*sub.mesh.cell_start[c : c + 2]) for c in np.flatnonzero(inner)])
         np.testing.assert_array_equal(nodes[sub.mesh.tets[owned]], mesh.tets[tets])
-        np.testing.assert_array_equal(c_part[owned], correction[tets])
+        middles = sub.mesh.nodes[sub.mesh.tets[owned]].mean(axis=1)
+        there, expected = part.sample(middles, owned, 0.0)[0], flow.sample(middles, tets, 0.0)[0]
+        np.testing.assert_array_equal(there, expected)
 
 
 def test_a_path_out_of_the_layers_of_a_node_is_noted():

@@ -34,7 +34,7 @@ def flowing(mesh):
     boundary = poiseuille(mesh.boundary_centres)
     boundary[walls_of(mesh)] = 0.0
     u, l = Reconstruction(mesh)(poiseuille(mesh.centres), boundary)
-    return MeshFlow(mesh, u, l, correction=Conservation(mesh)(u, l)), MeshFlow(mesh, u, l)
+    return MeshFlow(mesh, u, l, fluxes=Conservation(mesh)(u, l)), MeshFlow(mesh, u, l)
 
 
 def walls_of(mesh):

@@ -82,7 +82,18 @@ class MeshArrays(NamedTuple):
     correction: NDArray[np.float32]
     """(n_tets, 4), 1/s, of the velocity between the nodes (:mod:`foamprb.flow.fluxes`): the additional flux
     through the side opposite each vertex over the volume and the number of the side's nodes that lie on no
-    wall. No rows for no correction."""
+    wall; see :mod:`foamprb.flow.correction`. No rows for no correction."""
+    phi: Floats
+    """(n_faces,) fluxes out of the owners of the faces that keep volume, m³/s, from which the correction
+    follows; NaN for no correction."""
+    owner: Ints
+    """(n_faces,)."""
+    face_start: Ints
+    """(n_faces + 1,): face f has ``face_start[f + 1]`` − ``face_start[f]`` points."""
+    cell_face_start: Ints
+    """(n_cells + 1,) into ``cell_faces``."""
+    cell_faces: Ints
+    """Faces of each cell, in the order of its tetrahedra."""
     strayed: Ints
     """(1,) set to 1 by a path that leaves the cells of a node, through a triangle of the patch −2."""
 
@@ -100,6 +111,7 @@ def no_mesh() -> MeshArrays:
     empty |= {name: np.empty((0, columns)) for name, columns in _FLOATS.items()}
     empty |= {name: np.empty((0, columns), dtype=np.int32) for name, columns in _TABLES.items()}
     empty |= {"folds": np.empty(0, dtype=np.uint8), "correction": np.empty((0, 4), dtype=np.float32)}
+    empty |= {"phi": np.empty(0)}
     return MeshArrays(**empty | {"n_points": 0})
 
 

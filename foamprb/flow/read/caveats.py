@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.dictionary.dimensions import MASS_FLUX
 from foamprb.dictionary.files import existing, read_bytes
@@ -46,8 +45,8 @@ ROUND_OFF = 1e-9
 """Fraction of the largest velocity times the area of the boundary by which they must differ, too."""
 
 
-def corrected(conserve: Conservation, *values: Any, notes: list[Any]) -> NDArray[np.float32] | None:
-    """Return the correction of a steady flow; None, and a caveat in ``notes``, if there is none."""
+def balanced(conserve: Conservation, *values: Any, notes: list[Any]) -> Floats | None:
+    """Return the fluxes of a steady flow; None, and a caveat in ``notes``, if they cannot be balanced."""
     try:
         return conserve(*values)
     except UnbalancedFlowError as error:
@@ -55,13 +54,13 @@ def corrected(conserve: Conservation, *values: Any, notes: list[Any]) -> NDArray
         return None
 
 
-def corrected_in_time(conserve: Conservation, *values: Any, accept: Sequence[str]) -> NDArray[np.float32]:
-    """Return the correction at a time of a transient flow; zeros if there is none, and this is accepted.
+def balanced_in_time(conserve: Conservation, *values: Any, accept: Sequence[str]) -> Floats:
+    """Return the fluxes at a time of a transient flow; NaN if they cannot be balanced, and this is accepted.
 
     Raises
     ------
     InputError
-        If there is none, and this is not accepted.
+        If they cannot be balanced, and this is not accepted.
     """
     try:
         return conserve(*values)
@@ -69,7 +68,7 @@ def corrected_in_time(conserve: Conservation, *values: Any, accept: Sequence[str
         if "unbalanced" not in accept:
             raise InputError(f"{error} Allowed: to go on, solution/accept ( unbalanced ).") from None
         log.warning("%s", error)
-        return np.zeros((conserve.n_tets, 4), dtype=np.float32)
+        return np.full(conserve.n_faces, np.nan)
 
 
 def caveats_of_case(

@@ -26,7 +26,7 @@ from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.patches import VALUELESS
-from foamprb.flow.read.caveats import corrected, corrected_in_time
+from foamprb.flow.read.caveats import balanced, balanced_in_time
 from foamprb.flow.read.checks import require_numbers, require_volumes
 from foamprb.flow.read.division import (
     boundary_velocity,
@@ -93,8 +93,8 @@ def read_mesh_file(
     field = _NodalVelocity(path, file, velocity, gradient, scale)
     u, l = field(file.grid, file.surfaces)
     notes: list[str] = [*file.notes, *field.notes]
-    correction = corrected(field.conserve, u, l, CONSTANT, path, notes=notes)
-    return MeshFlow(file.mesh, u, l, notes, correction=correction)
+    fluxes = balanced(field.conserve, u, l, CONSTANT, path, notes=notes)
+    return MeshFlow(file.mesh, u, l, notes, fluxes=fluxes)
 
 
 def read_mesh_series(
@@ -148,7 +148,7 @@ def read_mesh_series(
             )
         u, l = field(now.grid, now.surfaces)
         where = f"{path}, time {name}"
-        return u, l, corrected_in_time(field.conserve, u, l, CONSTANT, where, accept=accept)
+        return u, l, balanced_in_time(field.conserve, u, l, CONSTANT, where, accept=accept)
 
     notes = [*file.notes, *field.notes]
     return series_of(path, file.mesh, list(names), read, period, notes, conservative=True)

@@ -36,10 +36,10 @@ from foamprb.flow.read.case import (
     select_times,
 )
 from foamprb.flow.read.caveats import (
+    balanced,
+    balanced_in_time,
     caveat_of_flux,
     caveats_of_case,
-    corrected,
-    corrected_in_time,
     is_unsteady,
     pseudo_time,
     refuse_absolute,
@@ -272,7 +272,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity, case.comm)
     notes: list[Any] = [*case.notes, *whole.notes]
     file = (case.folder(name) / source.velocity).relative_to(case.root)
-    correction = corrected(conserve, u, l, mass, file, notes=notes)
+    fluxes = balanced(conserve, u, l, mass, file, notes=notes)
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     caveats = _caveats(case, name, source, relative=bool(rotations))
@@ -290,7 +290,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     ]
     zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
     viscosity = more[-1] if source.viscosity else None
-    given = whole.mesh, u, l, notes, zones, name, turbulence, correction, viscosity
+    given = whole.mesh, u, l, notes, zones, name, turbulence, fluxes, viscosity
     flow = RotatingFlow(rotating, *given) if rotating else case.make(MeshFlow, *given)
     if sampled is not None:
         flow.field_table, flow.field_columns = sampled
@@ -330,8 +330,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         index = names.index(name)
         mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity, case.comm)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
-        correction = corrected_in_time(conserve, u, l, mass, where, accept=source.accept)
-        return (u, l, *more, *([sampled(name)[0]] if kinds else []), correction)
+        fluxes = balanced_in_time(conserve, u, l, mass, where, accept=source.accept)
+        return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes)
 
     notes = [*notes, *case.notes, *whole.notes]
     notes += _caveats(case, names[-1], source, moving=False)
