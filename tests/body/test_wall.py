@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from strategies import flat, mild_stretches, rotations, square, tensors
 from validation.references import wall as ref
+from validation.references.near_wall import sphere_along_wall
 
 from foamprb.body.drag import oberbeck
 from foamprb.body.ellipsoid import integrals, reach
@@ -257,12 +258,38 @@ def test_normal_mobility_far_from_the_wall_and_in_touch_with_it():
     assert normal_mobility(1.0 / (1.0 + 1e-4)) / 1e-4 == pytest.approx(1.0, rel=1e-3)
 
 
-def test_parallel_mobility_is_that_of_goldman_cox_and_brenner():
+def speed_in_shear(h):
+    """U/(γ̇ h) of a rigid unit sphere, with two reflections of its stresslet."""
+    C, free = flat(np.eye(3)), 5.0 * VOLUME * square(sym(flat(ref.SHEAR_OVER_WALL)))
+    S = free
+    for _ in range(2):
+        S = free + 5.0 * VOLUME * square(sym(stresslet_gradient(flat(S), C, UP, h, 1.0)))
+    return 1.0 + stresslet_velocity(flat(S), C, UP, h, 1.0)[0] / h
+
+
+@pytest.mark.parametrize("h", [1.003, 1.01, 1.0453, 1.1276, 1.3, 1.5431, 2.3524, 3.7622, 10.0677])
+def test_a_sphere_moves_along_a_wall_as_in_the_exact_solution(h):
+    exact = sphere_along_wall(h)
+    assert parallel_mobility(1.0 / h) == pytest.approx(exact.mobility, rel=4e-3)
+    assert speed_in_shear(h) == pytest.approx(exact.speed, rel=1e-3)
+
+
+def test_the_exact_solution_has_the_published_drag():
     for h, drag in ref.GOLDMAN_COX_BRENNER:
-        assert 1.0 / parallel_mobility(1.0 / h) == pytest.approx(drag, rel=0.011)
-        excess = {10.0677: 0.595, 3.7622: 0.654, 2.3524: 0.724, 1.5431: 0.876}[h]
-        assert (drag - 1.0) * h == pytest.approx(excess, abs=6e-4)
+        assert sphere_along_wall(h).drag == pytest.approx(drag, rel=1e-4)
     assert (1.0 / parallel_mobility(1e-5) - 1.0) / 1e-5 == pytest.approx(0.5625, rel=1e-4)
+
+
+@pytest.mark.parametrize("gap", [1e-4, 1e-6, 1e-8])
+def test_a_sphere_stops_in_contact(gap):
+    """The resistances of lubrication (Goldman, Cox & Brenner 1967), of order ln(R/gap) and 1."""
+    L = -np.log(gap)
+    coupling = 2 / 15 * L - 0.2526
+    resistance = [[8 / 15 * L + 0.9588, -coupling], [-0.75 * coupling, 0.4 * L + 0.3817]]
+    speed = np.linalg.solve(resistance, [1.7005, 0.5 * 0.9440])[0]
+    mobility = np.linalg.solve(resistance, [1.0, 0.0])[0]
+    assert speed_in_shear(1.0 + gap) == pytest.approx(speed, rel=2e-3)
+    assert parallel_mobility(1.0 / (1.0 + gap)) == pytest.approx(mobility, rel=4e-3)
 
 
 @pytest.mark.parametrize("h", [1.3, 2.0, 5.0])

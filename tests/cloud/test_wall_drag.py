@@ -60,8 +60,8 @@ def carried(p, g, dt, steps, **more):
 
 
 def mobilities(e):
-    """Of a sphere along and across a wall, by Faxén and by Schäffer et al., over that without."""
-    along = 1 - 9 * e / 16 + e**3 / 8 - 45 * e**4 / 256 - e**5 / 16
+    """Of a sphere along and across a wall (Schäffer et al.), over that without."""
+    along = 1 / (1 - np.log(1 - e) / 2 + e / 16 + 17 * e**2 / 256 - 0.1137 * e**3 + 0.0559 * e**4)
     across = 1 - 9 * e / 8 + e**3 / 2 - 57 * e**4 / 100 + e**5 / 5 + 7 * e**11 / 200 - e**12 / 25
     return along, across
 

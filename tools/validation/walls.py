@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -14,8 +15,10 @@ from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from validation.case import Figure, Floats, Outcome, Panel, Row, compared
 from validation.references import wall as ref
+from validation.references.near_wall import sphere_along_wall
 
 STRESSLET = "stresslet of the solid's side, and its image"
+EXACT = "exact solution in bispherical coordinates"
 AROUND = "Stokes flow around the body above the wall"
 R, RATE, MU_F, RHO = 1e-6, 100.0, 1e-3, 1000.0
 
@@ -40,6 +43,11 @@ def lift(quick: bool) -> Outcome:
     rows.append(
         Row("stiff sphere: lag h²/(γ̇R³) at 20R", float(lag), 0.3125, "5/16, its image", 0.01, relative=True)
     )
+    near = np.array([3.7622, 2.3524, 1.5431, 1.1276, 1.0453, 1.01])
+    beside = _carried(near, np.full(len(near), 1e-4), 2, 1e-3 / RATE)
+    for h, v, x in zip(near, beside.v[:, 0], beside.x[:, 2], strict=True):
+        exact = sphere_along_wall(float(h)).speed
+        rows.append(Row(f"rigid sphere, h = {h:g}R: U/(γ̇h)", float(v / (RATE * x)), exact, EXACT, 1e-2, True))
     curves = []
     starts = ((10.0, 2e-3), (5.0, 4e-3), (3.0, 1e-2), (2.0, 0.04), (1.5, 0.08))
     for colour, Ca in enumerate((0.1,) if quick else (0.05, 0.1, 0.2)):
@@ -73,10 +81,13 @@ def mobility(quick: bool) -> Outcome:
         title = f"across the wall, h = {h:g}R: speed over that without wall"
         rows.append(Row(title, float(v), 1.0 / ref.brenner_drag(h), "Brenner (1961)", 6e-3, relative=True))
     for h, drag in ref.GOLDMAN_COX_BRENNER:
+        title = f"drag along the wall without turning, h = {h:g}R, over that without wall"
+        source = "Goldman, Cox & Brenner (1967)"
+        rows.append(Row(title, sphere_along_wall(h).drag, drag, source, 1e-4, relative=True))
+    for h in (3.7622, 1.5431, 1.0453) if quick else (10.0677, 3.7622, 2.3524, 1.5431, 1.1276, 1.0453, 1.02):
         v = _settling(h, (9.81, 0.0, 0.0))[0] / speed
         title = f"along the wall, h = {h:g}R: speed over that without wall"
-        source = "Goldman, Cox & Brenner (1967)"
-        rows.append(Row(title, float(v), 1.0 / drag, source, 0.015, relative=True))
+        rows.append(Row(title, float(v), sphere_along_wall(h).mobility, EXACT, 6e-3, relative=True))
     for place, share, allowed in (("midway", 0.5, 0.02), ("a quarter of the way", 0.25, 0.03)):
         for e in (0.1, 0.3, 0.5):
             v = _settling(1.0 / e, (9.81, 0.0, 0.0), 1.0 / (share * e))[0] / speed
@@ -86,7 +97,7 @@ def mobility(quick: bool) -> Outcome:
     for number in (1.0,) if quick else (0.1, 1.0, 10.0):
         ours, theirs = _onto_slope(number)
         title = f"with inertia, v_s τ/R = {number:g}, onto a slope from 4R to 1.1R: "
-        source = "its equation of motion, Faxén and Schäffer et al."
+        source = "its equation of motion, the exact solution and Schäffer et al."
         rows.append(Row(f"{title}way along it, over R", ours[0], theirs[0], source, 2e-3, relative=True))
         rows.append(Row(f"{title}height, over R", ours[1], theirs[1], source, 2e-3, relative=True))
     return Outcome(rows, [], [])
@@ -97,10 +108,12 @@ def _onto_slope(number: float) -> tuple[tuple[float, float], tuple[float, float]
 
     Lengths are in radii R, times in τ, in which drag stops it far from walls; it falls ``number`` of them.
     """
+    inverse = np.linspace(0.2, 0.95, 26)
+    along_wall = CubicSpline(inverse, [sphere_along_wall(1.0 / float(e)).mobility for e in inverse])
 
     def rate(_t: float, y: Floats) -> tuple[float, float, float, float]:
         e = 1.0 / y[1]
-        along = 1 - 9 * e / 16 + e**3 / 8 - 45 * e**4 / 256 - e**5 / 16
+        along = float(along_wall(e))
         across = 1 - 9 * e / 8 + e**3 / 2 - 57 * e**4 / 100 + e**5 / 5 + 7 * e**11 / 200 - e**12 / 25
         return y[2], y[3], 0.6 * number - y[2] / along, -0.8 * number - y[3] / across
 
