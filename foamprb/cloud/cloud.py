@@ -168,7 +168,7 @@ class Cloud:
             self.interactions,
             self.dt,
             self.start,
-            shaped=any(self.map_ranks(_is_shaped)),
+            shaped=any(self.map_ranks(is_shaped)),
             tense=tense,
             patches=self.flow.patches,
             columns=columns_of(self.flow),
@@ -545,7 +545,8 @@ def _is_tense(p: Particles) -> bool:
     return bool((p.gamma != 0.0).any())
 
 
-def _is_shaped(p: Particles) -> bool:
+def is_shaped(p: Particles) -> bool:
+    """Return whether a particle at rest is not a sphere."""
     return bool((np.eye(3).ravel() != p.F0).any())
 
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping
-from functools import cache, partial
+from dataclasses import dataclass
+from functools import cache, cached_property, partial
 from types import MappingProxyType
 from typing import Annotated, Any, NamedTuple
 
@@ -74,7 +75,6 @@ class MeasureRows(NamedTuple):
     """Rows of computed values below the rows of a block."""
 
     gradient: Annotated[int, Row(9, "1", "F·F₀⁻¹, the deformation gradient from the shape at rest")]
-    glyph: Annotated[int, Row(9, "m", "columns of R F one after the other")]
     axes: Annotated[int, Row(3, "m", "semi-axes in falling order")]
     orientation: Annotated[int, Row(4, "1", "the frame's quaternion w, x, y, z")]
     stresslet: Annotated[int, Row(6, "N m", "components xx yy zz xy yz xz")]
@@ -90,30 +90,6 @@ _FIRST = tuple(result)
 _SIZES = dict(zip(result._fields, np.diff((*result, ALL_ROWS)).tolist(), strict=True))
 
 
-class Context(NamedTuple):
-    """Particles with the values that several measures share."""
-
-    particles: Particles
-    F: Tensor
-    frame: Tensor
-    """Particle frame, axes in falling order of length."""
-    stretches: tuple[Floats, Floats, Floats]
-    """In the same order."""
-    u: Floats
-    """(n, 3), velocity of the fluid at the centres, m/s; NaN where the fluid is unknown."""
-    l_f: Tensor
-    """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
-    values: Mapping[str, Floats]
-    """Values of :class:`MeasureRows` of all particles by name, (n, k)."""
-    rows: NDArray[np.int64]
-    """Row numbers in the whole cloud."""
-    time: float
-    mu: Floats
-    """(n,), viscosity of the fluid at the centres, Pa s; NaN where it varies and the fluid is unknown."""
-    fields: Callable[[], Mapping[str, FieldValues]]
-    """Returns the sampled fields of the case at the centres, by :func:`name_of_field`."""
-
-
 class FlowSamples(NamedTuple):
     """Flow at the particles of a cloud at one time; NaN where the fluid is unknown."""
 
@@ -127,13 +103,94 @@ class FlowSamples(NamedTuple):
     """Sampled fields of the case."""
 
 
+@dataclass(frozen=True)
+class Context:
+    """Particles with the values that several measures share, each computed when it is first requested.
+
+    Parameters
+    ----------
+    particles
+        The particles, all of them injected.
+    rows
+        Row numbers in the whole cloud.
+    time
+        Time of the state, s.
+    sampled
+        Returns the flow at the centres, with its viscosity.
+    fields
+        Returns the sampled fields of the case at the centres, by :func:`name_of_field`.
+    """
+
+    particles: Particles
+    rows: NDArray[np.int64]
+    time: float
+    sampled: Callable[[], FlowSamples]
+    fields: Callable[[], Mapping[str, FieldValues]]
+
+    @property
+    def F(self) -> Tensor:
+        """Deformation gradient from the unit sphere."""
+        return tuple(self.particles.F.T)
+
+    @property
+    def frame(self) -> Tensor:
+        """Particle frame, axes in falling order of length."""
+        return tuple(self._shape[0][:9])
+
+    @property
+    def stretches(self) -> tuple[Floats, Floats, Floats]:
+        """Principal stretches, in the order of the axes."""
+        return tuple(self._shape[0][9:])
+
+    @property
+    def u(self) -> Floats:
+        """Velocity of the fluid at the centres, (n, 3), m/s; NaN where the fluid is unknown."""
+        return self._flow.u
+
+    @property
+    def l_f(self) -> Tensor:
+        """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
+        return tuple(self._flow.l_f.T)
+
+    @property
+    def mu(self) -> Floats:
+        """Viscosity of the fluid, (n,), Pa s; NaN where it varies and the fluid is unknown."""
+        assert self._flow.mu is not None
+        return self._flow.mu
+
+    def value(self, name: str) -> Floats:
+        """Return one of :class:`MeasureRows`, (n, k)."""
+        return (self._load if name in _OF_FLOW else self._shape)[1][name]
+
+    @cached_property
+    def _flow(self) -> FlowSamples:
+        return self.sampled()
+
+    @cached_property
+    def _load(self) -> tuple[Floats, dict[str, Floats]]:
+        """Frames and stretches, (12, n), and the :class:`MeasureRows`."""
+        return _computed(self.particles, self._flow.l_f, self.mu)
+
+    @cached_property
+    def _shape(self) -> tuple[Floats, dict[str, Floats]]:
+        """As :attr:`_load`, but without the flow if nothing else has sampled it."""
+        if "_flow" in self.__dict__:
+            return self._load
+        n = self.particles.size
+        return _computed(self.particles, np.full((n, 9), np.nan), np.full(n, np.nan))
+
+
+_OF_FLOW = frozenset({"stresslet", "rate", "viscosity"})
+"""The :class:`MeasureRows` that depend on the flow."""
+
+
 class Measure(NamedTuple):
     """Reported quantity: its unit, and the function that computes it for all particles."""
 
     unit: str
     value: Callable[[Context], NDArray[Any]]
-    optional: bool = False
-    """Whether files contain it on request only."""
+    of_flow: bool = False
+    """Whether it depends on the flow at the particle."""
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -181,7 +238,6 @@ def report_stage(block: Any) -> None:
         block[result.orientation * LANES + i] = w
         store3(block, result.orientation + 1, i, (x, y, z))
         J, R = det(F), block[at.R * LANES + i]
-        store9(block, result.glyph, i, scale(R, transpose(F)))
         store3(block, result.axes, i, (R * stretches[0], R * stretches[1], R * stretches[2]))
         block[result.volume_ratio * LANES + i] = J
         l, body = load9(block, at.l, i), dot(load9(block, at.A, i), inverse(F))
@@ -350,7 +406,13 @@ def largest_slip(p: Particles, medium: Medium) -> float:
 
 def _value(name: str) -> Callable[[Context], Floats]:
     """Return a function that reads a value of :class:`MeasureRows` by its name."""
-    return lambda c: c.values[name] if _SIZES[name] > 1 else c.values[name][:, 0]
+    return lambda c: c.value(name) if _SIZES[name] > 1 else c.value(name)[:, 0]
+
+
+def _glyph(c: Context) -> Floats:
+    """Return the columns of R F, one after the other, (n, 9), m."""
+    p = c.particles
+    return np.asarray((p.R[:, None] * p.F).reshape(-1, 3, 3).swapaxes(1, 2).reshape(-1, 9))
 
 
 MEASURES: dict[str, Measure] = {
@@ -361,23 +423,23 @@ MEASURES: dict[str, Measure] = {
     "origId": Measure("", lambda c: c.rows),
     "active": Measure("", lambda c: c.particles.status == Status.ACTIVE),
     "deformationGradient": Measure("1", _value("gradient")),
-    "glyph": Measure("m", _value("glyph")),
+    "glyph": Measure("m", _glyph),
     "semiAxes": Measure("m", _value("axes")),
     "orientation": Measure("1", _value("orientation")),
     "taylorDeformation": Measure("1", lambda c: taylor_deformation(c.stretches[0], c.stretches[2])),
-    "stresslet": Measure("N m", _value("stresslet")),
+    "stresslet": Measure("N m", _value("stresslet"), of_flow=True),
     "J": Measure("1", _value("volume_ratio")),
     "angularVelocity": Measure("1/s", _value("spin")),
-    "shearRate": Measure("1/s", _value("rate")),
-    "capillaryNumber": Measure("1", lambda c: c.mu * c.values["rate"][:, 0] / c.particles.mu),
+    "shearRate": Measure("1/s", _value("rate"), of_flow=True),
+    "capillaryNumber": Measure("1", lambda c: c.mu * c.value("rate")[:, 0] / c.particles.mu, of_flow=True),
     "status": Measure("", lambda c: c.particles.status),
     "reason": Measure("", lambda c: c.particles.reason),
     "patch": Measure("", lambda c: c.particles.patch),
     "injector": Measure("", lambda c: c.particles.injector),
-    "Uc": Measure("m/s", lambda c: carrier_velocity(c.particles, c.u), optional=True),
-    "Ur": Measure("m/s", lambda c: c.particles.v - carrier_velocity(c.particles, c.u), optional=True),
-    "muc": Measure("Pa s", _value("viscosity"), optional=True),
-    "swimmingDirection": Measure("1", lambda c: swimming_direction(c.particles), optional=True),
+    "Uc": Measure("m/s", lambda c: carrier_velocity(c.particles, c.u), of_flow=True),
+    "Ur": Measure("m/s", lambda c: c.particles.v - carrier_velocity(c.particles, c.u), of_flow=True),
+    "muc": Measure("Pa s", lambda c: c.mu, of_flow=True),
+    "swimmingDirection": Measure("1", lambda c: swimming_direction(c.particles)),
 }
 """Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
 
@@ -417,7 +479,9 @@ def fields_at(flow: Sampled, x: Floats, hosts: NDArray[np.int32], t: Any) -> dic
     return {name_of_field(c.name): values[c.name] for c in columns}
 
 
-OPTIONAL = tuple(name for name, measure in MEASURES.items() if measure.optional)
+WRITTEN = ("U", "d", "rho", "age", "origId", "glyph", "status", "reason", "patch", "injector")
+"""Names of the measures that every file of a cloud contains."""
+REQUESTED = tuple(name for name in MEASURES if name not in WRITTEN)
 """Names of the measures that files contain on request only."""
 
 
@@ -489,9 +553,12 @@ def released(particles: Particles, flow: Sampled, time: float) -> Particles:
     return particles._replace(status=np.where(now, Status.ACTIVE, particles.status).astype(np.int8), v=v)
 
 
-def measure(c: Context, further: Collection[str] = ()) -> dict[str, NDArray[Any]]:
-    """Return all :data:`MEASURES` by name; of the optional ones, only the ``further``."""
-    return {name: np.asarray(m.value(c)) for name, m in MEASURES.items() if name in further or not m.optional}
+def measure(c: Context, names: Collection[str] = tuple(MEASURES)) -> dict[str, NDArray[Any]]:
+    """Return some of the :data:`MEASURES` by name, by default all, in their order."""
+    # The measures of the flow first: the kernel computes the shape with them.
+    order = sorted(names, key=lambda name: not MEASURES[name].of_flow)
+    values = {name: np.asarray(MEASURES[name].value(c)) for name in order}
+    return {name: values[name] for name in MEASURES if name in values}
 
 
 def shapes(particles: Particles) -> tuple[Floats, Floats]:
@@ -507,14 +574,21 @@ def shapes(particles: Particles) -> tuple[Floats, Floats]:
 
 
 def flow_samples(
-    particles: Particles, flow: Sampled, time: float, mu: float | VaryingViscosity = math.nan
+    particles: Particles,
+    flow: Sampled,
+    time: float,
+    mu: float | VaryingViscosity = math.nan,
+    names: Collection[str] = tuple(MEASURES),
 ) -> FlowSamples:
-    """Return the flow at a time (s) at the injected particles of a cloud, with its viscosity if it varies."""
+    """Return the flow at a time (s) at the injected particles of a cloud, for some of the :data:`MEASURES`.
+
+    Its viscosity is sampled if it varies, its velocity if one of the measures depends on the flow.
+    """
     u, l_f = np.full((particles.size, 3), np.nan), np.full((particles.size, 9), np.nan)
     mu_f = np.full(particles.size, np.nan) if isinstance(mu, VaryingViscosity) else None
     rows = injected(particles)
     fields = fields_at(flow, particles.x, particles.host, time)
-    for start in range(0, len(rows), PER_CONTEXT):
+    for start in range(0, len(rows), PER_CONTEXT) if any(MEASURES[name].of_flow for name in names) else ():
         part = as_slice(rows[start : start + PER_CONTEXT])
         x, hosts = particles.x[part], particles.host[part]
         u[part], l_f[part] = _sampled(x, hosts, flow, time)
@@ -533,29 +607,43 @@ def _prepare(
 ) -> Context:
     index = as_slice(rows)
     p = particles.take(index)
-    if isinstance(flow, FlowSamples):
-        u, l, sampled = flow.u[index], flow.l_f[index], flow.mu
-        sampled_fields = {name: FieldValues(f.values[index], f.unit) for name, f in flow.fields.items()}
-    else:
-        u, l = _sampled(p.x, p.host, flow, time)
-        sampled = None
-    mu_f = viscosity_of(mu, flow, p.x, p.host, l, time) if sampled is None else sampled[index]
-    mu_f = np.full(len(rows), mu_f)
-    frames, block = np.empty((12, len(rows))), new_block(ALL_ROWS)
-    values = {name: np.empty((len(rows), size)) for name, size in _SIZES.items()}
-    _kernel()(
-        p.F, p.A, p.Q, p.F0, p.R, p.mu, p.eta, p.drop, l, mu_f, block, frames, tuple(values.values())
-    )  # fmt: skip
-    F, frame, l_f = tuple(p.F.T), tuple(frames[:9]), tuple(l.T)
-    numbers = rows if ids is None else ids[rows]
-    fields = (
-        (lambda: sampled_fields)
-        if isinstance(flow, FlowSamples)
-        else partial(fields_at, flow, p.x, p.host, time)
-    )
     return Context(
-        p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, values, numbers, time, mu_f, fields
+        p,
+        rows if ids is None else ids[rows],
+        time,
+        partial(_samples, p, index, flow, mu, time),
+        partial(_fields, p, index, flow, time),
     )
+
+
+def _samples(
+    p: Particles, index: Any, flow: Sampled | FlowSamples, mu: float | VaryingViscosity, time: float
+) -> FlowSamples:
+    """Return the flow at particles with its viscosity; they are some rows of stored samples."""
+    if isinstance(flow, FlowSamples):
+        u, l, mu_f = flow.u[index], flow.l_f[index], None if flow.mu is None else flow.mu[index]
+    else:
+        (u, l), mu_f = _sampled(p.x, p.host, flow, time), None
+    if mu_f is None:
+        mu_f = np.full(p.size, viscosity_of(mu, flow, p.x, p.host, l, time))
+    return FlowSamples(u, l, mu_f)
+
+
+def _fields(p: Particles, index: Any, flow: Sampled | FlowSamples, time: float) -> dict[str, FieldValues]:
+    """Return the sampled fields at particles; they are some rows of stored samples."""
+    if isinstance(flow, FlowSamples):
+        return {name: FieldValues(f.values[index], f.unit) for name, f in flow.fields.items()}
+    return fields_at(flow, p.x, p.host, time)
+
+
+def _computed(p: Particles, l: Floats, mu: Floats) -> tuple[Floats, dict[str, Floats]]:
+    """Return the results of the kernel: frames and stretches, (12, n), and the :class:`MeasureRows`."""
+    frames, block = np.empty((12, p.size)), new_block(ALL_ROWS)
+    values = {name: np.empty((p.size, size)) for name, size in _SIZES.items()}
+    _kernel()(
+        p.F, p.A, p.Q, p.F0, p.R, p.mu, p.eta, p.drop, l, mu, block, frames, tuple(values.values())
+    )  # fmt: skip
+    return frames, values
 
 
 @cache

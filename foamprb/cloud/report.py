@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.measures import (
     MEASURES,
+    WRITTEN,
     FlowSamples,
     contexts,
     injected,
@@ -21,33 +24,51 @@ from foamprb.flow.base import Sampled
 from foamprb.results.vtk import Parts, PointCloud
 
 
+class Contents(NamedTuple):
+    """Arrays of the files of a cloud, the same at all times."""
+
+    arrays: tuple[str, ...] = WRITTEN
+    """Names of the measures."""
+    names: Mapping[str, Sequence[str]] = MappingProxyType({})
+    """For each array of codes, the meanings of the codes 0, 1, …."""
+    single: bool = False
+    """Whether numbers have single precision."""
+    single_places: bool = False
+    """Whether positions have single precision."""
+
+
 def report(
     particles: Particles,
     flow: Sampled | FlowSamples,
     mu: float | VaryingViscosity,
     time: float,
-    names: Mapping[str, Sequence[str]],
-    further: Collection[str] = (),
+    contents: Contents,
     ids: NDArray[np.int64] | None = None,
 ) -> Parts:
-    """Return all measures and sampled fields of the injected particles, computed part by part on request.
+    """Return measures and sampled fields of the injected particles, computed part by part on request.
 
     Parameters
     ----------
     particles, flow, mu, time, ids
         See :func:`foamprb.cloud.measures.context`.
-    names
-        For each array of codes, the meanings of the codes 0, 1, ….
-    further
-        Names of the optional measures to include.
+    contents
+        The arrays.
     """
-    units = {name: m.unit for name, m in MEASURES.items() if name in further or not m.optional}
+    units = {name: MEASURES[name].unit for name in contents.arrays}
 
     def parts() -> Iterator[PointCloud]:
         for c in contexts(particles, flow, mu, time, ids):
             fields = c.fields()
-            arrays = measure(c, further) | {name: f.array for name, f in fields.items()}
+            arrays = measure(c, contents.arrays) | {name: f.array for name, f in fields.items()}
+            if contents.single:
+                arrays = {name: _single(array) for name, array in arrays.items()}
             all_units = units | {name: f.unit for name, f in fields.items()}
-            yield PointCloud(time, c.particles.x, arrays, all_units, names)
+            x = _single(c.particles.x) if contents.single_places else c.particles.x
+            yield PointCloud(time, x, arrays, all_units, contents.names)
 
     return Parts(time, number_of_contexts(len(injected(particles))), parts())
+
+
+def _single(array: NDArray[Any]) -> NDArray[Any]:
+    """Return numbers in single precision; integers unchanged."""
+    return array.astype(np.float32) if array.dtype == np.float64 else array

@@ -15,7 +15,7 @@ from __future__ import annotations
 import logging
 import pickle
 import time as clock
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -27,6 +27,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.communicator import Arrays, Communicator, Value, parts_of
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.measures import largest_slip
+from foamprb.cloud.report import Contents
 from foamprb.cloud.state import VARIABLES, Particles, Status, empty
 from foamprb.cloud.tracker import Outcome
 from foamprb.distributed.exchange import firsts_of, idle_share, plan_exchange
@@ -267,11 +268,9 @@ class Ranks(Communicator):
         """See :meth:`Communicator.piece_files`."""
         return (with_ending(stem, ".pvtp"), *(piece_file(stem, rank) for rank in range(self.size)))
 
-    def write_pieces(
-        self, stem: Path, time: float, names: Mapping[str, Sequence[str]], further: Sequence[str] = ()
-    ) -> Callable[[], Path]:
+    def write_pieces(self, stem: Path, time: float, contents: Contents) -> Callable[[], Path]:
         """See :meth:`Communicator.write_pieces` and :meth:`Worker.write_piece`."""
-        written = self.call(Worker.write_piece, stem, time, names, further)
+        written = self.call(Worker.write_piece, stem, time, contents)
         pieces = [piece for piece in written if piece is not None]
         file = with_ending(stem, ".pvtp")
 

@@ -6,7 +6,7 @@ import gc
 import pickle
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from foamprb.cloud.communicator import Arrays, Rank, Share
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.measures import injected
-from foamprb.cloud.report import report
+from foamprb.cloud.report import Contents, report
 from foamprb.cloud.state import Status, empty
 from foamprb.cloud.surroundings.wall_lift import wall_distances
 from foamprb.cloud.tracker import Outcome
@@ -453,9 +453,7 @@ class Worker(Rank):
         sums = {} if self.sampling is None else self.sampling.sums
         yield from ((f"{FUNCTIONS}{name}", array) for name, (_, array) in sums.items())
 
-    def write_piece(
-        self, folder: Path, time: float, names: Mapping[str, Sequence[str]], further: Sequence[str] = ()
-    ) -> Piece | None:
+    def write_piece(self, folder: Path, time: float, contents: Contents) -> Piece | None:
         """Write the particles; return the file and its arrays.
 
         Without particles only the first process writes a file.
@@ -466,16 +464,14 @@ class Worker(Rank):
             Folder of the pieces.
         time
             Time of the state, s.
-        names
-            For each array of codes, the meanings of the codes 0, 1, ….
-        further
-            Names of the optional measures to write.
+        contents
+            The arrays to write.
         """
         if self.number and not len(injected(self.particles)):
             return None
         file, mu = piece_file(folder, self.number), self.tracker.mu
         return file, write_snapshot(
-            file, report(self.particles, self.seen, mu, time, names, further, self.particles.number)
+            file, report(self.particles, self.seen, mu, time, contents, self.particles.number)
         )
 
     def serve(self, signals: Sequence[int]) -> int:

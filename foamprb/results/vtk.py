@@ -36,7 +36,7 @@ class PointCloud:
     time
         Time, s.
     points
-        Positions, shape (n, 3), m.
+        Positions, shape (n, 3), m, in double or single precision.
     arrays
         Values at the points by name, each of shape (n,) or (n, k). Each keeps its type, but Booleans become
         0 and 1.
@@ -47,7 +47,7 @@ class PointCloud:
     """
 
     time: float
-    points: NDArray[np.float64]
+    points: NDArray[Any]
     arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     names: Mapping[str, Sequence[str]] = field(default_factory=dict)
@@ -184,7 +184,7 @@ class PieceArray(NamedTuple):
 def layout(snapshot: PointCloud) -> tuple[PieceArray, ...]:
     """Return the declarations of the arrays of a cloud, the points first."""
     kinds = {"f": "Float", "i": "Int", "u": "UInt", "b": "Int"}
-    arrays = {"Points": np.asarray(snapshot.points, dtype=np.float64), **snapshot.arrays}
+    arrays = {"Points": snapshot.points, **snapshot.arrays}
     return tuple(
         PieceArray(
             name,
@@ -323,10 +323,10 @@ def poly_data(snapshot: PointCloud) -> vtkPolyData:
     return data
 
 
-def _points(points: NDArray[np.float64], arrays: Mapping[str, NDArray[Any]]) -> vtkPolyData:
+def _points(points: NDArray[Any], arrays: Mapping[str, NDArray[Any]]) -> vtkPolyData:
     """Return PolyData with points and point arrays, without cells."""
     data, positions = vtkPolyData(), vtkPoints()
-    positions.SetData(_vtk_array("Points", np.asarray(points, dtype=np.float64)))
+    positions.SetData(_vtk_array("Points", points))
     data.SetPoints(positions)
     for name, array in arrays.items():
         data.GetPointData().AddArray(_vtk_array(name, array))

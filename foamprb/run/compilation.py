@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import context, shapes
+from foamprb.cloud.measures import context, measure, shapes
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Tracker, available_threads
 from foamprb.compile.cache import cache_directory
@@ -149,7 +149,7 @@ def compile_run(cloud: Cloud, compilation: Compilation) -> None:
         # The thread that writes measures the particles, and code may not be linked in two threads at once.
         first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
         first.status[:] = Status.ACTIVE
-        context(first, cloud.flow, cloud.medium.mu, cloud.time)
+        measure(context(first, cloud.flow, cloud.medium.mu, cloud.time), ["J"])
         # Of several ranks, each compiles the loop with its first steps.
         if cloud.comm.size == 1:
             with compiling_libs():

@@ -56,7 +56,8 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     """Return texts and sums of arrays, by name, that determine the paths of a cloud before its first step."""
     texts: dict[str, Any] = {"solution/deltaT": cloud.dt}
     # All files of a run have the same arrays.
-    texts |= {"solution/optionalFields": f"({' '.join(settings.solution.optionalFields)})"}
+    texts |= {"solution/writeFields": f"({' '.join(settings.solution.writeFields)})"}
+    texts |= {"solution/writePrecision": settings.solution.writePrecision}
     for field in fields(settings):
         if field.name not in _LEFT_OUT:
             texts |= _leaves(field.name, getattr(settings, field.name))

@@ -13,17 +13,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Cloud, Snapshot, explain, regrouped
+from foamprb.cloud.cloud import Cloud, Snapshot, explain, is_shaped, regrouped
 from foamprb.cloud.limits import Limits
 from foamprb.cloud.measures import (
+    MEASURES,
     PER_CONTEXT,
+    WRITTEN,
     FlowSamples,
     flow_samples,
     number_of_contexts,
     released,
     shapes,
 )
-from foamprb.cloud.report import report
+from foamprb.cloud.report import Contents, report
 from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import STATUS_NAMES
@@ -101,14 +103,7 @@ class Results:
 
     def __init__(self, job: Job, writer: Writer) -> None:
         self._job, self._writer = job, writer
-        self._names = {
-            "status": STATUS_NAMES,
-            "reason": tuple(REASONS[reason] for reason in Reason),
-            "patch": job.patch_names,
-            "injector": job.injector_names,
-        }
-        of_models = [name for model in job.cloud.models.surroundings for name in model.traits.measures]
-        self._further = tuple(dict.fromkeys((*job.settings.solution.optionalFields, *of_models)))
+        self._contents = _contents_of(job)
         self._series = Series(job.folder)
         self.finished = False
         """Whether the run had ended before."""
@@ -247,7 +242,7 @@ class Results:
         p, flow, time = snapshot.particles, snapshot.flow, snapshot.time
         # A transient flow may have gone on to other times by then.
         mu, steady = self._job.cloud.medium.mu, flow.span == (-np.inf, np.inf)
-        seen = flow if steady else flow_samples(p, flow, time, mu)
+        seen = flow if steady else flow_samples(p, flow, time, mu, self._contents.arrays)
         cloud = self._report(p, seen, time)
         return lambda: self._series.append(cloud)
 
@@ -259,13 +254,13 @@ class Results:
         ids: NDArray[np.int64] | None = None,
     ) -> Parts:
         """Return a cloud with the arrays of the run, see :func:`foamprb.cloud.report.report`."""
-        return report(particles, flow, self._job.cloud.medium.mu, time, self._names, self._further, ids)
+        return report(particles, flow, self._job.cloud.medium.mu, time, self._contents, ids)
 
     def _begin_pieces(self, stem: Path) -> Callable[[], object]:
         """Let all ranks write their pieces; return a function that lists them."""
         cloud, time = self._job.cloud, self._job.cloud.time
         cloud.publish()
-        list_pieces = cloud.comm.write_pieces(stem, time, self._names, self._further)
+        list_pieces = cloud.comm.write_pieces(stem, time, self._contents)
         return lambda: self._series.add(time, list_pieces())
 
     def _end_write(
@@ -381,6 +376,34 @@ class Results:
         }
         manifest.remove(sorted(manifest.files - remaining))
         self._manifest = Manifest(job.folder.path, (file for file in remaining if file.exists()))
+
+
+_LARGEST_ERROR = 0.01
+"""Largest error of a position in single precision over the smallest radius of a body."""
+
+
+def _contents_of(job: Job) -> Contents:
+    """Return the arrays of the files of a run."""
+    solution, cloud = job.settings.solution, job.cloud
+    of_models = [name for model in cloud.models.surroundings for name in model.traits.measures]
+    # Of spheres the reader derives it from glyph.
+    of_shapes = ["deformationGradient"] if any(cloud.map_ranks(is_shaped)) else []
+    names = {
+        "status": STATUS_NAMES,
+        "reason": tuple(REASONS[reason] for reason in Reason),
+        "patch": job.patch_names,
+        "injector": job.injector_names,
+    }
+    requested = {*WRITTEN, *solution.writeFields, *of_models, *of_shapes}
+    single = solution.writePrecision == "single"
+    farthest = max(float(np.abs(end).max()) for end in cloud.flow.bounds)
+    error = 0.5 * np.finfo(np.float32).eps * farthest
+    single_places = single and bool(error <= _LARGEST_ERROR * min(cloud.map_ranks(_smallest_radius)))
+    return Contents(tuple(name for name in MEASURES if name in requested), names, single, single_places)
+
+
+def _smallest_radius(p: Particles) -> float:
+    return float(p.R.min(initial=np.inf))
 
 
 def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:

@@ -10,7 +10,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.limits import Limits
-from foamprb.cloud.measures import OPTIONAL
+from foamprb.cloud.measures import REQUESTED
 from foamprb.dictionary.constraints import Bounds, Choice, Fraction, Meaning, NoEffect, Only, Positive, Words
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
@@ -103,16 +103,22 @@ class Solution:
             "`endTime`",
         ),
     ] = math.nan
-    optionalFields: Annotated[
+    writeFields: Annotated[
         Words,
-        Choice(OPTIONAL),
+        Choice(REQUESTED),
         Meaning(
-            "`( name … )`, further arrays of the particles: `Uc`, velocity of the fluid at the centre, with "
-            "that of the eddy; `Ur`, velocity of the particle relative to it; `muc`, viscosity of the fluid "
-            "there; `swimmingDirection`, written in any case with `swimming`",
+            "`( name … )`, further [arrays](reference/files.md#arrays-of-a-cloud) of the particles; those of "
+            "the shape can be derived when the files are read",
             default="none",
         ),
     ] = ()
+    writePrecision: Annotated[
+        Literal["single", "double"],
+        Meaning(
+            "precision of the numbers in the files of the cloud; `single` keeps positions double where their "
+            "error would exceed 1 % of the smallest radius"
+        ),
+    ] = "single"
     startFrom: Annotated[
         StartFrom | None,
         Meaning(

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from inspect import getsource
+
 import numpy as np
 
 from foamprb.cloud.state import Status
 from foamprb.results.atomic import write_text
 from foamprb.results.folder import ResultsFolder
+from foamprb.results.shapes import DERIVED, SOURCES, derived
 from foamprb.results.vtk import write_triangles
 from foamprb.view.colours import LIGHT, colour_map, rgb
 from foamprb.view.geometry import FLAT_TYPES
@@ -39,6 +42,8 @@ POSITION, FOCUS, UP = {position!r}, {focus!r}, {up!r}
 # Fewer bodies are made one by one from glyph, so that a point of the surface keeps its place on the body.
 # 0: always as copies.
 MANY = 20000
+# Arrays that follow from the shape, where the files do not contain them.
+SHAPES = {shapes!r}
 # ParaView runs this text without the name of its file.
 folder = Path(globals().get("__file__", {file!r})).resolve().parent
 view = simple.GetActiveViewOrCreate("RenderView")
@@ -53,8 +58,9 @@ series = simple.PVDReader(registrationName=CLOUD, FileName=str(folder / (CLOUD +
 scene = simple.GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 scene.AnimationTime = view.ViewTime = TIME
+shaped = simple.ProgrammableFilter(registrationName="shapes", Input=series, CopyArrays=1, Script=SHAPES)
 # Bodies that have left the flow, or failed, are not shown.
-cloud = simple.Threshold(registrationName="shown", Input=series)
+cloud = simple.Threshold(registrationName="shown", Input=shaped)
 cloud.Scalars = ["POINTS", "status"]
 cloud.ThresholdMethod = "Between"
 cloud.LowerThreshold, cloud.UpperThreshold = {shown!r}
@@ -134,6 +140,24 @@ view.CameraViewAngle = {angle!r}
 simple.Render(view)
 """
 
+_SHAPES = """\
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+arrays, scope = output.VTKObject.GetPointData(), {{}}
+exec({function!r}, scope)
+names = [name for name in {names!r} if not arrays.HasArray(name)]
+sources = [vtk_to_numpy(arrays.GetArray(name)) for name in {sources!r}]
+for name, values in scope["derived"](*sources, names).items():
+    added = numpy_to_vtk(values.copy(), deep=1)
+    added.SetName(name)
+    arrays.AddArray(added)
+"""
+
+
+def _script_of_shapes() -> str:
+    """Return the script of a filter that adds the arrays that follow from the shape."""
+    function = f"from __future__ import annotations\n\nimport numpy as np\n\n{getsource(derived)}"
+    return _SHAPES.format(function=function, names=tuple(DERIVED), sources=SOURCES)
+
 
 def _colours(scene: Scene) -> list[tuple[float, ...]]:
     """Return the colours of the page: places from 0 to 1, and red, green and blue."""
@@ -174,6 +198,7 @@ def write_state(folder: ResultsFolder, scene: Scene) -> None:
         "focus": camera.focus.tolist(),
         "up": camera.up.tolist(),
         "angle": VIEW_ANGLE,
+        "shapes": _script_of_shapes(),
         "shown": (int(Status.ACTIVE), int(Status.STUCK)),
         "file": str(folder.state.resolve()),
     }

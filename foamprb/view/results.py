@@ -24,6 +24,7 @@ from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.optional import load
 from foamprb.results.folder import FATES, HOW, ResultsFolder
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
+from foamprb.results.shapes import DERIVED, SOURCES, derived
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
 from foamprb.results.vtk_check import is_compressed, require_sizes
@@ -63,7 +64,8 @@ class Run:
     names
         For each array of codes, the meanings of 0, 1, ….
     components
-        Number of components of each point array by name, in the order of the files.
+        Number of components of each point array by name, in the order of the files; then of the arrays that
+        follow from them.
     """
 
     results: ResultsFolder
@@ -179,7 +181,7 @@ class Run:
         return int(np.argmin(np.abs(self.times - time)))
 
     def cloud(self, index: int, arrays: Iterable[str] | None = None) -> PointCloud:
-        """Read the cloud of one time, by default with all its arrays.
+        """Read the cloud of one time, by default with all its arrays and those that follow from them.
 
         Raises
         ------
@@ -189,12 +191,18 @@ class Run:
         entry = self.entries[index]
         path = self.folder / entry.file
         names = tuple(self.components) if arrays is None else tuple(arrays)
-        data = _read(path, names)
+        stored = names if DERIVED.keys().isdisjoint(names) else (*names, *SOURCES)
+        data = _read(path, stored)
         arrays_of_file = _arrays(data.GetPointData())
-        if missing := [name for name in names if name not in arrays_of_file]:
+        # Files contain them if the run was asked to write them.
+        following = [name for name in names if name in DERIVED and name not in arrays_of_file]
+        if missing := [name for name in stored if name not in arrays_of_file and name not in following]:
             raise InputError(
                 f"{path}: no array '{missing[0]}', which other times have; are these the files of one run?"
             )
+        if following:
+            glyph, d, status = (arrays_of_file[name] for name in SOURCES)
+            arrays_of_file |= derived(glyph, d, status, following)
         n = data.GetNumberOfPoints()
         # In a file without bodies VTK does not keep the number of components.
         shapes = {name: (n,) if self.components[name] == 1 else (n, self.components[name]) for name in names}
@@ -336,6 +344,9 @@ def open_run(
         raise InputError(f"{file}: no array '{missing[0]}'; not a cloud that foamprb run wrote.")
     fields = data.GetFieldData()
     units = dict(text.split(" ", 1) for text in _texts(fields, "units"))
+    for name, (unit, number) in DERIVED.items():
+        components.setdefault(name, number)
+        units.setdefault(name, unit)
     names = {key: meanings for key in components if (meanings := _texts(fields, f"{key}Names"))}
     return Run(folder, entries, units, names, components)
 

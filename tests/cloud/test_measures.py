@@ -27,7 +27,6 @@ from foamprb.cloud import measures
 from foamprb.cloud.cloud import longest_semi_axis
 from foamprb.cloud.measures import (
     MEASURES,
-    OPTIONAL,
     context,
     contexts,
     flow_samples,
@@ -35,6 +34,7 @@ from foamprb.cloud.measures import (
     shape_stokes_number,
 )
 from foamprb.cloud.state import Particles, Status
+from foamprb.results.shapes import DERIVED, derived
 
 MU = 1.8e-5
 N = 70
@@ -120,11 +120,11 @@ def test_quaternion_is_that_of_any_rotation():
 
 @pytest.mark.parametrize("size", [1, 5, 33])
 def test_a_few_at_a_time_are_the_same_bits(cloud, flow, size, monkeypatch):
-    whole = measure(context(cloud, flow, MU, 0.0), OPTIONAL)
+    whole = measure(context(cloud, flow, MU, 0.0))
     monkeypatch.setattr(measures, "PER_CONTEXT", size)
-    parts = [measure(c, OPTIONAL) for c in contexts(cloud, flow, MU, 0.0)]
+    parts = [measure(c) for c in contexts(cloud, flow, MU, 0.0)]
     assert len(parts) == measures.number_of_contexts(N - 2)
-    kept = [measure(c, OPTIONAL) for c in contexts(cloud, flow_samples(cloud, flow, 0.0), MU, 0.0)]
+    kept = [measure(c) for c in contexts(cloud, flow_samples(cloud, flow, 0.0), MU, 0.0)]
     for name in MEASURES:
         for found in (parts, kept):
             assert np.concatenate([part[name] for part in found]).tobytes() == whole[name].tobytes(), name
@@ -140,15 +140,45 @@ def test_shares_of_a_cloud_are_the_same_bits(cloud, flow):
             assert values.tobytes() == whole[name][rows].tobytes(), name
 
 
-def test_the_fluids_velocity_is_reported_on_request(cloud, flow):
+def test_velocity_of_the_fluid_contains_eddies(cloud, flow):
     cloud.eddy[:] = np.random.default_rng(1).standard_normal((N, 3))
-    c = context(cloud, flow, MU, 0.0)
-    assert not {"Uc", "Ur"} & measure(c).keys()
-    assert "Uc" not in measure(c, ["Ur"])
-    found = measure(c, ["Uc", "Ur"])
+    found = measure(context(cloud, flow, MU, 0.0))
     p = cloud.take(found["origId"])
     np.testing.assert_array_equal(found["Uc"], flow.sample(p.x, p.host, 0.0)[0] + p.eddy)
     np.testing.assert_array_equal(found["Ur"], found["U"] - found["Uc"])
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_one_measure_alone_is_the_same_bits(cloud, flow, name):
+    """The flow is sampled only for measures that depend on it."""
+
+    class Sampled:
+        n = 0
+
+        def sample(self, *arguments):
+            self.n += 1
+            return flow.sample(*arguments)
+
+    counted = Sampled()
+    alone = measure(context(cloud, counted, MU, 0.0), [name])
+    assert counted.n == MEASURES[name].of_flow
+    assert alone[name].tobytes() == measure(context(cloud, flow, MU, 0.0))[name].tobytes()
+
+
+def test_arrays_derived_from_a_file_are_the_measures(cloud, flow):
+    """The frame is another one if two axes are equal, and its axes may have other signs."""
+    cloud.F0[:] = np.eye(3).ravel()
+    found = measure(context(cloud, flow, MU, 0.0))
+    values = derived(found["glyph"], found["d"], found["status"], tuple(DERIVED))
+    for name in ("active", "deformationGradient", "semiAxes", "taylorDeformation", "J"):
+        np.testing.assert_allclose(values[name], found[name], rtol=1e-12, atol=1e-13 * np.max(found[name]))
+        assert DERIVED[name] == (MEASURES[name].unit, found[name][0].size)
+    axes = Rotation.from_quat(values["orientation"], scalar_first=True).as_matrix()
+    F = found["deformationGradient"].reshape(-1, 3, 3)
+    stretches = values["semiAxes"] / (0.5 * found["d"][:, None])
+    b = axes @ (stretches[:, :, None] ** 2 * axes.transpose(0, 2, 1))
+    np.testing.assert_allclose(b, F @ F.transpose(0, 2, 1), atol=1e-12 * b.max())
+    assert (values["orientation"][:, 0] >= 0.0).all()
 
 
 def test_measures_of_no_particles_are_empty(cloud, flow):
@@ -160,7 +190,7 @@ def test_measures_of_no_particles_are_empty(cloud, flow):
 def test_where_the_flow_is_unknown_so_is_the_load(cloud, flow):
     cloud.host[5] = -1
     cloud.x[6, 1] = np.nan
-    found = measure(context(cloud, flow, MU, 0.0), OPTIONAL)
+    found = measure(context(cloud, flow, MU, 0.0))
     for values in (found["shearRate"], found["Uc"][:, 0], found["Ur"][:, 2]):
         assert np.isnan(values).tolist() == [row in (5, 6) for row in found["origId"]]
     assert np.isfinite(found["semiAxes"]).all()

@@ -46,7 +46,7 @@ def test_a_swimmer_turns_in_shear_and_leaves_walls():
     cloud = cloud_of(p, rate=2.0, direction=(0.0, 0.0, 5.0))
     p.heading[2] = (0.6, 0.0, -0.8)
     cloud.advance(4)
-    d = measure(context(p, cloud.flow, 1e-3, cloud.time), ["swimmingDirection"])["swimmingDirection"]
+    d = measure(context(p, cloud.flow, 1e-3, cloud.time))["swimmingDirection"]
     angle = 4 * DT
     np.testing.assert_allclose(d[0], (np.sin(angle), 0.0, np.cos(angle)), atol=1e-6)
     F = p.F[1].reshape(3, 3)

@@ -10,7 +10,7 @@ from mesh_shapes import block, box_patches
 
 import foamprb
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import OPTIONAL, context, contexts, flow_samples, measure
+from foamprb.cloud.measures import context, contexts, flow_samples, measure
 from foamprb.cloud.patches import Escape
 from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
@@ -66,7 +66,7 @@ def test_a_body_falls_through_a_field_that_varies_in_space(mesh):
     c = 0.9 + 0.5 * a * 0.81 - FALL * end
     assert cloud.particles.x[0, 2] == pytest.approx((math.sqrt(1.0 + 2.0 * a * c) - 1.0) / a, abs=5e-7)
     z = cloud.particles.x[0, 2]
-    found = measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time), OPTIONAL)
+    found = measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time))
     assert found["muc"] == pytest.approx(1e-3 * (1.0 + a * z), rel=1e-12, abs=0.0)
     assert found["U"][0, 2] == pytest.approx(-FALL / (1.0 + a * z), rel=1e-6)
     samples = flow_samples(cloud.particles, cloud.flow, cloud.time, cloud.medium.mu)
@@ -122,7 +122,7 @@ def test_a_body_settles_through_an_interface():
     # With s from the top of the layer down, μ = 5e-3 − 8e-3 s and ρ_s − ρ_f = 200 − 200 s.
     crossing = linear_quotient((5e-3, -8e-3), (200.0, -200.0), 0.5) / SETTLES
     cloud.advance(2)
-    assert measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time), OPTIONAL)["U"][
+    assert measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time))["U"][
         0, 2
     ] == pytest.approx(-oil, rel=1e-6)
     total = 0.15 / oil + crossing + 0.15 / water
@@ -131,7 +131,7 @@ def test_a_body_settles_through_an_interface():
     assert cloud.particles.x[0, 2] == pytest.approx(0.1 - water * late, abs=1e-4)
     around = medium_at(cloud.medium, cloud.flow, cloud.particles, cloud.time)
     assert (around.mu[0], around.rho[0]) == pytest.approx((1e-3, 1000.0))
-    assert measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time), OPTIONAL)["U"][
+    assert measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time))["U"][
         0, 2
     ] == pytest.approx(-water, rel=1e-6)
 

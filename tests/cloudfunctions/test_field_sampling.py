@@ -150,6 +150,7 @@ def test_values_are_linear_between_the_times_of_a_transient_flow(tmp_path):
     }
     solution"""
     edit(case, r"^solution", functions)
+    edit(case, r"deltaT\s", "writePrecision double; deltaT ")
     # The particles start between two samples, at 0.3 s.
     output = run_steady(case)
     rows, fates = table(output / "sample/fields.csv"), table(output / "fates.csv")

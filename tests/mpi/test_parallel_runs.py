@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import pyvista
 from foam_writer import decompose, header, read_fields
 from paths import ROOT
 from pipe_case import edit, short_case, time_folder, with_eddies
@@ -25,7 +24,7 @@ from foamprb.cli import main
 from foamprb.cloud.forces import FORCES
 from foamprb.distributed.shared_memory import NODE_RANKS
 from foamprb.results.checkpoint import StoredCheckpoint
-from foamprb.results.pieces import XMLPPolyDataReader
+from foamprb.results.pieces import XMLPolyDataReader, XMLPPolyDataReader
 from foamprb.results.pvd import read_pvd
 
 pytestmark = [
@@ -58,7 +57,7 @@ ENVIRONMENT = {
 def case_with_functions(folder: Path) -> Path:
     case = short_case(folder)
     edit(case, r"cloudFunctions\s*\{\}", FUNCTIONS)
-    edit(case, r"(\s)(deltaT\s)", r"\1optionalFields (Uc Ur); \2")
+    edit(case, r"(\s)(deltaT\s)", r"\1writeFields (Uc stresslet); \2")
     return case
 
 
@@ -130,7 +129,7 @@ def clouds(case: Path) -> list[tuple[float, dict[str, np.ndarray]]]:
     found = []
     for entry in read_pvd(folder_of(case) / "softCloud.pvd"):
         path = folder_of(case) / entry.file
-        cloud = XMLPPolyDataReader(path).read() if path.suffix == ".pvtp" else pyvista.read(path)
+        cloud = (XMLPPolyDataReader if path.suffix == ".pvtp" else XMLPolyDataReader)(path).read()
         order = np.argsort(cloud["origId"], kind="stable")
         arrays = {"points": cloud.points, **{name: cloud[name] for name in cloud.point_data}}
         found.append((entry.time, {name: np.asarray(array)[order] for name, array in arrays.items()}))

@@ -14,6 +14,7 @@ from pvpython import pvpython
 from view_run import clouds, motion, with_orientation, write_run
 
 from foamprb.cli import main
+from foamprb.cloud.measures import WRITTEN
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.pvd import Series
 from foamprb.results.vtk import PointCloud, Tracks, write_tracks
@@ -89,13 +90,16 @@ def larger(cloud: PointCloud, factor: float) -> PointCloud:
     return replace(cloud, arrays={**cloud.arrays, **sized})
 
 
-def test_copies_of_one_sphere_look_as_the_bodies_do(tmp_path: Path) -> None:
-    """Many bodies are drawn by the graphics card from their semi-axes and orientation."""
+@pytest.mark.parametrize("of_file", [(), ("semiAxes", "orientation", "taylorDeformation")])
+def test_copies_of_one_sphere_look_as_the_bodies_do(tmp_path: Path, of_file: tuple[str, ...]) -> None:
+    """Many bodies are drawn by the graphics card from their semi-axes and orientation, written or not."""
     folder = tmp_path / "run/postProcessing/softCloud"
     folder.mkdir(parents=True)
     series = Series(ResultsFolder(folder, "softCloud"))
     for cloud in clouds(motion(6, 3)):
-        series.append(with_orientation(larger(cloud, 6.0)))
+        cloud = with_orientation(larger(cloud, 6.0))
+        names = (*WRITTEN, *of_file)
+        series.append(replace(cloud, arrays={n: a for n, a in cloud.arrays.items() if n in names}))
     state = folder / "softCloud.py"
     bodies = []
     for many in (20000, 0):

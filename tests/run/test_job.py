@@ -13,7 +13,7 @@ from pipe_case import copy_of_pipe, edit, fates, message
 from scipy import stats
 
 from foamprb.cli import main
-from foamprb.cloud.measures import MEASURES, OPTIONAL
+from foamprb.cloud.measures import WRITTEN
 from foamprb.cloud.tracker import Tracker
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError
@@ -63,7 +63,7 @@ def test_series_holds_every_write_time_and_quantity(short_run):
     # 3000 a second, and five from the start; the one due at the write time itself comes after it.
     assert [cloud.n_points for cloud in injected] == [6, 35, 65, 95]
     for entry, cloud in zip(entries, injected, strict=True):
-        assert set(MEASURES).difference(OPTIONAL) <= set(cloud.point_data.keys())
+        assert set(WRITTEN) <= set(cloud.point_data.keys())
         assert cloud.field_data["TimeValue"][0] == entry.time
         assert list(cloud.field_data["statusNames"]) == list(STATUS_NAMES)
 

@@ -160,8 +160,8 @@ CHANGES: dict[str, tuple[Callable[[Path], object], str]] = {
         "models/integrator was paper",
     ),
     "fields": (
-        lambda c: edit(c, r"deltaT\s", "optionalFields (Uc); deltaT "),
-        r"solution/optionalFields was \(\), is \(Uc\)",
+        lambda c: edit(c, r"deltaT\s", "writeFields (Uc); deltaT "),
+        r"solution/writeFields was \(\), is \(Uc\)",
     ),
     "surroundings": (
         lambda c: edit(c, r"^(\s*)gravity;", r"\1gravity; faxenCorrection;"),

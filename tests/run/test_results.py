@@ -15,9 +15,11 @@ import numpy as np
 import pytest
 import pyvista
 from pipe_case import edit, message, results
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from foamprb import execute, prepare
 from foamprb.cli import main
+from foamprb.cloud.measures import WRITTEN
 from foamprb.cloud.state import Status
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
@@ -25,6 +27,7 @@ from foamprb.results.background import Writer
 from foamprb.results.checkpoint import Checkpoints
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.manifest import Manifest
+from foamprb.results.pieces import XMLPolyDataReader
 from foamprb.results.pvd import Series, SnapshotFile, read_pvd
 from foamprb.run import results as results_of_run
 
@@ -251,12 +254,13 @@ def test_only_one_run_writes_to_a_folder(stopped, capsys):
 
 def cloud_at(case: Path, index: int) -> Any:
     folder = folder_of(case)
-    return pyvista.read(folder / read_pvd(folder / "softCloud.pvd")[index].file)
+    return XMLPolyDataReader(folder / read_pvd(folder / "softCloud.pvd")[index].file).read()
 
 
 def test_the_first_snapshot_is_that_of_the_start(case):
     """It has those that are injected then: at rest in shape, with the fluid's velocity or what is given."""
     edit(case, r"SOI\s+0;", "SOI 0; // all at once")
+    edit(case, r"deltaT\s", "writePrecision double; deltaT ")
     run(case)
     entries = read_pvd(folder_of(case) / "softCloud.pvd")
     assert [e.time for e in entries] == pytest.approx([0.001 * n for n in range(7)], abs=1e-15)
@@ -273,6 +277,27 @@ def test_the_first_snapshot_is_that_of_the_start(case):
     assert found["active"].all()
     # Nothing of it is seen in the run itself.
     assert (p.status == Status.PENDING).all()
+
+
+def test_files_have_single_precision_and_the_requested_arrays(case):
+    edit(case, r"deltaT\s", "writeFields (shearRate J); deltaT ")
+    edit(case, r"endTime\s+\S+;", "endTime 0.001;")
+    run(case)
+    path = folder_of(case) / read_pvd(folder_of(case) / "softCloud.pvd")[1].file
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    found = pyvista.wrap(reader.GetOutput())
+    assert {*found.point_data} == {*WRITTEN, "shearRate", "J"}
+    assert {found[name].dtype for name in ("U", "d", "glyph", "shearRate")} == {np.dtype(np.float32)}
+    assert found.points.dtype == np.float32
+    # Numbers of particles have no rounding.
+    assert found["origId"].dtype == np.int64
+    job = prepare(case)
+    # One percent of the radius is 2.5e-8 m, half a unit in the last place at 1.5 m is 6e-8 m.
+    job.cloud.flow.bounds = (np.zeros(3), np.array([0.0, 0.0, 1.5]))
+    contents = results_of_run._contents_of(job)
+    assert (contents.single, contents.single_places) == (True, False)
 
 
 def test_a_run_that_goes_on_from_before_its_first_step_lists_its_start_once(case, truth):

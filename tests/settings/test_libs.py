@@ -370,6 +370,7 @@ def test_force_reads_a_field_of_a_case_and_goes_on_after_a_restart(tmp_path, cap
     edit(case, r"^solution", GAS)
     edit(case, r"shape\s+paper;", "shape stokes;")
     edit(case, r"^\s+gravity;", "thermophoresis { k 1; }")
+    edit(case, r"deltaT\s", "writeFields (taylorDeformation); writePrecision double; deltaT ")
     assert main(["run", "-case", str(case), "-dry-run"]) == 1
     assert "there is no field T at time 249. Allowed: U, p." in capsys.readouterr().err
     mesh = Case(case).mesh("249").mesh

@@ -112,13 +112,11 @@ def test_steps_that_cannot_be_counted_are_refused(read: Reader, own: str, messag
     assert "\n" not in str(caught.value)
 
 
-def test_optional_fields_are_those_that_exist(read: Reader) -> None:
-    assert read((OWN, OWN)).solution.optionalFields == ()
-    assert read((OWN, f"{OWN} optionalFields (Ur Uc);")).solution.optionalFields == ("Ur", "Uc")
-    with pytest.raises(
-        InputError, match=re.escape("optionalFields is '(Uc nu)'. Allowed: Uc, Ur, muc, swimmingDirection.")
-    ):
-        read((OWN, f"{OWN} optionalFields (Uc nu);"))
+def test_only_existing_arrays_can_be_written(read: Reader) -> None:
+    assert read((OWN, OWN)).solution.writeFields == ()
+    assert read((OWN, f"{OWN} writeFields (Ur J);")).solution.writeFields == ("Ur", "J")
+    with pytest.raises(InputError, match=re.escape("writeFields is '(Uc nu)'. Allowed: J, Uc, Ur, active, ")):
+        read((OWN, f"{OWN} writeFields (Uc nu);"))
 
 
 def test_limits_of_particles_are_those_of_their_entries(read: Reader) -> None:
