@@ -63,7 +63,12 @@ PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status if s
 SEEN = 1.0 + NEAR
 """Distance from a body's centre, in semi-axes, beyond which walls do not matter."""
 CLOSE = 1.0
-"""Gap to a wall, in radii, below which no step is longer than a tracking step."""
+"""Gap to a wall, in radii, below which a step longer than Δt leaves at least a share of the gap."""
+LEAST_OF_GAP, _APPROACH = 0.1, 0.8
+"""Least share of the gap that such a step leaves, and share of the way to a wall after which it ends if it
+would leave less."""
+_SOFT = 0.01
+"""How far into a wall, in radii, such a step may lead a body that does not bounce."""
 SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is joined to the next."""
 UNLISTED = 1
@@ -244,22 +249,40 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
     s.patch[i] = patch
 
 
-def would_touch(
+def share_before_contact(
     flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool
-) -> bool:
-    """Return True if the body in lane i would reach a patch that ends its path, or come close to a wall.
+) -> float:
+    """Return the share of a long step of lane i that ends before a patch that ends its path, and a wall.
 
-    ``goal``, ``ahead`` and ``held`` are as in :func:`reach_end`; close is a gap below :data:`CLOSE` radii.
+    ``goal``, ``ahead`` and ``held`` are as in :func:`reach_end`. The share is 1 if the body comes to no such
+    patch, and close to a wall, with a gap below :data:`CLOSE` radii, not too much closer than it was.
     """
-    block = s.block
+    block, x = s.block, load3(s.block, at.x, i)
     if not held:
-        reached, _, patch, _ = walk_on(flow, s.host[i], ahead, load3(block, at.x, i), goal)
-        if patch == -2 or (patch >= 0 and patches.code[patch] not in (MIRROR, CYCLIC)):
-            return True
+        reached, fraction, patch, _ = walk_on(flow, s.host[i], ahead, x, goal)
+        if patch == -2:
+            return 0.0
+        if patch >= 0 and patches.code[patch] not in (MIRROR, CYCLIC):
+            return _APPROACH * fraction
         ahead = reached
-    R = block[at.R * LANES + i]
-    clearance, _, _ = gap(flow, ahead, goal, load9(block, at.new_F, i), R)
-    return bool(clearance < CLOSE * R)
+    R, F, before = block[at.R * LANES + i], load9(block, at.new_F, i), block[at.clearance * LANES + i]
+    after, _, _ = gap(flow, ahead, goal, F, R)
+    if min(before, after) >= CLOSE * R:
+        return 1.0
+    before = min(before, NEAR * R)
+    least, soft = min(before, LEAST_OF_GAP * before), 0.0 if bouncing > 0 else _SOFT * R
+    if after < least - soft:
+        return float(_APPROACH * max(before, soft) / (before - after))
+    way = minus(goal, x)
+    if inner(way, way) <= (before + after) ** 2:
+        return 1.0
+    middle, v0, v1 = between(x, goal, 0.5), load3(block, at.v, i), load3(block, at.new_v, i)
+    middle = plus_scaled(middle, 0.125 * block[at.dt * LANES + i], minus(v0, v1))
+    host, _, patch, _ = walk(flow, s.host[i], x, middle)
+    if patch == -2:
+        return 0.0
+    between_both, _, _ = gap(flow, host, middle, F, R)
+    return 1.0 if between_both >= min(least, LEAST_OF_GAP * after) - _SOFT * R else 0.5 * _APPROACH
 
 
 def would_stick(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int) -> bool:
@@ -670,7 +693,7 @@ RARE: tuple[Callable[..., Any], ...] = (
     record_contact,
     last_inside,
     move_back,
-    would_touch,
+    share_before_contact,
     meet_wall,
 )
 """Long functions that few steps call, compiled as separate functions to keep the loops short."""

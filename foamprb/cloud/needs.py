@@ -14,6 +14,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, between, scale
 from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, viscosity_at
 from foamprb.cloud.forces import SAMPLE, STATE, Force, no_values
+from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.layout import LANES, Row
 from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.compile.link import bound
@@ -49,9 +50,12 @@ def sample_start(
     _store(s, i, needed.start, s.host[i], load3(block, at.x, i), block[at.t * LANES + i], u, l)
 
 
-def sample_end(s: Scratch, i: int, t: float, u: Vector, l: Tensor) -> None:
+def sample_end(_flow: Any, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> None:
     """Store the fluid and the fields at the predicted end of a step of lane i."""
-    _store(s, i, needed.end, s.ahead[i], load3(s.block, at.new_x, i), t, u, l)
+    block = s.block
+    t = block[at.t * LANES + i] + block[at.dt * LANES + i]
+    u, l = load3(block, during.end_u, i), load9(block, during.end_l, i)
+    _store(s, i, needed.end, s.ahead[i], load3(block, at.new_x, i), t, u, l)
 
 
 def _store(s: Scratch, i: int, row: int, host: int, x: Vector, t: float, u: Vector, l: Tensor) -> None:
@@ -160,6 +164,7 @@ class Needed(Surrounding):
 
     traits: ClassVar = Traits(each_step=False)
     update: ClassVar = staticmethod(sample_start)
+    look: ClassVar = staticmethod(sample_end)
 
     @property
     def rows(self) -> Mapping[str, type[tuple[int, ...]]]:  # type: ignore[override]
@@ -167,9 +172,8 @@ class Needed(Surrounding):
         return {"needed": _declaration(_FLUID_ROWS + width(self.columns))}
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
-        """Return the functions that sample."""
-        functions: dict[str, Callable[..., Any]] = {"end_sampled": sample_end}
-        return functions | ({"store_fields": store_case_fields} if self.columns else {})
+        """Return the function that samples fields, if there are some."""
+        return {"store_fields": store_case_fields} if self.columns else {}
 
 
 @cache

@@ -131,7 +131,7 @@ class Particles(NamedTuple):
     host: Annotated[Array, Variable((), "i8", "", "tetrahedron of the flow that holds it")]
     number: Annotated[Array, Variable((), "i8", "", "number in the whole cloud", fixed=True)]
     close: Annotated[
-        Array, Variable((), "i8", "", "steps begun within two radii of a wall, if counted", optional=True)
+        Array, Variable((), "f8", "s", "time within two radii of a wall, if counted", optional=True)
     ]
     eddy: Annotated[
         Array, Variable((3,), "f8", "m/s", "velocity of its eddy, if there are eddies", optional=True)

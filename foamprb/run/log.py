@@ -206,7 +206,7 @@ class RunLog:
     def _log_fates(self) -> None:
         """Log the number of particles by fate and patch; their sum is the number injected."""
         job, counts = self._job, self._job.cloud.counts()
-        answers = job.cloud.map_in_flow(_fates_of, len(job.patch_names), job.cloud.dt)
+        answers = job.cloud.map_in_flow(_fates_of, len(job.patch_names))
         at_patches, close = zip(*answers, strict=True)
         log.info("Fate of the particles")
         log.info("    %-24s %10d", "injected", sum(counts.values()) - counts[Status.PENDING])
@@ -264,13 +264,13 @@ def _unstable_of(
 
 
 def _fates_of(
-    p: Particles, _flow: Sampled, _t: float, patches: int, dt: float
+    p: Particles, _flow: Sampled, _t: float, patches: int
 ) -> tuple[NDArray[np.int64], tuple[float, float, int]]:
     """Return the numbers of particles by status and patch, and :func:`count_close`."""
     numbers = np.zeros((len(Status), patches + 1), dtype=np.int64)
     # The last column takes the particles that are on no patch.
     np.add.at(numbers, (p.status, p.patch), 1)
-    return numbers, count_close(p, dt)
+    return numbers, count_close(p)
 
 
 @contextmanager

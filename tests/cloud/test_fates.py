@@ -24,24 +24,27 @@ def fluid_like(n=1, mu=1e-9):
     return spheres(np.zeros((n, 3)), d=1e-5, rho=1000.0, mu=mu, eta=MU, poissons_ratio=0.4999)
 
 
-def carried(p, calls=(100,), integrator="stokes", **fates):
+def carried(p, calls=(100,), integrator="stokes", stride=1, **fates):
     flow = analytic.linear(np.diag([RATE, -0.5 * RATE, -0.5 * RATE]))
-    models = Models(integrator=integrator, surroundings=(Fates(**fates),))
+    models = Models(integrator=integrator, surroundings=(Fates(**fates),), stride=stride)
     cloud = Cloud(p, flow, WATER, [], DT, models, threads=1)
     for steps in calls:
         cloud.advance(steps)
     return p
 
 
-def test_with_inertia_a_body_ruptures_at_a_known_extension():
-    """At ln λ/ε̇, to a step; a stiff one does not reach the stretch, and its dose is μ γ̇ t."""
+@pytest.mark.parametrize("stride", [1, 8])
+@pytest.mark.parametrize("integrator", ["rosenbrock", "stokes"])
+def test_a_body_ruptures_at_a_known_extension(integrator, stride):
+    """At ln λ/ε̇, to Δt; a stiff one does not reach the stretch, and its dose is μ γ̇ t."""
     p = carried(
-        fluid_like(2, mu=np.array([1e-9, 1.0])), integrator="rosenbrock", ruptured=FateLimits(stretch=2)
+        fluid_like(2, mu=np.array([1e-9, 1.0])), (100,), integrator, stride, ruptured=FateLimits(stretch=2)
     )
     assert (p.status[0], p.reason[0]) == (Status.RUPTURED, Reason.STRETCH_REACHED)
     assert 0.0 <= p.t[0] - np.log(2.0) / RATE < 1.001 * DT
     assert np.exp(RATE * p.t[0]) == pytest.approx(p.F[0, 0], rel=1e-3)
     assert (p.status[1], p.reason[1]) == (Status.ACTIVE, Reason.NONE)
+    assert p.substeps[1] < 1.0 or stride == 1
     assert p.dose[1] == pytest.approx(STRESS * 0.1, rel=1e-9)
 
 

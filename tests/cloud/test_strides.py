@@ -18,6 +18,10 @@ from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.patches import Escape, Mirror, Rebound, Stick
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloud.surroundings.fates import FateLimits, Fates
+from foamprb.cloud.surroundings.faxen import FaxenCorrection
+from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
+from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
@@ -203,13 +207,13 @@ class TestPatches:
             assert cloud.particles.x[0, 2] == pytest.approx(z, abs=1e-6) or stride < 8
         assert cloud.particles.x[0, 2] < 1.0
 
-    def test_close_to_a_wall_steps_are_those_of_tracking(self, integrator, stride):
-        """Less than a radius away, also of one that goes off; farther off they are as long as ever."""
-        for gap, last in ((0.7, max(0.25, 1.0 / stride)), (2.0, 1.0 / stride)):
-            cloud = settled(towards_lid(integrator, stride, Stick(), dt=0.02, rate=-0.15), 0.99 - 0.01 * gap)
-            cloud.advance(8)
-            # After one of Δt there is one of seven.
-            assert cloud.particles.substeps[0] == pytest.approx(last)
+    @pytest.mark.parametrize(("rate", "too_close"), [(-0.15, False), (0.03, False), (0.036, True)])
+    def test_close_to_a_wall_a_long_step_leaves_a_tenth_of_the_gap(self, integrator, stride, rate, too_close):
+        """From a gap of 0.7 R, 8 Δt lead a body away, or 0.57 R or 0.68 R closer."""
+        cloud = settled(towards_lid(integrator, stride, Stick(), dt=0.02, rate=rate), 0.983)
+        cloud.advance(8)
+        one = 1.0 / stride
+        assert (cloud.particles.substeps[0] > one + 1e-9) == (too_close and stride > 1)
 
 
 @pytest.mark.parametrize("calls", [(192,), (64, 128), (128, 64)], ids=str)
@@ -253,7 +257,19 @@ def test_any_number_of_steps_will_do(stride):
     assert whole.particles.substeps == pytest.approx(1.0 / stride)
 
 
-def test_fixed_steps_and_surroundings_keep_the_tracking_step():
+DETERMINISTIC = FaxenCorrection(), SaffmanMeiLift(), WallLift(), Fates(ruptured=FateLimits(dose=1e9))
+
+
+@pytest.mark.parametrize("model", DETERMINISTIC, ids=lambda model: type(model).__name__)
+def test_a_model_without_random_numbers_takes_steps_as_long_as_none(model):
+    p = spheres(np.array([[0.0, 0.0, 50.0]]), d=2.0, rho=0.15, mu=10.0)
+    models = Models(integrator="stokes", surroundings=(model,), stride=4)
+    cloud = Cloud(p, analytic.shear_over_wall(1.0), HEAVY, (Rebound(),), 0.01, models, threads=1)
+    cloud.advance(96)
+    assert p.substeps == pytest.approx(0.25)
+
+
+def test_fixed_steps_and_random_numbers_keep_the_tracking_step():
     for models in (
         Models(integrator="paper", stride=4),
         Models(integrator="stokes", tolerance=math.inf, stride=4),

@@ -87,10 +87,10 @@ def test_a_particle_that_no_wall_is_near_goes_as_without_the_model():
     assert np.array_equal(p.x[:3], one_by_one)
 
 
-def test_steps_close_to_a_wall_are_counted():
+def test_time_close_to_a_wall_is_added_up():
     p = carried(particles([1.5, 3.0]), 7, model=WallLift())
-    assert p.close.tolist() == [7, 0]
-    line = share_of_close(*count_close(p, 0.02 / RATE))
+    assert p.close == pytest.approx([7 * 0.02 / RATE, 0.0])
+    line = share_of_close(*count_close(p))
     assert "50.00%, of 1 particles" in line
 
 

@@ -61,7 +61,12 @@ from foamprb.cloud.block import (
     store9,
     store_fluid,
 )
-from foamprb.cloud.integrators.base import apply_surroundings, update_surroundings
+from foamprb.cloud.integrators.base import (
+    apply_surroundings,
+    look_ahead,
+    resolved_share,
+    update_surroundings,
+)
 from foamprb.cloud.lanes import (
     ENDED,
     READY,
@@ -81,7 +86,6 @@ from foamprb.cloud.lanes import (
 from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
-    CLOSE,
     SHORTEST_STEP,
     PatchTable,
     end_block,
@@ -91,8 +95,8 @@ from foamprb.cloud.motion import (
     is_sound,
     overspent,
     reach_end,
+    share_before_contact,
     would_stick,
-    would_touch,
 )
 from foamprb.cloud.state import Particles
 from foamprb.compile.link import traced
@@ -186,6 +190,23 @@ def finish_path(block: Any, i: int, v: Vector) -> None:
 def place_after(block: Any, i: int, h: Any, v: Vector, a: Vector) -> Vector:
     """Return the position after a time h, s, from the start of the step with v and a constant a."""
     return plus_scaled(plus_scaled(load3(block, at.x, i), h, v), 0.5 * h * h, a)
+
+
+def add_disturbance_error(block: Any, i: int, d: Vector, dv: Vector) -> None:
+    """Add the error of the path by a disturbance of the velocity to the error of the step.
+
+    Parameters
+    ----------
+    d
+        What the surroundings add to the flow's velocity at the start of the step, m/s.
+    dv
+        Change of that and of the slip over the step, by the slope in its first quarter. Where it is of the
+        size of d, it is hardly linear.
+    """
+    h, change = block[at.dt * LANES + i], norm(dv)
+    way = h * norm(load3(block, during.start_v, i)) + block[at.R * LANES + i]
+    error = h * (1.0 / 12.0) * change * change / ((norm(d) + change + 1e-300) * way)
+    store_path_error(block, i, block[during.path * LANES + i] + select(norm(d) > 0.0, error, 0.0))
 
 
 def store_path_error(block: Any, i: int, error: Any) -> None:
@@ -314,7 +335,7 @@ def sample_ahead(
     return last, 0.0, 0, u, l_f, u_t
 
 
-def _sample_end(flow: Any, s: Scratch, i: int) -> None:
+def _sample_end(flow: Any, s: Scratch, i: int, medium: Medium) -> None:
     """Store the flow at the end of the step of lane i, and the host there."""
     block = s.block
     place = load3(block, at.new_x, i)
@@ -326,11 +347,7 @@ def _sample_end(flow: Any, s: Scratch, i: int) -> None:
     store3(block, during.end_u, i, u)
     store9(block, during.end_l, i, l_f)
     store3(block, during.end_ut, i, u_t)
-    end_sampled(s, i, t, u, l_f)
-
-
-def end_sampled(_s: Scratch, _i: int, _t: float, _u: Vector, _l_f: Tensor) -> None:
-    """No-op: no force needs the fluid or fields at the end of a step."""
+    look_ahead(flow, s, i, medium)
 
 
 def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
@@ -426,7 +443,7 @@ def track_adaptive(
         predict(block, medium)
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
-                _sample_end(flow, scratch, i)
+                _sample_end(flow, scratch, i, medium)
         first_slope(block, medium)
         evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
@@ -439,7 +456,7 @@ def track_adaptive(
             third_slope(block, medium, enough)
         if most > 1:
             for i in range(LANES):
-                keep_short(flow, patches, scratch, i, dt, tolerance)
+                keep_short(flow, patches, medium, scratch, i, dt, tolerance)
         for i in range(LANES):
             approach(flow, patches, scratch, i, dt, tolerance)
         accept_stage(block, tolerance)
@@ -493,8 +510,6 @@ def stretch_of(most: int) -> int:
 def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, most: int) -> float:
     """Return the number of equal steps of lane i for its remaining stretch, at its present step size.
 
-    Close to a wall no step is longer than Δt.
-
     Parameters
     ----------
     remaining
@@ -504,8 +519,7 @@ def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, mos
     dt, most
         As in :func:`track_adaptive`.
     """
-    close = block[at.clearance * LANES + i] < CLOSE * block[at.R * LANES + i]
-    size = min(block[at.h * LANES + i], dt if close else most * dt, longest_step(l_f))
+    size = min(block[at.h * LANES + i], most * dt, longest_step(l_f))
     return float(max(1.0, np.ceil((remaining - SHORTEST_STEP * dt) / size)))
 
 
@@ -516,10 +530,13 @@ def measures_again(s: Scratch, i: int, left: float, stretch: int) -> bool:
     return bool(s.step[i] // stretch % (REUSE_FOR // left) == 0.0)
 
 
-def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
-    """Reject a step of lane i longer than Δt that comes to a patch, close to a wall, or over many cells.
+def keep_short(
+    flow: Any, patches: PatchTable, medium: Medium, s: Scratch, i: int, dt: float, tolerance: float
+) -> None:
+    """Reject a step of lane i longer than Δt over many cells, to a patch, or much closer to a wall.
 
-    Contact and the flow are so resolved to Δt.
+    So is one that a model of the surroundings does not resolve. The next is shorter, but not than Δt: contact
+    and the flow are resolved to Δt.
     """
     block = s.block
     long = block[at.dt * LANES + i] > (1.0 + SHORTEST_STEP) * dt
@@ -528,9 +545,12 @@ def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, to
         if block[during.entered * LANES + i] > MOST_CELLS:
             block[at.moving * LANES + i] = 0.0
             block[at.h * LANES + i] = longest_over_cells(block, i, dt)
-        elif would_touch(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal)):
+            return
+        share = share_before_contact(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal))
+        share = min(share, resolved_share(flow, s, i, medium))
+        if share < 1.0:
             block[at.moving * LANES + i] = 0.0
-            block[at.h * LANES + i] = dt
+            block[at.h * LANES + i] = max(dt, share * block[at.dt * LANES + i])
 
 
 def approach(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:

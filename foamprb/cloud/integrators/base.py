@@ -27,10 +27,14 @@ from foamprb.cloud.state import Particles
 
 __all__ = [
     "Integrator",
+    "all_resolved",
     "apply_surroundings",
     "lifted",
+    "look_ahead",
     "no_disturbance",
+    "no_look",
     "no_update",
+    "resolved_share",
     "track_share",
     "update_surroundings",
 ]
@@ -96,6 +100,26 @@ def apply_surroundings(block: Any, medium: Medium, share: float) -> None:
     disturb_all(block, medium, share, medium.surroundings)
 
 
+def look_ahead(flow: Any, s: Scratch, i: int, medium: Medium) -> None:
+    """Let each model update its rows of lane i where the step is to lead."""
+    look_all(flow, s, i, medium, medium.surroundings)
+
+
+def resolved_share(flow: Any, s: Scratch, i: int, medium: Medium) -> float:
+    """Return the smallest share of a step of lane i longer than Δt that a model resolves, 1 for all of it."""
+    share: float = resolve_all(flow, s, i, medium, medium.surroundings)
+    return share
+
+
+def no_look(_flow: Any, _s: Scratch, _i: int, _medium: Medium, _coefficients: Any) -> None:
+    """No-op: no model needs the end of a step."""
+
+
+def all_resolved(_flow: Any, _s: Scratch, _i: int, _medium: Medium, _coefficients: Any) -> float:
+    """Return 1: every step is resolved."""
+    return 1.0
+
+
 def no_update(
     _flow: Any, _s: Scratch, _i: int, _step: int, _remaining: float, _medium: Medium, _coefficients: Any
 ) -> None:
@@ -118,6 +142,8 @@ def lifted(
 
 
 update_all: Any = no_update
+look_all: Any = no_look
+resolve_all: Any = all_resolved
 prepare_all: Any = no_disturbance
 disturb_all: Any = no_disturbance
 

@@ -36,6 +36,7 @@ from foamprb.body.tensor import (
     plus,
     plus_scaled,
     scale,
+    scale_vector,
     select,
     to_frame,
     transpose,
@@ -65,6 +66,7 @@ from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_STAGES,
     RARE,
     STEP_ROWS,
+    add_disturbance_error,
     choose_order,
     counted_error,
     drag_rate,
@@ -208,6 +210,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         u = load3(block, during.end_u, i)
         dv = plus(minus(w, w0), minus(minus(p, q), d))
         finish_path(block, i, plus_scaled(plus(plus(u, d), w1), 1.0 / NODE, dv))
+        add_disturbance_error(block, i, d, scale_vector(1.0 / NODE, dv))
         F = _finish_shape(block, i, Q0, two)
         # The rate of Ω at the end as the slope has it, and l_s = g + ½[Ω, g] of that.
         end = add(add(relaxing(n, two), l_s), add(change, k))

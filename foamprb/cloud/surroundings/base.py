@@ -17,7 +17,7 @@ from foamprb.body.tensor import (
     scale_vector,
 )
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.integrators.base import Integrator, no_disturbance, no_update
+from foamprb.cloud.integrators.base import Integrator, all_resolved, no_disturbance, no_look, no_update
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
 from foamprb.dictionary.constraints import Seed
@@ -98,6 +98,12 @@ class Surrounding:
     ``step`` is the number of the tracking step and ``remaining`` the time to its end, s. A further call with
     ``remaining`` 0 comes at the end of a call, for the last rates. The lane's x and t are at the start of h.
     """
+    look: ClassVar[Callable[..., None]] = staticmethod(no_look)
+    """``look(flow, s, i, medium, coefficients)``: update rows of lane i where the step is to lead, new_x in
+    the host ``s.ahead[i]``; not with ``paper``."""
+    resolve: ClassVar[Callable[..., float]] = staticmethod(all_resolved)
+    """``resolve(flow, s, i, medium, coefficients) -> share``: of a step of lane i longer than Δt that led to
+    new_x and new_F, the share that the model resolves. Below 1 the step is repeated, so much shorter."""
     disturb: ClassVar[Callable[..., None]] = staticmethod(no_disturbance)
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""

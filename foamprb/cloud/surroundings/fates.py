@@ -1,7 +1,7 @@
 """Fates by limits: bodies rupture, or release their contents, where a stress, a stretch or a dose is large.
 
-A limit is checked at the start of each step. A particle ends at the first of these times at which one is
-reached, in the state of that time.
+A limit is checked at the start of each step, and no step longer than Δt goes beyond one. A particle ends at
+the first of these times at which one is reached, in the state of that time.
 """
 
 from __future__ import annotations
@@ -15,15 +15,16 @@ import numpy as np
 
 from foamprb.body.material import finger
 from foamprb.body.rosenbrock import extra_stress
-from foamprb.body.tensor import Scalar, ddot, det, dev, dot, inverse, longest_stretch, select
+from foamprb.body.tensor import Scalar, Tensor, ddot, det, dev, dot, inverse, longest_stretch, select
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium, Scratch, at, load9, viscosity_at
 from foamprb.cloud.elastic import solid
+from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import conclude, outcome_code
 from foamprb.cloud.state import Reason, Status
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
@@ -51,9 +52,8 @@ class FateRows(NamedTuple):
 fates = offsets(FateRows)
 
 
-def elastic_stress(block: Any, i: int) -> Scalar:
+def elastic_stress(block: Any, i: int, F: Tensor) -> Scalar:
     """Return von Mises' stress of the solid in lane i, √(³⁄₂ dev τ:dev τ)/J, Pa, without its viscosity."""
-    F = load9(block, at.F, i)
     J = det(F)
     T = dev(extra_stress(finger(F, load9(block, at.M, i)), J, *solid(block, i)))
     return np.sqrt(1.5 * ddot(T, T)) / J
@@ -67,6 +67,24 @@ def reached(values: tuple[Scalar, ...], limits: tuple[Scalar, ...], codes: tuple
     return 0
 
 
+def reached_fate(block: Any, i: int, F: Tensor, stress: Scalar, dose: Scalar, coefficients: Any) -> int:
+    """Return the code of the fate of lane i with F, a shear stress of the fluid and a dose; 0 for none."""
+    stretch = longest_stretch(dot(F, inverse(load9(block, at.F0, i))))
+    values = stretch, elastic_stress(block, i, F), stress, dose
+    code = reached(values, coefficients[0], _OF_RUPTURE)
+    return code if code > 0 else reached(values, coefficients[1], _OF_RELEASE)
+
+
+def stays_within_limits(_flow: Any, s: Scratch, i: int, medium: Medium, coefficients: Any) -> float:
+    """Return a half for a step of lane i that leads beyond a limit, else 1."""
+    block = s.block
+    stress = viscosity_at(block, i, medium) * shear_rate(load9(block, during.end_l, i))
+    mean = 0.5 * (block[fates.shear_stress * LANES + i] + stress)
+    dose = block[fates.dose * LANES + i] + mean * block[at.dt * LANES + i]
+    code = reached_fate(block, i, load9(block, at.new_F, i), stress, dose, coefficients)
+    return 0.5 if code > 0 else 1.0
+
+
 def check_limits(
     _flow: Any, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, coefficients: Any
 ) -> None:
@@ -78,11 +96,7 @@ def check_limits(
         block[fates.dose * LANES + i] += mean * (t - block[fates.dosed * LANES + i])
     block[fates.measured * LANES + i] = 1.0
     block[fates.dosed * LANES + i], block[fates.shear_stress * LANES + i] = t, stress
-    stretch = longest_stretch(dot(load9(block, at.F, i), inverse(load9(block, at.F0, i))))
-    values = stretch, elastic_stress(block, i), stress, block[fates.dose * LANES + i]
-    code = reached(values, coefficients[0], _OF_RUPTURE)
-    if code == 0:
-        code = reached(values, coefficients[1], _OF_RELEASE)
+    code = reached_fate(block, i, load9(block, at.F, i), stress, block[fates.dose * LANES + i], coefficients)
     if code > 0 and remaining > 0.0:
         block[fates.outcome * LANES + i] = code
     elif code > 0:
@@ -142,7 +156,9 @@ class Fates(Surrounding):
     )
 
     rows: ClassVar = {"fates": FateRows}
+    traits: ClassVar = Traits(each_step=False)
     update: ClassVar = staticmethod(check_limits)
+    resolve: ClassVar = staticmethod(stays_within_limits)
 
     def __post_init__(self) -> None:
         if self.ruptured is None and self.released is None:

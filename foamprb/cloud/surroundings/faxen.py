@@ -1,7 +1,7 @@
 """Faxén's correction: the mean of a curved flow over the body instead of its velocity at the centre.
 
 The formula is that of :mod:`foamprb.body.faxen`. The flow's second derivatives are those at the start of a
-step.
+step and at its end, and linear between them; with ``paper`` those at the start.
 """
 
 from __future__ import annotations
@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
-from foamprb.body.faxen import faxen_velocity
-from foamprb.body.tensor import dot, scale, transpose
-from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
+from foamprb.body.faxen import Curvature, faxen_velocity
+from foamprb.body.tensor import Scalar, Vector, between, dot, inner, minus, scale, select, transpose
+from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, store3
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.surroundings.base import Surrounding, Traits, add3
@@ -22,14 +22,11 @@ __all__ = ["FaxenCorrection"]
 
 
 class FaxenRows(NamedTuple):
-    """Second derivatives of the flow at the start of a step."""
+    """Second derivatives of the flow on a step: ∂²u/∂x², ∂y², ∂z², ∂x∂y, ∂y∂z and ∂x∂z."""
 
-    along_xx: Annotated[int, Row(3, "1/(m s)", "∂²u/∂x²")]
-    along_yy: Annotated[int, Row(3, "1/(m s)", "∂²u/∂y²")]
-    along_zz: Annotated[int, Row(3, "1/(m s)", "∂²u/∂z²")]
-    along_xy: Annotated[int, Row(3, "1/(m s)", "∂²u/∂x∂y")]
-    along_yz: Annotated[int, Row(3, "1/(m s)", "∂²u/∂y∂z")]
-    along_xz: Annotated[int, Row(3, "1/(m s)", "∂²u/∂x∂z")]
+    curvature_start: Annotated[int, Row(18, "1/(m s)", "second derivatives at the start")]
+    curvature_end: Annotated[int, Row(18, "1/(m s)", "the same where the step is to lead")]
+    curvature_way: Annotated[int, Row(3, "m", "the way there; 0 as long as it is unknown")]
 
 
 curved = offsets(FaxenRows)
@@ -39,30 +36,43 @@ def store_curvature(
     flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
 ) -> None:
     """Store the second derivatives at the position of lane i."""
-    block = s.block
-    xx, yy, zz, xy, yz, xz = curvature(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i])
-    store3(block, curved.along_xx, i, xx)
-    store3(block, curved.along_yy, i, yy)
-    store3(block, curved.along_zz, i, zz)
-    store3(block, curved.along_xy, i, xy)
-    store3(block, curved.along_yz, i, yz)
-    store3(block, curved.along_xz, i, xz)
+    x = load3(s.block, at.x, i)
+    _store(s.block, i, curved.curvature_start, curvature(flow, s.host[i], x, s.block[at.t * LANES + i]))
+    store3(s.block, curved.curvature_way, i, (0.0, 0.0, 0.0))
+
+
+def store_curvature_ahead(flow: Any, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> None:
+    """Store the second derivatives where the step of lane i is to lead."""
+    x, t = load3(s.block, at.new_x, i), s.block[at.t * LANES + i] + s.block[at.dt * LANES + i]
+    _store(s.block, i, curved.curvature_end, curvature(flow, s.ahead[i], x, t))
+    store3(s.block, curved.curvature_way, i, minus(x, load3(s.block, at.x, i)))
+
+
+def _store(block: Any, i: int, row: int, second: Curvature) -> None:
+    for k in range(6):
+        for c in range(3):
+            block[(row + 3 * k + c) * LANES + i] = second[k][c]
 
 
 @traced
 def correct(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add ⅙ C:∇∇u to the velocity of the fluid, with the shape tensor C."""
     for i in range(LANES):
-        F, R = load9(block, at.new_F, i), block[at.R * LANES + i]
+        F, R, way = load9(block, at.new_F, i), block[at.R * LANES + i], load3(block, curved.curvature_way, i)
+        length_2, moved = inner(way, way), minus(load3(block, at.new_x, i), load3(block, at.x, i))
+        gone = select((share > 0.0) & (length_2 > 0.0), inner(moved, way) / (length_2 + 1e-300), 0.0)
         second = (
-            load3(block, curved.along_xx, i),
-            load3(block, curved.along_yy, i),
-            load3(block, curved.along_zz, i),
-            load3(block, curved.along_xy, i),
-            load3(block, curved.along_yz, i),
-            load3(block, curved.along_xz, i),
-        )
+            _second_at(block, i, 0, gone), _second_at(block, i, 1, gone), _second_at(block, i, 2, gone),
+            _second_at(block, i, 3, gone), _second_at(block, i, 4, gone), _second_at(block, i, 5, gone),
+        )  # fmt: skip
         add3(block, at.u, i, faxen_velocity(scale(R * R, dot(F, transpose(F))), second))
+
+
+def _second_at(block: Any, i: int, k: int, gone: Scalar) -> Vector:
+    """Return the k-th second derivatives at a share of the way."""
+    start = load3(block, curved.curvature_start + 3 * k, i)
+    end = load3(block, curved.curvature_end + 3 * k, i)
+    return choose3(gone > 0.0, between(start, end, gone), start)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,8 +80,9 @@ class FaxenCorrection(Surrounding):
     """Mean of a curved flow over the body instead of its velocity at the centre: ``faxenCorrection;``."""
 
     rows: ClassVar = {"curved": FaxenRows}
-    traits: ClassVar = Traits(kernels=("curvature",))
+    traits: ClassVar = Traits(each_step=False, kernels=("curvature",))
     update: ClassVar = staticmethod(store_curvature)
+    look: ClassVar = staticmethod(store_curvature_ahead)
     disturb: ClassVar = staticmethod(correct)
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002

@@ -8,7 +8,7 @@ from typing import Any
 
 from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.forces import nested
-from foamprb.cloud.integrators.base import no_disturbance, no_update
+from foamprb.cloud.integrators.base import all_resolved, no_disturbance, no_look, no_update
 from foamprb.cloud.layout import Layout, end, keep, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.brownian import BrownianMotion
@@ -82,18 +82,23 @@ def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) ->
     if not surroundings:
         return {}
     update: Callable[..., None] = no_update
+    look: Callable[..., None] = no_look
+    resolve: Callable[..., float] = all_resolved
     prepare: Callable[..., None] = no_disturbance
     disturb: Callable[..., None] = no_disturbance
     bindings: dict[str, Any] = dict(_offsets(base, surroundings))
     for model in surroundings:
         update = bound(_then_update, others=update, model=type(model).update)
+        look = bound(_then_look, others=look, model=type(model).look)
+        resolve = bound(_least_resolved, others=resolve, model=type(model).resolve)
         functions: dict[str, Any] = dict(model.bindings(inertia))
         prepare = bound(_then_disturb, others=prepare, model=functions.pop("prepare", no_disturbance))
         disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
         for name in _TOGETHER & functions.keys() & bindings.keys():
             functions[name] = bound(_both, one=bindings[name], other=functions[name])
         bindings |= functions
-    return {**bindings, "update_all": update, "prepare_all": prepare, "disturb_all": disturb}
+    composed = {"update_all": update, "look_all": look, "resolve_all": resolve}
+    return {**bindings, **composed, "prepare_all": prepare, "disturb_all": disturb}
 
 
 def stages(surroundings: Sequence[Surrounding], inertia: bool) -> list[Callable[..., Any]]:
@@ -131,6 +136,18 @@ def _then_update(
 ) -> None:
     others(flow, s, i, step, remaining, medium, coefficients[0])
     model(flow, s, i, step, remaining, medium, coefficients[1])
+
+
+def _then_look(flow: Any, s: Scratch, i: int, medium: Medium, coefficients: Any) -> None:
+    others(flow, s, i, medium, coefficients[0])
+    model(flow, s, i, medium, coefficients[1])
+
+
+def _least_resolved(flow: Any, s: Scratch, i: int, medium: Medium, coefficients: Any) -> float:
+    share: float = min(
+        others(flow, s, i, medium, coefficients[0]), model(flow, s, i, medium, coefficients[1])
+    )
+    return share
 
 
 def _then_disturb(block: Any, medium: Medium, share: float, coefficients: Any) -> None:

@@ -65,6 +65,12 @@ def enter_frame(
     store3(block, frames.axis_point, i, origin)
 
 
+def stays_in_frame(flow: Any, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> float:
+    """Return 0 for a step of lane i from one frame to another, else 1."""
+    spin, _ = rotation_at(flow, s.ahead[i])
+    return 1.0 if spin == load3(s.block, frames.spin, i) else 0.0
+
+
 def fluid_acceleration_in_frame(block: Any, i: int, v: Vector) -> Vector:
     """Return l·v, m/s²: the rate of change of u along a path with velocity v in a steady flow."""
     return dot_vector(load9(block, during.start_l, i), v)
@@ -95,8 +101,9 @@ class RotatingFrames(Surrounding):
     """Rotating zones, in the frames of their rotors."""
 
     rows: ClassVar = {"frames": FrameRows}
-    traits: ClassVar = Traits(surveys=())
+    traits: ClassVar = Traits(each_step=False, surveys=())
     update: ClassVar = staticmethod(enter_frame)
+    resolve: ClassVar = staticmethod(stays_in_frame)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
         """Return the accelerations in a rotating frame, for the integrator without inertia."""

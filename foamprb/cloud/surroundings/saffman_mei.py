@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from foamprb.body.lift import lift_force, lifted_slip, vorticity
 from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, minus, plus, scale_vector, vector_dot
@@ -15,7 +15,7 @@ from foamprb.cloud.block import Medium, at, load3, load9, local_fluid, viscosity
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.stokes import slip_of_body as slip_without_lift
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.surroundings.base import Surrounding, resistances, volume_at_rest
+from foamprb.cloud.surroundings.base import Surrounding, Traits, resistances, volume_at_rest
 from foamprb.dictionary.constraints import Only
 
 __all__ = ["SaffmanMeiLift"]
@@ -54,6 +54,8 @@ def acceleration_with_lift(
 @dataclass(frozen=True, kw_only=True)
 class SaffmanMeiLift(Surrounding):
     """Lift by inertia of the fluid on a sphere that slips in shear: ``SaffmanMeiLiftForce;``."""
+
+    traits: ClassVar = Traits(each_step=False)
 
     U: Annotated[str, Only("U", "the flow's velocity")] = "U"
 

@@ -95,6 +95,8 @@ CLOSE = 2.0
 _FAR = 1e9
 """Distance of an absent wall, in radii, or in metres in a lane without a particle."""
 _REPEATS = 2
+_OFF_PLANE = 0.05
+"""How far a wall may be from its plane at the end of a step longer than Δt, over its distance."""
 
 
 class WallRows(NamedTuple):
@@ -102,8 +104,9 @@ class WallRows(NamedTuple):
 
     wall_distance: Annotated[int, Row(3, "m", "distances of the centre from up to three walls", _FAR)]
     wall_normal: Annotated[int, Row(9, "1", "their unit normals into the fluid")]
-    counted: Annotated[int, Row(1, "", "tracking step, from 1 on, of the last update")]
-    close: Annotated[int, Row(1, "", "steps begun near a wall", of="close", saved=True)]
+    counted: Annotated[int, Row(1, "s", "start of the last step begun near a wall", -1e300, lasting=True)]
+    counted_for: Annotated[int, Row(1, "s", "its length", lasting=True)]
+    close: Annotated[int, Row(1, "s", "total length of such steps", of="close", saved=True)]
     one_distance: Annotated[int, Row(1, "m", "present distance of the centre from one of them", 1.0)]
     one_normal: Annotated[int, Row(3, "1", "its normal")]
     one_gap: Annotated[int, Row(1, "m", "gap between body and wall", 1.0)]
@@ -126,9 +129,9 @@ near = offsets(WallRows)
 
 
 def find_walls(
-    flow: Any, s: Scratch, i: int, step: int, _rest: float, _medium: Medium, coefficients: Any
+    flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
-    """Store the walls around the particle in lane i, and count the step if one is close."""
+    """Store the walls around the particle in lane i, and add up the lengths of steps where one is close."""
     cut_off, least_gap, _, _, patch_mask = coefficients
     block = s.block
     R = block[at.R * LANES + i]
@@ -138,10 +141,25 @@ def find_walls(
     store3(block, near.wall_normal, i, p.n1)
     store3(block, near.wall_normal + 3, i, p.n2)
     store3(block, near.wall_normal + 6, i, p.n3)
-    if block[near.counted * LANES + i] != step + 1.0:
-        block[near.counted * LANES + i] = step + 1.0
-        if min(p.h1, p.h2, p.h3) < CLOSE * R:
-            block[near.close * LANES + i] += 1.0
+    if min(p.h1, p.h2, p.h3) < CLOSE * R and remaining > 0.0:
+        t, h = block[at.t * LANES + i], block[at.dt * LANES + i]
+        # A step that is repeated counts once.
+        before = block[near.counted_for * LANES + i] if block[near.counted * LANES + i] == t else 0.0
+        block[near.counted * LANES + i], block[near.counted_for * LANES + i] = t, h
+        block[near.close * LANES + i] += h - before
+
+
+def stays_by_planes(flow: Any, s: Scratch, i: int, _medium: Medium, coefficients: Any) -> float:
+    """Return a half for a step of lane i after which the nearest wall is off its plane, else 1."""
+    block, cut = s.block, coefficients[0] * s.block[at.R * LANES + i]
+    x = load3(block, at.new_x, i)
+    way, expected = minus(x, load3(block, at.x, i)), cut
+    for k in range(3):
+        h, n = block[(near.wall_distance + k) * LANES + i], load3(block, near.wall_normal + 3 * k, i)
+        expected = min(expected, h + inner(way, n))
+    p = walls(flow, s.ahead[i], x, cut, coefficients[4])
+    distance = min(p.h1, p.h2, p.h3, cut)
+    return 0.5 if abs(expected - distance) > _OFF_PLANE * distance else 1.0
 
 
 def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
@@ -522,8 +540,9 @@ class WallLift(Surrounding):
     ] = None
 
     rows: ClassVar = {"near": WallRows}
-    traits: ClassVar = Traits(surveys=("x", "host", "R"))
+    traits: ClassVar = Traits(each_step=False, surveys=("x", "host", "R"))
     update: ClassVar = staticmethod(find_walls)
+    resolve: ClassVar = staticmethod(stays_by_planes)
     disturb: ClassVar = staticmethod(lift)
 
     def walls(self, patches: Sequence[Patch]) -> tuple[float, Sequence[int]]:
@@ -583,13 +602,13 @@ class WallLift(Surrounding):
         return Remarks([*lines, f"{'beyond cutOff':24s} {beyond}"])
 
 
-def count_close(p: Particles, dt: float) -> tuple[float, float, int]:
-    """Return the numbers of steps close to a wall and of all, and of particles that were close."""
-    steps = (p.t - p.t0)[p.status != Status.PENDING].sum() / dt
-    return float(p.close.sum()), float(steps), int(np.count_nonzero(p.close))
+def count_close(p: Particles) -> tuple[float, float, int]:
+    """Return the times close to a wall and in all, s, and the number of particles that were close."""
+    total = (p.t - p.t0)[p.status != Status.PENDING].sum()
+    return float(p.close.sum()), float(total), int(np.count_nonzero(p.close))
 
 
-def share_of_close(close: float, steps: float, some: int) -> str:
-    """Return the share of steps close to a wall, from sums of :func:`count_close`, for the log."""
-    share = close / max(steps, 1.0)
-    return f"{f'steps within {CLOSE:g} radii of walls':36s} {share:.2%}, of {some:.0f} particles"
+def share_of_close(close: float, total: float, some: int) -> str:
+    """Return the share of time close to a wall, from sums of :func:`count_close`, for the log."""
+    share = close / (total + 1e-300)
+    return f"{f'time within {CLOSE:g} radii of walls':36s} {share:.2%}, of {some:.0f} particles"
