@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from foamprb.body.ellipsoid import sorted_frame, taylor_deformation
 from foamprb.body.imex import relaxation_time
 from foamprb.body.morphology import drop_stress
+from foamprb.body.quadratic import bullet_amplitude
 from foamprb.body.swimming import direction
 from foamprb.body.tensor import (
     Scalar,
@@ -440,6 +441,8 @@ MEASURES: dict[str, Measure] = {
     "Ur": Measure("m/s", lambda c: c.particles.v - carrier_velocity(c.particles, c.u), of_flow=True),
     "muc": Measure("Pa s", lambda c: c.mu, of_flow=True),
     "swimmingDirection": Measure("1", lambda c: swimming_direction(c.particles)),
+    "quadraticShape": Measure("1", lambda c: c.particles.B),
+    "bulletAmplitude": Measure("1", lambda c: bullet_amplitude(tuple(c.particles.B.T))),
 }
 """Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
 
@@ -448,7 +451,8 @@ as the deformed unit sphere; ``orientation`` is the :func:`quaternion` of the fr
 that of the longest and the shortest axis; the components of ``stresslet`` are xx yy zz xy yz xz;
 ``capillaryNumber`` is that of the shear rate where the particle is; ``Uc`` and ``Ur`` are the velocity of the
 fluid at the centre and the particle's velocity relative to it, and ``muc`` is the fluid's viscosity there;
-``swimmingDirection`` is 0 without swimming.
+``swimmingDirection`` is 0 without swimming, as are the components 111 112 113 122 123 222 223 of the
+``quadraticShape``, and its ``bulletAmplitude`` ε, without that mode.
 """
 _TAKEN = frozenset(MEASURES) | frozenset(
     (

@@ -154,6 +154,17 @@ class Particles(NamedTuple):
         Array, Variable((3,), "f8", "1", "q of a swimmer's direction F·q/|F·q|, else 0", optional=True)
     ]
 
+    B: Annotated[
+        Array,
+        Variable(
+            (7,), "f8", "1", "quadratic mode, if there is one: 111 112 113 122 123 222 223", optional=True
+        ),
+    ]
+    shift: Annotated[
+        Array,
+        Variable((3,), "f8", "m", "displacement of the surface of a solid with that mode", optional=True),
+    ]
+
     @property
     def size(self) -> int:
         """Number of particles n, the pending included."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 from functools import partial
 from typing import Any, Literal, NamedTuple
 
@@ -42,6 +42,7 @@ from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import Fates
+from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid
 from foamprb.cloud.viscosity import model_of
 from foamprb.compile.link import is_compiled, link, linked, read_by
 from foamprb.errors import InputError, closest
@@ -90,6 +91,10 @@ class Outcome(NamedTuple):
         )
 
 
+SHAPES = ("affine", "quadratic")
+"""Models of the shape."""
+
+
 @dataclass(frozen=True)
 class Models:
     """The models that a cloud selects, by their names in the registries of :mod:`foamprb.body`."""
@@ -111,6 +116,20 @@ class Models:
     stride: int = 1
     """Longest step of ``stokes`` or ``rosenbrock`` where its error allows it, in tracking steps Δt. No step
     goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
+    shape: InitVar[str] = "affine"
+    """``affine``, or ``quadratic`` for a second mode, which is the first of the ``surroundings``."""
+
+    def __post_init__(self, shape: str) -> None:
+        if shape not in SHAPES:
+            raise InputError(f"the shape is {shape}. Allowed: {', '.join(SHAPES)}")
+        if shape != "affine" and not self.has_quadratic:
+            mode = QuadraticDrop() if MATERIALS[self.material].liquid else QuadraticSolid()
+            object.__setattr__(self, "surroundings", (mode, *self.surroundings))
+
+    @property
+    def has_quadratic(self) -> bool:
+        """Whether bodies have the quadratic mode."""
+        return any(isinstance(model, QuadraticSolid) for model in self.surroundings)
 
     @property
     def has_fates(self) -> bool:

@@ -89,6 +89,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             "dispersion": _written(settings.dispersion),
             "fates": _written(settings.fates),
             "solid": models.material,
+            "shape": settings.shape,
             "integrator": models.integrator,
             "integratorDescription": INTEGRATORS[models.integrator].description,
             "shapeStokesNumber": number,

@@ -288,6 +288,7 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
         forces,
         (*frames, *settings.dispersion.values(), *settings.surroundings.values(), *settings.fates.values()),
         stride=settings.solution.stride,
+        shape=settings.shape,
     )
 
 

@@ -70,6 +70,8 @@ def log_description(job: Job) -> None:
         ", ".join(f"{name} {entries}".rstrip() for name, entries in forces.items()),
     )
     log.info("Selecting solid %s", models["solid"])
+    if models["shape"] != "affine":
+        log.info("Selecting shapeModel %s", models["shape"])
     log.info("Selecting integrationScheme %s: %s", models["integrator"], models["integratorDescription"])
     if models["shapeStokesNumber"] is not None:
         log.info("    auto: Stokes numbers at injection up to %.3g (shape), %.3g (path); "

@@ -15,6 +15,7 @@ from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.dispersion import DISPERSIONS
 from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.surroundings.registry import SURROUNDINGS
+from foamprb.cloud.tracker import SHAPES
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only, Vector3
@@ -77,6 +78,11 @@ class SubModels:
     tractionModel: Annotated[
         str, Choice(TRACTIONS), Meaning("[traction](models/traction.md) on the surface")
     ] = "roscoe"
+    shapeModel: Annotated[
+        str,
+        Choice(SHAPES),
+        Meaning("modes of the shape: an ellipsoid, or also the [quadratic mode](models/quadratic.md)"),
+    ] = "affine"
     dispersionModel: Annotated[
         str,
         Choice(("none", *DISPERSIONS)),
@@ -147,6 +153,7 @@ class Settings:
     """The dispersionModel by its name; empty without one."""
     fates: Mapping[str, Surrounding] = field(default_factory=dict)
     """The fates by limits, by the name of their entry; empty without any."""
+    shape: str = "affine"
     region: str = ""
     overrides: Mapping[str, str] = field(default_factory=dict)
     """Texts that replace entries of the file, by path."""
@@ -263,6 +270,7 @@ def read_settings(
         surroundings=surroundings,
         dispersion=dispersion,
         fates={"fates": models.fates} if models.fates else {},
+        shape=models.shapeModel,
         region=region,
         overrides=texts,
     )

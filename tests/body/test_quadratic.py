@@ -280,7 +280,7 @@ def test_drift_of_a_drop_in_a_flow_without_symmetry(ratio, drift):
     ],
 )
 def test_drops_drift_inward_or_outward_by_their_viscosity(ratio, plane, pipe):
-    """Chan & Leal (1979)."""
+    """Inward below about 0.5 and above 10, as is known from Chan & Leal (1979)."""
     assert drift_of_soft_drop(*channel("plane")[:2], ratio)[1] == pytest.approx(plane, abs=5e-7)
     assert drift_of_soft_drop(*channel("pipe")[:2], ratio)[1] == pytest.approx(pipe, abs=5e-7)
 

@@ -180,8 +180,9 @@ AROUND = "wallLift { cutOff 100; } BrownianMotion { T 293.15; } faxenCorrection;
 
 
 def with_surroundings(case: Path) -> Path:
-    """Particles that see the wall from far away, and are pushed by molecules."""
+    """Particles that see the wall from far away, are pushed by molecules, and become bullets."""
     edit(case, r"shape\s+paper;", "shape stokes;")
+    edit(case, r"^(\s*)tractionModel", r"\1shapeModel quadratic;\n\1tractionModel")
     edit(case, r"^\s+gravity;", AROUND)
     return case
 

@@ -35,9 +35,10 @@ def go_on(case: Path, *options: str) -> None:
     assert main(["run", "-case", str(case), "-resume", *options]) == 0
 
 
-def test_walls_and_molecules_go_on_where_they_were(case, monkeypatch):
-    """Numbers are those of the particle and the step, and the forces those of the place: nothing is kept."""
+def test_walls_molecules_and_shapes_go_on_where_they_were(case, monkeypatch):
+    """Numbers are those of the particle and the step, and the forces those of the place."""
     edit(case, r"shape\s+paper;", "shape stokes;")
+    edit(case, r"^(\s*)tractionModel", r"\1shapeModel quadratic;\n\1tractionModel")
     edit(
         case,
         r"^\s+gravity;",

@@ -383,6 +383,7 @@ def _record(report: _Report) -> PageSection:
         ("fluid", f"ρ = {fluid['rho']:g} kg/m³, ν = {nu} m²/s, g = ({g}) m/s²"),
         ("time", f"{time['start']:g} to {time['end']:g} s, {time['steps']} steps of {time['deltaT']:g} s"),
         ("solid", models["solid"]),
+        ("shape", models.get("shape", "affine")),
         ("traction, drag", f"{models['traction']}, {models['drag']}"),
         ("other forces", _named(models["forces"])),
         ("surroundings", _named(models["surroundings"] | models["dispersion"])),

@@ -1,0 +1,285 @@
+"""Quadratic mode of soft bodies: their shape by the curvature of the flow, and the drift by that shape.
+
+The formulas are those of :mod:`foamprb.body.quadratic`. The flow is sampled where steps start. Between two
+starts its S is linear in time, in a frame that turns with the fluid, and the mode is advanced exactly. The
+drift in a step is that of the mode in the middle of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from foamprb.body.lift import vorticity
+from foamprb.body.quadratic import (
+    Parts,
+    Third,
+    advanced,
+    advanced_vector,
+    combine,
+    drift_by_shift,
+    drift_of_drop,
+    drift_of_solid,
+    parts,
+    relaxation_of_drop,
+    relaxation_of_shift,
+    relaxation_of_solid,
+    rotation,
+    shift,
+    source,
+    turned,
+    weights,
+)
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    combine_vectors,
+    det,
+    dev,
+    dot,
+    dot_vector,
+    norm,
+    plus,
+    scale,
+    scale_vector,
+    sym,
+    transpose,
+    vector_product,
+)
+from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3, store9, viscosity_at
+from foamprb.cloud.integrators.base import Integrator
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits, add3
+from foamprb.compile.link import traced
+from foamprb.flow.analytic import curvature_linear as curvature
+
+__all__ = ["QuadraticDrop", "QuadraticSolid"]
+
+
+class QuadraticRows(NamedTuple):
+    """Mode of a body, and the flow where it was computed last."""
+
+    B: Annotated[int, Row(7, "1", "components 111, 112, 113, 122, 123, 222, 223", of="B", saved=True)]
+    shift: Annotated[int, Row(3, "m", "displacement q of the surface of a solid", of="shift", saved=True)]
+    sampled: Annotated[int, Row(1, "", "1 once the flow is sampled, else 0")]
+    reached: Annotated[int, Row(1, "s", "time at which it was sampled")]
+    growth: Annotated[int, Row(7, "1/s", "source of B then")]
+    pull: Annotated[int, Row(3, "m/s", "source of q then")]
+    fluid_spin: Annotated[int, Row(3, "1/s", "angular velocity of the fluid then")]
+    middle: Annotated[int, Row(7, "1", "B in the middle of the step")]
+    shift_drift: Annotated[int, Row(3, "m/s", "mean drift by q in the step")]
+
+
+class SecondRows(NamedTuple):
+    """Second derivatives of the flow at the start of a step."""
+
+    S: Annotated[int, Row(7, "1/(m s)", "symmetric, traceless part")]
+    T: Annotated[int, Row(9, "1/(m s)", "symmetric part of the gradient of the vorticity")]
+    laplacian: Annotated[int, Row(3, "1/(m s)", "Laplacian of the velocity")]
+
+
+mode = offsets(QuadraticRows)
+second = offsets(SecondRows)
+
+
+def load7(block: Any, row: int, i: int) -> Third:
+    """Return the components in seven rows of lane i."""
+    k = row * LANES + i
+    return (
+        block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES],
+        block[k + 4 * LANES], block[k + 5 * LANES], block[k + 6 * LANES],
+    )  # fmt: skip
+
+
+def store7(block: Any, row: int, i: int, B: Third) -> None:
+    """Store components in seven rows of lane i."""
+    k = row * LANES + i
+    block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES] = B[0], B[1], B[2], B[3]
+    block[k + 4 * LANES], block[k + 5 * LANES], block[k + 6 * LANES] = B[4], B[5], B[6]
+
+
+def flow_parts(flow: Any, s: Scratch, i: int) -> Parts:
+    """Return the parts of the second derivatives at lane i."""
+    block = s.block
+    return parts(curvature(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i]))
+
+
+def elapsed(block: Any, i: int) -> float:
+    """Return the time for which the mode of lane i has to be advanced, s.
+
+    It is 0 for a body that has just been loaded, and for a body at rest: a wall has just let go of it.
+    """
+    if block[mode.sampled * LANES + i] > 0.0 and norm(load3(block, at.v, i)) > 0.0:
+        return float(block[at.t * LANES + i] - block[mode.reached * LANES + i])
+    return 0.0
+
+
+def ahead(block: Any, i: int, remaining: float) -> float:
+    """Return the length of the next step of lane i, s; 0 at the end of a call."""
+    return float(block[at.dt * LANES + i]) if remaining > 0.0 else 0.0
+
+
+def advance_mode(block: Any, i: int, growth: Third, rate: float, spin: Vector, step: float) -> None:
+    """Advance B of lane i to its time, and store it with that in the middle of the next step.
+
+    Parameters
+    ----------
+    growth, rate
+        Source of B and its relaxation, 1/s.
+    spin
+        Angular velocity of the fluid, 1/s.
+    step
+        Length of the next step, s.
+    """
+    h, B = elapsed(block, i), load7(block, mode.B, i)
+    if h > 0.0:
+        turn = rotation(combine_vectors(0.5, load3(block, mode.fluid_spin, i), 0.5, spin), h)
+        B = advanced(B, load7(block, mode.growth, i), growth, weights(rate, h), turn)
+        store7(block, mode.B, i, B)
+    half = 0.5 * step
+    store7(block, mode.middle, i, advanced(B, growth, growth, weights(rate, half), rotation(spin, half)))
+    store7(block, mode.growth, i, growth)
+
+
+def advance_shift(block: Any, i: int, pull: Vector, rate: float, spin: Vector, step: float) -> None:
+    """Advance q of lane i to its time, and store it with the mean drift in the next step.
+
+    ``pull`` is the source of q, m/s; see :func:`advance_mode`.
+    """
+    h, q = elapsed(block, i), load3(block, mode.shift, i)
+    if h > 0.0:
+        turn = rotation(combine_vectors(0.5, load3(block, mode.fluid_spin, i), 0.5, spin), h)
+        q = advanced_vector(q, load3(block, mode.pull, i), pull, weights(rate, h), turn)
+        store3(block, mode.shift, i, q)
+    store3(block, mode.pull, i, pull)
+    if step > 0.0:
+        end = advanced_vector(q, pull, pull, weights(rate, step), rotation(spin, step))
+        change = combine_vectors(1.0 / step, end, -1.0 / step, q)
+        q = combine_vectors(0.5, q, 0.5, end)
+    else:
+        change = plus(combine_vectors(1.0, pull, -rate, q), vector_product(spin, q))
+    store3(block, mode.shift_drift, i, drift_by_shift(spin, q, change))
+
+
+def close_update(block: Any, i: int, spin: Vector) -> None:
+    """Store that the mode of lane i is that of its time."""
+    store3(block, mode.fluid_spin, i, spin)
+    block[mode.sampled * LANES + i], block[mode.reached * LANES + i] = 1.0, block[at.t * LANES + i]
+
+
+def update_solid(
+    flow: Any, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
+) -> None:
+    """Advance the mode of the solid in lane i."""
+    block = s.block
+    mu_f, a = viscosity_at(block, i, medium), block[at.R * LANES + i]
+    mu_s, eta, tension = (
+        block[at.mu * LANES + i],
+        block[at.eta * LANES + i],
+        block[at.tension * LANES + i],
+    )
+    S, _, v = flow_parts(flow, s, i)
+    spin = scale_vector(0.5, vorticity(load9(block, at.l, i)))
+    c, step = source(eta / mu_f) * a, ahead(block, i, remaining)
+    advance_mode(block, i, combine(c, S, 0.0, S), relaxation_of_solid(mu_f, mu_s, eta, tension), spin, step)
+    rate = relaxation_of_shift(mu_f, mu_s, eta)
+    advance_shift(block, i, scale_vector(rate, shift(a, mu_f, mu_s, v)), rate, spin, step)
+    close_update(block, i, spin)
+
+
+def update_drop(
+    flow: Any, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
+) -> None:
+    """Advance the mode of the drop in lane i."""
+    block = s.block
+    mu_f = viscosity_at(block, i, medium)
+    ratio = block[at.eta * LANES + i] / mu_f
+    S, T, v = flow_parts(flow, s, i)
+    spin = scale_vector(0.5, vorticity(load9(block, at.l, i)))
+    c = source(ratio) * block[at.R * LANES + i]
+    # The modulus of a drop is its tension over the radius.
+    rate = relaxation_of_drop(mu_f, ratio, block[at.mu * LANES + i])
+    advance_mode(block, i, combine(c, S, 0.0, S), rate, spin, ahead(block, i, remaining))
+    close_update(block, i, spin)
+    store7(block, second.S, i, S)
+    store9(block, second.T, i, T)
+    store3(block, second.laplacian, i, v)
+
+
+@traced
+def carry_solid(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+    """Add the drift of solids to the velocity of the fluid."""
+    for i in range(LANES):
+        E, B = sym(load9(block, at.l, i)), load7(block, mode.middle, i)
+        drift = drift_of_solid(block[at.R * LANES + i], B, E)
+        add3(block, at.u, i, plus(drift, load3(block, mode.shift_drift, i)))
+
+
+@traced
+def carry_drop(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+    """Add the velocity of drops relative to the fluid at their centres."""
+    for i in range(LANES):
+        F, E = load9(block, at.new_F, i), sym(load9(block, at.l, i))
+        A = scale(0.5, dev(dot(F, transpose(F))))
+        ratio = block[at.eta * LANES + i] / viscosity_at(block, i, medium)
+        flow = Parts(load7(block, second.S, i), load9(block, second.T, i), load3(block, second.laplacian, i))
+        B = load7(block, mode.middle, i)
+        add3(block, at.u, i, drift_of_drop(block[at.R * LANES + i], ratio, A, B, E, flow))
+
+
+def turn_mode(block: Any, i: int, turn: Tensor) -> None:
+    """Turn or mirror the mode of lane i, and the flow where it was computed last."""
+    store7(block, mode.B, i, turned(load7(block, mode.B, i), turn))
+    store7(block, mode.growth, i, turned(load7(block, mode.growth, i), turn))
+    store3(block, mode.shift, i, dot_vector(turn, load3(block, mode.shift, i)))
+    store3(block, mode.pull, i, dot_vector(turn, load3(block, mode.pull, i)))
+    store3(
+        block, mode.fluid_spin, i, scale_vector(det(turn), dot_vector(turn, load3(block, mode.fluid_spin, i)))
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuadraticSolid(Surrounding):
+    """Quadratic mode of elastic bodies: ``subModels { shapeModel quadratic; }``."""
+
+    rows: ClassVar = {"mode": QuadraticRows}
+    traits: ClassVar = Traits(
+        kernels=("curvature",), measures=("quadraticShape", "bulletAmplitude"), surveys=("F0",)
+    )
+    update: ClassVar = staticmethod(update_solid)
+    disturb: ClassVar = staticmethod(carry_solid)
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
+        """Return the function by which mirrors turn the mode, and that it is advanced to the end of calls."""
+        return {"turn_along": turn_mode, "updates_end": 1}
+
+    def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
+        """Refuse ``paper``, which has no update at the end of a call."""
+        if integrator.name == "paper":
+            return "the shape model quadratic needs the integrator stokes or rosenbrock, not paper"
+        return ""
+
+    def remarks(self, survey: Survey) -> Remarks:
+        """Warn of bodies that are no spheres at rest."""
+        shaped = int(np.count_nonzero((np.eye(3).ravel() != survey.p.F0).any(axis=1)))
+        if shaped == 0:
+            return Remarks()
+        return Remarks(
+            (),
+            (
+                f"{shaped} of {survey.p.size} particles are no spheres at rest: the shape model quadratic "
+                "computes their second mode and its drift as those of spheres of the same volume.",
+            ),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuadraticDrop(QuadraticSolid):
+    """Quadratic mode of drops."""
+
+    rows: ClassVar = {"mode": QuadraticRows, "second": SecondRows}
+    update: ClassVar = staticmethod(update_drop)
+    disturb: ClassVar = staticmethod(carry_drop)

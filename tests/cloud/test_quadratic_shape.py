@@ -1,0 +1,235 @@
+"""Bodies with the quadratic mode: their shape, their drift, and numbers that depend on nothing else."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from foamprb.body.quadratic import bullet_amplitude, turned
+from foamprb.cloud.block import ROWS, Medium, at, idle_lanes, load3, new_block, store3
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.layout import LANES
+from foamprb.cloud.measures import context, measure
+from foamprb.cloud.patches import Escape
+from foamprb.cloud.state import drops, set_rest_shape, spheres
+from foamprb.cloud.surroundings import quadratic
+from foamprb.cloud.surroundings.base import Survey
+from foamprb.cloud.surroundings.faxen import FaxenCorrection
+from foamprb.cloud.surroundings.quadratic import QuadraticRows, QuadraticSolid, load7, store7
+from foamprb.cloud.tracker import Models
+from foamprb.errors import InputError
+from foamprb.flow import analytic
+
+MU_F, R = 1e-3, 1e-5
+WATER = Medium(MU_F, 1000.0, (0.0, 0.0, 0.0))
+RADIUS, U = 1e-4, 1e-2
+SOFT = 1.0
+"""Shear modulus, Pa: relaxation in a millisecond."""
+
+
+def advanced(p, flow, steps, dt, integrator="stokes", surroundings=(), threads=1):
+    models = Models(
+        integrator=integrator,
+        material="drop" if p.drop.any() else "neoHooke",
+        surroundings=surroundings,
+        shape="quadratic",
+    )
+    cloud = Cloud(p, flow, WATER, [Escape()] * len(flow.patches), dt, models, threads=threads)
+    for n in np.atleast_1d(steps):
+        cloud.advance(int(n))
+    return cloud
+
+
+def bodies(x, mu=SOFT, eta=0.0):
+    return spheres(np.atleast_2d(x), d=2.0 * R, rho=1000.0, mu=mu, poissons_ratio=0.4999, eta=eta)
+
+
+# --- Shape --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("integrator", "eta"), [("stokes", 0.0), ("stokes", 3e-3), ("rosenbrock", 0.0)])
+def test_a_body_on_the_axis_of_a_pipe_becomes_a_bullet(integrator, eta):
+    """ε = 7/8 μ U a/(μ_s R²) (1 − exp −t/τ₃), in steps as long as τ₃/3; the affine shape stays a sphere."""
+    tau = (19.0 * MU_F + 16.0 * eta) / (16.0 * SOFT)
+    p = bodies((0.0, 0.0, 0.0), eta=eta)
+    advanced(p, analytic.pipe(RADIUS, 0.5 * U), 6, tau / 3.0, integrator)
+    eps = 7.0 / 8.0 * MU_F * U * R / (SOFT * RADIUS**2) * (1.0 - np.exp(-2.0))
+    B = eps * np.array([1.0, 0.0, 0.0, -0.5, 0.0, 0.0, 0.0])
+    np.testing.assert_allclose(p.B[0], B, atol=1e-7 * eps)
+    np.testing.assert_allclose(p.F[0], np.eye(3).ravel(), atol=1e-12)
+
+
+def test_drops_have_shapes_of_their_own():
+    """ε = (10 + 11λ)/(20 (1 + λ)) μ U a²/(σ R²)."""
+    sigma = SOFT * R
+    p = drops([(0.0, 0.0, 0.0)], d=2.0 * R, rho=1000.0, gamma=sigma, eta=MU_F)
+    cloud = advanced(p, analytic.pipe(RADIUS, 0.5 * U), 40, 5e-4)
+    eps = 21.0 / 40.0 * MU_F * U * R**2 / (sigma * RADIUS**2)
+    assert p.B[0, 0] == pytest.approx(eps, rel=1e-5)
+    found = measure(context(p, cloud.flow, MU_F, cloud.time), ["quadraticShape", "bulletAmplitude"])
+    np.testing.assert_array_equal(found["quadraticShape"], p.B)
+    assert found["bulletAmplitude"] == pytest.approx(eps, rel=1e-5)
+
+
+def test_shapes_follow_a_flow_that_changes_along_the_path():
+    """They do not depend on the step to second order."""
+    results = []
+    for n in (50, 100, 200):
+        p = bodies((0.0, 0.3e-3, 0.0))
+        advanced(p, analytic.function(_waves), n, 1e-2 / n)
+        results.append(p.B[0].copy())
+    error, half = results[0] - results[2], results[1] - results[2]
+    assert bullet_amplitude(tuple(results[2])) > 1e-4
+    assert np.linalg.norm(error) / np.linalg.norm(half) == pytest.approx(5.0, rel=0.2)
+
+
+def _waves(x, y, z):
+    k, v = 3e3, 0.05
+    return (
+        v * (1.0 + 0.3 * np.cos(k * y) * np.cos(k * x)),
+        v * 0.3 * np.sin(k * y) * np.sin(k * x),
+        0.1 * v * np.sin(k * y),
+    )
+
+
+# --- Drift --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
+@pytest.mark.parametrize(("flow", "drift"), [("pipe", -25.0 / 144.0), ("slit", -5.0 / 36.0)])
+def test_elastic_bodies_drift_inward(flow, drift, integrator):
+    """-25/144 or -5/36 of γ g μ a²/μ_s; γ g = 4 U² y/R⁴."""
+    y = 0.5 * RADIUS
+    if flow == "pipe":
+        across, x, flow = 1, (0.0, y, 0.0), analytic.pipe(RADIUS, 0.5 * U)
+    else:
+        across, x, flow = 2, (0.0, 0.0, RADIUS + y), analytic.slit(2.0 * RADIUS, U / 1.5)
+    p = bodies(x, mu=10.0 * SOFT)
+    advanced(p, flow, 40, 2e-5, integrator, (FaxenCorrection(),))
+    expected = drift * 4.0 * U * U * y / RADIUS**4 * MU_F * R * R / (10.0 * SOFT)
+    assert p.v[0, across] == pytest.approx(expected, rel=2e-3)
+
+
+def _linear_and_quadratic(x, y, z):
+    c = 1e3
+    return (
+        x + 2.0 * y + 0.5 * c * (x * x - y * y + 3.0 * z * z + 4.0 * x * y + 2.0 * y * z),
+        -2.0 * y + z + 0.5 * c * (2.0 * x * x + y * y - 2.0 * x * z + 4.0 * y * z),
+        3.0 * x
+        - y
+        + z
+        + 0.5 * c * (x * x + 2.0 * y * y - 2.0 * z * z - 2.0 * x * y - 2.0 * x * z - 6.0 * y * z),
+    )
+
+
+@pytest.mark.parametrize(
+    ("kind", "drift"),
+    [("solid", (6.625000, -1.701389, -6.270833)), ("drop", (5.500000, -1.925000, -5.512500))],
+)
+def test_drift_in_a_flow_without_symmetry(kind, drift):
+    """Beside that of a sphere, in units of μ_f a²/μ_s or μ_f a³/σ times the scales of the flow."""
+    if kind == "solid":
+        p, sphere, around = bodies((0.0, 0.0, 0.0), mu=10.0 * SOFT), 1.0 / 6.0, (FaxenCorrection(),)
+    else:
+        p = drops([(0.0, 0.0, 0.0)], d=2.0 * R, rho=1000.0, gamma=10.0 * SOFT * R, eta=MU_F)
+        sphere, around = 0.1, ()
+    flow = analytic.function(_linear_and_quadratic)
+    advanced(p, flow, 100, 2e-5, surroundings=around)
+    u, _ = flow.sample(p.x, p.host, 0.0)
+    slip = p.v[0] - u[0] - sphere * R * R * 1e3 * np.array([3.0, 3.0, 1.0])
+    assert slip / (0.1 * MU_F * R * R / SOFT * 1e3) == pytest.approx(drift, rel=2e-3)
+
+
+def test_a_new_body_is_displaced_by_its_shift():
+    """Where the fluid does not turn, the centre moves by −q while the surface does by q."""
+    p = bodies((0.0, 0.0, 0.0))
+    advanced(p, analytic.pipe(RADIUS, 0.5 * U), 10, 1e-3)
+    q = MU_F * R * R / (9.0 * SOFT) * -4.0 * U / RADIUS**2
+    assert p.shift[0, 0] == pytest.approx(q, rel=1e-6)
+    assert p.x[0, 0] - U * 1e-2 == pytest.approx(-q, rel=1e-3)
+
+
+# --- Numbers ------------------------------------------------------------------------------------------------
+
+
+def test_numbers_depend_neither_on_threads_nor_on_calls():
+    places = np.random.default_rng(2).uniform(-0.4, 0.4, (40, 3)) * RADIUS + (RADIUS, 0.0, 0.0)
+    flow, runs = analytic.pipe(RADIUS, 0.5 * U), []
+    for threads, calls in ((1, (7,)), (3, (7,)), (1, (2, 1, 4))):
+        p = bodies(places)
+        p.t0[::3] = p.t[::3] = 1.3e-4
+        advanced(p, flow, calls, 1e-4, threads=threads)
+        runs.append(p)
+    assert (runs[0].B[:, 0] > 0.0).all()
+    for other in runs[1:]:
+        for name in ("x", "v", "B", "shift"):
+            assert np.array_equal(getattr(runs[0], name), getattr(other, name)), name
+
+
+@pytest.fixture
+def lane(monkeypatch):
+    """A block with the rows of the mode, whose lane 3 has just been computed."""
+    rows, first = {}, ROWS
+    for name, n in zip(QuadraticRows._fields, (7, 3, 1, 1, 7, 3, 3, 7, 3), strict=True):
+        rows[name], first = first, first + n
+    mode = QuadraticRows(**rows)
+    monkeypatch.setattr(quadratic, "mode", mode)
+    block, random = new_block(first), np.random.default_rng(4)
+    idle_lanes(block, 0.3)
+    block[at.t * LANES + 3], block[mode.reached * LANES + 3], block[mode.sampled * LANES + 3] = 0.7, 0.2, 1.0
+    store3(block, at.v, 3, (1.0, 0.0, 0.0))
+    for row in (mode.B, mode.growth):
+        store7(block, row, 3, tuple(random.normal(size=7)))
+    for row in (mode.shift, mode.pull, mode.fluid_spin):
+        store3(block, row, 3, tuple(random.normal(size=3)))
+    return SimpleNamespace(block=block, mode=mode)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_mirrored_body_goes_on_as_the_mirror_image(lane, sign):
+    """By a rotation, and by one with a reflection."""
+    block, mode, random = lane.block, lane.mode, np.random.default_rng(5)
+    turn = sign * np.linalg.qr(random.normal(size=(3, 3)))[0]
+    turn *= np.linalg.det(turn) * sign
+    flat = tuple(turn.ravel())
+    growth, pull, spin = random.normal(size=7), random.normal(size=3), random.normal(size=3)
+    before = block.copy()
+    quadratic.advance_mode(block, 3, tuple(growth), 2.0, tuple(spin), 0.3)
+    quadratic.advance_shift(block, 3, tuple(pull), 3.0, tuple(spin), 0.3)
+    there = [turned(load7(block, row, 3), flat) for row in (mode.B, mode.middle)]
+    drift = turn @ load3(block, mode.shift_drift, 3)
+    block[:] = before
+    quadratic.turn_mode(block, 3, flat)
+    spin = np.linalg.det(turn) * turn @ spin
+    quadratic.advance_mode(block, 3, turned(tuple(growth), flat), 2.0, tuple(spin), 0.3)
+    quadratic.advance_shift(block, 3, tuple(turn @ pull), 3.0, tuple(spin), 0.3)
+    for row, expected in zip((mode.B, mode.middle), there, strict=True):
+        assert load7(block, row, 3) == pytest.approx(expected, abs=1e-12)
+    assert load3(block, mode.shift_drift, 3) == pytest.approx(drift, abs=1e-12)
+
+
+def test_a_body_that_a_wall_lets_go_keeps_the_shape_with_which_it_was_held(lane):
+    B = load7(lane.block, lane.mode.B, 3)
+    store3(lane.block, at.v, 3, (0.0, 0.0, 0.0))
+    quadratic.advance_mode(lane.block, 3, (1.0,) * 7, 2.0, (0.0, 0.0, 0.0), 0.3)
+    assert load7(lane.block, lane.mode.B, 3) == B
+
+
+# --- Choice -------------------------------------------------------------------------------------------------
+
+
+def test_a_wrong_shape_and_the_scheme_of_the_paper_are_refused():
+    with pytest.raises(InputError, match=r"the shape is cubic\. Allowed: affine, quadratic"):
+        Models(shape="cubic")
+    with pytest.raises(InputError, match="quadratic needs the integrator stokes or rosenbrock, not paper"):
+        advanced(bodies((0.0, 0.0, 0.0)), analytic.shear(1.0), 1, 1e-4, "paper")
+
+
+def test_bodies_that_are_no_spheres_are_told():
+    p = bodies(np.zeros((3, 3)))
+    assert not QuadraticSolid().remarks(Survey(p, None, WATER, 1e-4)).warnings
+    set_rest_shape(p, np.array([(1.0, 1.0, 1.0), (2.0, 1.0, 1.0), (1.0, 1.0, 3.0)]))
+    (warning,) = QuadraticSolid().remarks(Survey(p, None, WATER, 1e-4)).warnings
+    assert warning.startswith("2 of 3 particles are no spheres at rest")

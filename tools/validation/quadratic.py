@@ -1,0 +1,107 @@
+"""Quadratic mode: cells in a cytometer, and drifts across a pipe (beyond the paper)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from foamprb.body.quadratic import outline_parts, tube_deformation
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Escape
+from foamprb.cloud.state import drops, spheres
+from foamprb.cloud.surroundings.faxen import FaxenCorrection
+from foamprb.cloud.tracker import Models
+from foamprb.flow import analytic
+from validation.case import Floats, Outcome, Row
+
+WIDTH, FLOW, MU_F = 20e-6, 0.04e-9, 0.015
+"""Width of the square channel, m, volume flow, m³/s, and viscosity, Pa s."""
+RADIUS = 0.547 * WIDTH
+"""Of the tube that replaces the channel (Mietke et al. 2015), m."""
+ELEMENTS = (
+    (34.0043, 0.009059, 2.17667), (46.4343, 0.012500, 2.17667), (60.9267, 0.017086, 2.17667),
+    (77.6523, 0.023007, 2.17667), (94.8824, 0.030440, 2.17667), (114.612, 0.040542, 2.17667),
+    (126.974, 0.048073, 2.17667), (73.1886, 0.006880, 3.78053), (94.8739, 0.009649, 3.78053),
+    (115.392, 0.012874, 3.78053), (128.903, 0.015403, 3.78053), (133.631, 0.016408, 3.78053),
+)  # fmt: skip
+"""Some rows of the table LE-2D-FEM-19: area of the outline, µm², deformation, Young's modulus, kPa."""
+OF_ELEMENTS = "finite elements, Mokbel et al. (2017): LE-2D-FEM-19 of dclab"
+ANALYTICAL = (
+    (33.6043, 6.36019e-4, 7.97), (59.4575, 1.17519e-3, 7.97), (93.2372, 2.03852e-3, 7.97),
+    (123.009, 2.81196e-3, 8.32218), (134.878, 3.58464e-3, 7.97),
+)  # fmt: skip
+"""Some rows of the analytical table."""
+OF_FORMULA = "analytical, Mietke et al. (2015): scripts of dclab"
+SOURCES = (
+    "The tables are part of dclab (github.com/DC-analysis/dclab, GPL 2; data of the finite elements: doi "
+    "10.6084/m9.figshare.12155064.v4). Both replace the channel by a tube of 0.547 of its width. The finite "
+    "elements have the velocity that belongs to the curvature of the flow, 2Q/πR²; the analytical table has "
+    "that of the square channel, 2.0963 Q/L². Deformation is 1 − 2√(πA)/P of the outline. The mode of each "
+    "body is that of the tracker; its deformation is multiplied by the square of the tube's factor."
+)
+
+
+def _cells(areas: Floats, modulus: Floats, speed: float) -> Floats:
+    """Return the steady deformations of cells on the axis of the tube.
+
+    Parameters
+    ----------
+    areas
+        Of their outlines, m².
+    modulus
+        Young's, Pa.
+    speed
+        Of the fluid on the axis, m/s.
+    """
+    a, mu = np.sqrt(areas / np.pi), modulus / 3.0
+    for _ in range(20):
+        eps = 7.0 / 8.0 * MU_F * speed * a / (mu * RADIUS**2)
+        a = np.sqrt(areas / (np.pi * (1.0 - 0.75 * eps * eps)))
+    p = spheres(np.zeros((len(a), 3)), d=2.0 * a, rho=1000.0, mu=mu)
+    _advance(p, analytic.pipe(RADIUS, 0.5 * speed), MU_F, 1e-4, 20)
+    return np.asarray(outline_parts(tuple(p.B.T)).deformation * tube_deformation(a / RADIUS) ** 2)
+
+
+def _advance(p, flow, mu_f: float, dt: float, steps: int, surroundings=()) -> None:  # type: ignore[no-untyped-def]
+    models = Models(
+        integrator="stokes",
+        material="drop" if p.drop.any() else "neoHooke",
+        surroundings=surroundings,
+        shape="quadratic",
+    )
+    rules = [Escape()] * len(flow.patches)
+    Cloud(p, flow, Medium(mu_f, 1000.0, (0.0, 0.0, 0.0)), rules, dt, models, threads=1).advance(steps)
+
+
+def mode(quick: bool) -> Outcome:  # noqa: ARG001
+    """Quadratic mode in curved flows."""
+    rows = []
+    for table, source, allowed, speed in (
+        (ELEMENTS, OF_ELEMENTS, 0.05, 2.0 * FLOW / (np.pi * RADIUS**2)),
+        (ANALYTICAL, OF_FORMULA, 0.01, 2.0963 * FLOW / WIDTH**2),
+    ):
+        areas, deformations, moduli = np.array(table).T
+        ours = _cells(1e-12 * areas, 1e3 * moduli, speed)
+        for area, expected, modulus, one in zip(areas, deformations, moduli, ours, strict=True):
+            title = f"cell in a cytometer, {area:.4g} µm², E = {modulus:.3g} kPa: deformation"
+            rows.append(Row(title, float(one), float(expected), source, allowed, relative=True))
+    rows += _drifts()
+    return Outcome(rows, [], [SOURCES])
+
+
+def _drifts() -> list[Row]:
+    """Return the drifts at half of the radius of a pipe."""
+    R, a, U, mu_f, mu_s = 1e-4, 1e-5, 1e-2, 1e-3, 10.0
+    y, rows = 0.5 * R, []
+    unit = 4.0 * U * U * y / R**4 * mu_f * a * a / mu_s
+    p = spheres([(0.0, y, 0.0)], d=2.0 * a, rho=1000.0, mu=mu_s, poissons_ratio=0.4999)
+    _advance(p, analytic.pipe(R, 0.5 * U), mu_f, 2e-5, 40, (FaxenCorrection(),))
+    title = "drift across a pipe over γ g μ a²/μ_s: elastic sphere"
+    rows.append(Row(title, float(p.v[0, 1]) / unit, -25.0 / 144.0, "theory, first order", 3e-3, True))
+    numbers = {0.5: -0.057993, 1.0: 0.037500, 2.0: 0.061830}
+    for ratio, expected in numbers.items():
+        d = drops([(0.0, y, 0.0)], d=2.0 * a, rho=1000.0, gamma=mu_s * a, eta=ratio * mu_f)
+        _advance(d, analytic.pipe(R, 0.5 * U), mu_f, 1e-4, 40)
+        title = f"drift across a pipe over γ g μ a³/σ: drop, λ = {ratio:g}"
+        rows.append(Row(title, float(d.v[0, 1]) / unit, expected, "theory, first order", 3e-3, True))
+    return rows
