@@ -20,6 +20,19 @@ ENOUGH = 1e4
 """Bulk modulus over the largest stress at which the volume is constant to 10⁻⁴."""
 
 
+INCOMPRESSIBLE = 1e5
+"""Largest λ over the largest stress on a body."""
+
+
+def limited_lame(lame: Scalar, stress: Scalar) -> Scalar:
+    """Return λ, Pa, or 10⁵ times the largest of the stresses on a body, Pa, if that is less.
+
+    The volume is then constant to about 10⁻⁵, and the shape that of an incompressible body to about as much.
+    The pressure of a solid with water's 2·10⁹ Pa is a difference of numbers 10¹¹ times larger.
+    """
+    return np.minimum(lame, INCOMPRESSIBLE * stress)
+
+
 def lame_from_bulk_modulus(bulk: Scalar, mu: Scalar) -> Scalar:
     """Return λ = K − ⅔ μ, Pa, of a solid with bulk modulus K and shear modulus μ."""
     return bulk - 2.0 / 3.0 * mu
@@ -32,10 +45,6 @@ def bulk_modulus(mu: Scalar, poissons_ratio: Scalar) -> Scalar:
 
 def sufficient_bulk_modulus(mu: Scalar, viscous_stress: Scalar) -> Scalar:
     """Return the bulk modulus, Pa, that keeps the volume of a body of any softness: 10⁴ max(μ_s, μ_f γ̇).
-
-    With a larger one the paper's scheme does not converge within its three iterations at Δt = τ_s/3.
-    Moreover, the pressure is K times J − 1, whose round-off then matters: with water's 2·10⁹ Pa the pressure
-    is wrong by 10⁻⁶ Pa, and the fluid's stress in air is 10⁻² Pa.
 
     ``mu`` is the shear modulus, ``viscous_stress`` μ_f γ̇ at the largest shear rate on the path, both in Pa.
     """

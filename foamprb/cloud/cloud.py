@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.compressibility import limited_lame
 from foamprb.body.material import MATERIALS
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
@@ -29,7 +30,7 @@ from foamprb.cloud.contact import in_order
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
-from foamprb.cloud.measures import as_slice, path_stokes_number, shape_stokes_number
+from foamprb.cloud.measures import as_slice, path_stokes_number, shape_stokes_number, shear_rate_at
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.needs import check_needs
 from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
@@ -141,6 +142,8 @@ class Cloud:
         self.map_ranks(_refuse_extreme, self.medium)
         self._refuse_early()
         find_hosts(self.particles, self.flow)
+        if self.step == 0:
+            self._limit_bulk_moduli()
         self.stokes_numbers: tuple[float, float] | None = None
         """Largest of the shape and of the path, if the integrator follows from them."""
         if self.models.integrator == "auto":
@@ -415,6 +418,31 @@ class Cloud:
             pairs.append((shape, path_stokes_number(moving, self.flow, medium, self.time)))
         shapes, paths = zip(*pairs, strict=True)
         return max(shapes), max(paths)
+
+    def _limit_bulk_moduli(self) -> None:
+        """Reduce bulk moduli whose pressure round-off would spoil; the largest γ̇ is that at release."""
+        if not any(self.map_ranks(_is_stiff_in_volume)):
+            return
+        stress = 0.0
+        for moving in self.map_by_id(_moving):
+            mu = medium_at(self.medium, self.flow, moving, self.time).mu
+            stress = max(stress, float(np.max(mu * shear_rate_at(self.flow, moving, self.time), initial=0.0)))
+        self.map_ranks(_limit_lame, stress)
+
+
+def _is_stiff_in_volume(p: Particles) -> bool:
+    return bool((p.lame > limited_lame(p.lame, _stress_scale(p))).any())
+
+
+def _limit_lame(p: Particles, viscous_stress: float) -> None:
+    p.lame[:] = limited_lame(p.lame, np.maximum(_stress_scale(p), viscous_stress))
+
+
+def _stress_scale(p: Particles) -> NDArray[np.float64]:
+    """Return the largest stress on each particle as far as its state has it, Pa."""
+    # Ca, if any, is that of the release or of the reference shear rate.
+    scale: NDArray[np.float64] = np.maximum(p.mu * np.fmax(p.Ca, 1.0), p.gamma / p.R)
+    return scale
 
 
 _LEAST, _MOST = 1e-30, 1e30

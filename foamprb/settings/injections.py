@@ -51,7 +51,8 @@ class Solid:
         float | None,
         Positive,
         Meaning(
-            "bulk modulus; the default keeps the volume to 10⁻⁴ at the largest γ̇ at release",
+            "bulk modulus; the default keeps the volume to 10⁻⁴ at the largest γ̇ at release, and larger ones "
+            "count as at most ten times the default",
             "Pa",
             "10⁴ max(μ_s, μ_f γ̇)",
         ),
