@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 import re
@@ -76,6 +77,31 @@ def write_text(path: Path, text: str) -> None:
     """
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
+
+
+def replace_end(path: Path, end: bytes, text: bytes) -> None:
+    """Write a text over the end of a file, and flush it; after an error the file has its old end.
+
+    The cost does not depend on the size of the file. A killed process may leave a part of the text.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written; it names ``path``.
+    """
+    with path.open("r+b", buffering=0) as file:
+        place = file.seek(-len(end), os.SEEK_END)
+        try:
+            if file.write(text) != len(text):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            _flush(path, os.O_RDWR)
+        except OSError as error:
+            file.truncate(place)
+            file.seek(place)
+            file.write(end)
+            if error.errno and error.filename is None:
+                raise OSError(error.errno, error.strerror, str(path)) from error
+            raise
 
 
 def remove_unfinished(files: Collection[Path]) -> None:

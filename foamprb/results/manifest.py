@@ -5,22 +5,24 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from contextlib import suppress
-from functools import cache
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import write_text
+from foamprb.results.atomic import replace_end, write_text
 from foamprb.results.folder import MANIFEST
 
 FORMAT = 1
+_NEXT, _END = "\n ,", "\n ]\n}\n"
+"""Text between two names, and after the last name."""
 
 
 class Manifest:
     """Files that a run has written into its folder or is about to write.
 
-    ``manifest.json`` names them relative to the folder. A file is listed before it is written, so that no
-    file stays unlisted if the run is killed. A listed file may be missing.
+    ``manifest.json`` names them relative to the folder, one in a line. A file is listed before it is written,
+    so that no file stays unlisted if the run is killed. A listed file may be missing, or be listed twice.
+    Files are appended: the cost does not grow with the length of the list.
 
     Parameters
     ----------
@@ -33,7 +35,8 @@ class Manifest:
     def __init__(self, folder: Path, files: Iterable[Path] = ()) -> None:
         self.folder = folder
         self.files = set(files)
-        self._expected: frozenset[Path] = frozenset()
+        """The files that :meth:`read` has found; later ones are on disk only."""
+        self._expected: frozenset[Path] | None = None
 
     @property
     def path(self) -> Path:
@@ -52,16 +55,14 @@ class Manifest:
         manifest = cls(folder)
         if manifest.path.exists():
             try:
-                manifest.files = {folder / name for name in _names(json.loads(manifest.path.read_bytes()))}
+                manifest.files = {folder / name for name in _names(_content(manifest.path.read_bytes()))}
                 _refuse_links(folder, manifest.files)
             except (OSError, TypeError, ValueError, RecursionError) as error:
                 raise InputError(f"{manifest.path} is damaged: {error}") from error
         return manifest
 
     def expect(self, files: Iterable[Path]) -> None:
-        """List files that are about to be written, in one step.
-
-        Files of the last call that do not exist now are dropped from the list.
+        """List files that are about to be written.
 
         Raises
         ------
@@ -71,16 +72,34 @@ class Manifest:
             If the manifest cannot be written.
         """
         files = frozenset(files)
+        further = files - (self._expected or frozenset())
         try:
-            _refuse_links(self.folder, files)
+            _refuse_links(self.folder, further)
         except ValueError as error:
             raise InputError(f"{self.folder}: results would be written elsewhere: {error}") from error
-        self.files -= {file for file in self._expected if not file.exists()}
+        if self._expected is None:
+            self._write(self.files | files)
+        elif further:
+            replace_end(self.path, _END.encode(), f"{_NEXT}{self._lines(further)}{_END}".encode())
         self._expected = files
-        self.files |= self._expected
-        names = sorted(_name(file, self.folder) for file in self.files)
-        content = {"format": FORMAT, "files": names}
-        write_text(self.path, f"{json.dumps(content, indent=1)}\n")
+
+    def settle(self, files: Iterable[Path]) -> None:
+        """List only files that exist, and files that are about to be written, in one step.
+
+        Raises
+        ------
+        InputError
+            If the manifest is damaged.
+        OSError
+            If the manifest cannot be written.
+        """
+        self._write({file for file in Manifest.read(self.folder).files if file.exists()} | {*files})
+
+    def _write(self, files: Iterable[Path]) -> None:
+        write_text(self.path, f'{{\n "format": {FORMAT},\n "files": [\n  {self._lines(files)}{_END}')
+
+    def _lines(self, files: Iterable[Path]) -> str:
+        return _NEXT.join(map(json.dumps, sorted(file.relative_to(self.folder).as_posix() for file in files)))
 
     def remove(self, files: Iterable[Path]) -> None:
         """Remove listed files, in order, and the folders that become empty.
@@ -98,14 +117,18 @@ class Manifest:
                     (self.folder / parent).rmdir()
 
 
-@cache
-def _name(file: Path, folder: Path) -> str:
-    return file.relative_to(folder).as_posix()
+def _content(data: bytes) -> Any:
+    """Return the contents of a manifest; without the last lines if they were not written completely."""
+    try:
+        return json.loads(data)
+    except ValueError:
+        return json.loads(data.rpartition(_NEXT.encode())[0] + _END.encode())
 
 
 def _refuse_links(folder: Path, files: Iterable[Path]) -> None:
     """Raise ValueError if a folder between the run's folder and a file is a link, which leads elsewhere."""
-    for parent in {parent for file in files for parent in file.relative_to(folder).parents[:-1]}:
+    folders = {file.parent.relative_to(folder) for file in files}
+    for parent in {path for path in folders for path in (path, *path.parents) if path.parts}:
         if (folder / parent).is_symlink():
             raise ValueError(f"the folder '{parent}' is a link.")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
@@ -104,13 +105,18 @@ class Series:
             self.entries = ()
 
     def _list(self, entries: tuple[SnapshotFile, ...]) -> None:
-        lines = [f'    <DataSet timestep="{e.time!r}" part="0" file={quoteattr(e.file)}/>\n' for e in entries]
         write_text(
             self.folder.pvd,
             '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n'
-            f"{''.join(lines)}  </Collection>\n</VTKFile>\n",
+            f"{''.join(map(_line, entries))}  </Collection>\n</VTKFile>\n",
         )
         self.entries = entries
+
+
+@cache
+def _line(entry: SnapshotFile) -> str:
+    """Return the line of a ``.pvd``; the list is written whole at each time."""
+    return f'    <DataSet timestep="{entry.time!r}" part="0" file={quoteattr(entry.file)}/>\n'
 
 
 def with_ending(stem: Path, ending: str) -> Path:

@@ -205,7 +205,7 @@ class Results:
             If it cannot be written.
         """
         cloud = self._ready()
-        self._manifest.expect(self._checkpoint_files(now=True))
+        self._manifest.settle(self._checkpoint_files(now=True))
         self._write_checkpoint(cloud, self._job.functions.state(), self._write_parts())
 
     def end(self) -> None:
@@ -223,7 +223,7 @@ class Results:
 
         def finish() -> None:
             self._writer.finish()
-            self._manifest.expect([self._fates, self._failures] if failed else [self._fates])
+            self._manifest.settle([self._fates, self._failures] if failed else [self._fates])
             if failed:
                 write_rows(self._failures, cloud.map_by_id(_failures_of, cloud.models, cloud.limits))
 

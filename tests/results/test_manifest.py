@@ -22,7 +22,7 @@ def test_expected_files_are_listed_by_relative_names(tmp_path: Path) -> None:
     expected = [tmp_path / name for name in ("a.vtp", "deep/er/b.csv", 'odd "näme"\n.vtp')]
     manifest = Manifest(tmp_path)
     manifest.expect(expected)
-    assert Manifest.read(tmp_path).files == manifest.files == {*expected}
+    assert Manifest.read(tmp_path).files == {*expected}
     assert json.loads(manifest.path.read_text())["files"] == sorted(
         str(file.relative_to(tmp_path)) for file in expected
     )
@@ -38,17 +38,44 @@ def test_without_a_manifest_nothing_is_listed(tmp_path: Path) -> None:
     assert Manifest.read(tmp_path).files == set()
 
 
-def test_missing_files_are_dropped_from_the_list(tmp_path: Path) -> None:
+def test_files_are_appended_to_the_list(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A list of 1000 files more costs a write of their names only; at any time it is JSON."""
+    manifest = Manifest(tmp_path, [tmp_path / "a"])
+    manifest.expect([tmp_path / "b"])
+    monkeypatch.setattr(Path, "replace", None)
+    for time in range(3):
+        pieces = {tmp_path / f"{time}/{rank}.vtp" for rank in range(1000)}
+        size = manifest.path.stat().st_size
+        manifest.expect([tmp_path / "b", *pieces])
+        assert manifest.path.stat().st_size - size < 20 * 1000
+        assert len(json.loads(manifest.path.read_text())["files"]) == 2 + 1000 * (time + 1)
+        assert pieces < Manifest.read(tmp_path).files
+
+
+def test_settling_drops_missing_files(tmp_path: Path) -> None:
     manifest = Manifest(tmp_path)
     a, b, c, d = (tmp_path / name for name in "abcd")
     manifest.expect([a, b])
+    manifest.expect([c])
     a.touch()
-    manifest.expect([a, c])
-    assert Manifest.read(tmp_path).files == {a, c}
     c.touch()
-    a.unlink()
-    manifest.expect([d])
-    assert Manifest.read(tmp_path).files == {c, d}
+    manifest.settle([d])
+    assert Manifest.read(tmp_path).files == {a, c, d}
+    assert manifest.path.read_text() == '{\n "format": 1,\n "files": [\n  "a"\n ,"c"\n ,"d"\n ]\n}\n'
+
+
+@pytest.mark.parametrize("n", range(1, 40))
+def test_a_killed_process_leaves_the_list_before_it(tmp_path: Path, n: int) -> None:
+    """The text of an append may end anywhere."""
+    manifest = Manifest(tmp_path)
+    manifest.expect([tmp_path / "first"])
+    before = manifest.path.read_bytes()
+    manifest.expect([tmp_path / "second", tmp_path / "third"])
+    after = manifest.path.read_bytes()
+    place = len(before) - len("\n ]\n}\n") + n
+    manifest.path.write_bytes(after[:place] + before[place:])
+    names = {file.name for file in Manifest.read(tmp_path).files}
+    assert {"first"} <= names <= {"first", "second", "third"}
 
 
 def test_a_failed_write_keeps_the_list_before_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

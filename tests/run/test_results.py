@@ -90,9 +90,8 @@ def test_a_file_is_listed_before_it_is_written(case, monkeypatch):
 
     monkeypatch.setattr(Path, "replace", listed)
     run(case)
-    # Manifest and record; manifest, cloud and list at the start; these and a checkpoint at six times;
-    # manifest and table.
-    assert len(seen) == 2 + 3 + 4 * 6 + 2
+    # Manifest and record; cloud and list at the start; these and a checkpoint at six times; manifest, table.
+    assert len(seen) == 2 + 2 + 3 * 6 + 2
 
 
 def test_new_run_removes_listed_files_only(case, truth):
