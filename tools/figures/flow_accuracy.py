@@ -48,7 +48,7 @@ def gradient(x: Floats) -> Floats:
 def ours(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
     """Return u and ∇u of foamprb, with the fluxes that follow from them."""
     u, l = Reconstruction(mesh)(cells, boundary)
-    flow = MeshFlow(mesh, u, l, correction=Conservation(mesh)(u, l))
+    flow = MeshFlow(mesh, u, l, fluxes=Conservation(mesh)(u, l))
     return lambda x: flow.sample(x, flow.locate(x), 0.0)
 
 

@@ -103,9 +103,9 @@ def main() -> None:
             boundary = velocity(mesh.boundary_centres)
             boundary[mesh.patch_start[2] :] = 0.0
             u, l = Reconstruction(mesh)(velocity(mesh.centres), boundary)
-            correction = Conservation(mesh)(u, l)
-            for name, c in (("interpolated", None), ("keeps volume", correction)):
-                print(row(f"{mesh.n_cells} {kind} | {name}", MeshFlow(mesh, u, l, correction=c)), flush=True)
+            fluxes = Conservation(mesh)(u, l)
+            for name, phi in (("interpolated", None), ("keeps volume", fluxes)):
+                print(row(f"{mesh.n_cells} {kind} | {name}", MeshFlow(mesh, u, l, fluxes=phi)), flush=True)
 
 
 if __name__ == "__main__":
