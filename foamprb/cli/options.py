@@ -13,7 +13,16 @@ from foamprb.errors import InputError
 if TYPE_CHECKING:
     from foamprb.flow.read.source import FlowSource
 
-__all__ = ["add_browser", "add_case", "add_cloud", "add_flow", "fraction", "show_page", "source_of"]
+__all__ = [
+    "add_browser",
+    "add_cache",
+    "add_case",
+    "add_cloud",
+    "add_flow",
+    "fraction",
+    "show_page",
+    "source_of",
+]
 
 
 def add_case(parser: argparse.ArgumentParser) -> None:
@@ -56,6 +65,13 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
         help="split patches of a mesh file at edges with a larger angle",
     )
     add("--scale", type=float, metavar="S", help="lengths in a mesh file times S are m [1]")
+
+
+def add_cache(parser: argparse.ArgumentParser) -> None:
+    """Add the option ``-cache``."""
+    parser.add_argument(
+        "--cache", type=Path, metavar="DIR", help="folder that keeps prepared flows of cases for later runs"
+    )
 
 
 def add_browser(parser: argparse.ArgumentParser) -> None:
@@ -106,4 +122,5 @@ def source_of(arguments: argparse.Namespace) -> FlowSource:
         arguments.decomposed,
         reader=arguments.reader,
         scale=scale,
+        cache=getattr(arguments, "cache", None),
     )

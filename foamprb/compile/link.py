@@ -35,7 +35,7 @@ from foamprb.compile.trace import TRACED, branch
 if TYPE_CHECKING:
     from foamprb.compile.internals import Role
 
-__all__ = ["allocating", "bound", "is_compiled", "link", "linked", "read_by", "traced"]
+__all__ = ["allocating", "bound", "is_compiled", "key_of", "link", "linked", "read_by", "traced"]
 
 log = logging.getLogger("foamprb")
 
@@ -224,9 +224,9 @@ def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, call
         elif isinstance(value, type) and issubclass(value, tuple):
             text = f"{name}={getattr(value, '_fields', '')}"
         described.append(Keys(text, text))
-    keys = Keys(*map(_key_of, zip(*described, strict=True)))
+    keys = Keys(*map(key_of, zip(*described, strict=True)))
     if role == "stage":
-        keys = keys._replace(outside=_key_of([called]))
+        keys = keys._replace(outside=key_of([called]))
     if keys.full not in _parts:
         cells = tuple(CellType(_constant(value)) for value in captured)
         scope = {**function.__globals__, **names}
@@ -242,7 +242,8 @@ def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, call
     return _parts[keys.full]
 
 
-def _key_of(texts: Iterable[str]) -> str:
+def key_of(texts: Iterable[str]) -> str:
+    """Return a hash of texts, of the versions and options of the compiler, and of the processor."""
     compiler = _compiler(plain=_internals() is None)
     return hashlib.sha256(";".join((compiler, *texts)).encode()).hexdigest()[:24]
 

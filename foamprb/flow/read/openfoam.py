@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from functools import partial
+from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -57,6 +57,7 @@ from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
+from foamprb.flow.read.prepared import PreparedTimes
 from foamprb.flow.read.sampled import kinds_of, read_sampled
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.read.times import listed
@@ -262,17 +263,24 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
     kinds = kinds_of(source.sampled, case.fields, (name,))
-    reconstruct = Reconstruction(whole.mesh, comm=case.comm)
-    u, l, *more = _at_nodes(case, name, source, whole, reconstruct, cells, boundary)
-    sampled = read_sampled(read, source.sampled, kinds, whole, reconstruct) if source.sampled else None
-    # Its arrays take half as much memory as the flow.
-    del reconstruct
-    trim()
-    conserve = Conservation(whole.mesh, comm=case.comm)
+    operators, given = _Operators(whole.mesh, case.comm), _given(case, name, source, whole)
+    more = _further(case, name, source, whole, operators)
+    sampled = read_sampled(read, source.sampled, kinds, whole, operators.reconstruct) if kinds else None
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity, case.comm)
     notes: list[Any] = [*case.notes, *whole.notes]
     file = (case.folder(name) / source.velocity).relative_to(case.root)
-    fluxes = balanced(conserve, u, l, mass, file, notes=notes)
+
+    def make() -> tuple[Floats, Floats, Floats | None]:
+        u, l = operators.reconstruct(cells, boundary, given)
+        # Its arrays take half as much memory as the flow.
+        del operators.reconstruct
+        trim()
+        fluxes = balanced(operators.conserve, u, l, mass, file, notes=notes)
+        del operators.conserve
+        return u, l, fluxes
+
+    prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
+    u, l, fluxes = prepared.get((cells, boundary, given, mass), make)
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     caveats = _caveats(case, name, source, relative=bool(rotations))
@@ -280,7 +288,6 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
         caveats += _instant(case, name, source.velocity, cells, whole.mesh)
     notes += caveats
     notes += flux
-    del conserve
     trim()
     notes += [
         f"The zone {zone.name} of {len(zone.cells)} cells rotates with "
@@ -290,8 +297,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     ]
     zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
     viscosity = more[-1] if source.viscosity else None
-    given = whole.mesh, u, l, notes, zones, name, turbulence, fluxes, viscosity
-    flow = RotatingFlow(rotating, *given) if rotating else case.make(MeshFlow, *given)
+    parts = whole.mesh, u, l, notes, zones, name, turbulence, fluxes, viscosity
+    flow = RotatingFlow(rotating, *parts) if rotating else case.make(MeshFlow, *parts)
     if sampled is not None:
         flow.field_table, flow.field_columns = sampled
     return flow
@@ -315,22 +322,30 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     first = velocities(field, whole)
     read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady, case.comm)
-    reconstruct = Reconstruction(whole.mesh, comm=case.comm)
-    conserve = Conservation(whole.mesh, comm=case.comm)
+    operators = _Operators(whole.mesh, case.comm)
+    prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
-        return read_sampled(partial(case.field, name), source.sampled, kinds, whole, reconstruct)
+        return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators.reconstruct)
 
     def read(name: str) -> tuple[Any, ...]:
         if name != names[0]:
             _refuse_moving(case, name)
         reads = [partial(case.field, name) for name in names]
-        values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
-        u, l, *more = _at_nodes(case, name, source, whole, reconstruct, *values)
+        values = (
+            *velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole),
+            _given(case, name, source, whole),
+        )
         index = names.index(name)
         mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity, case.comm)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
-        fluxes = balanced_in_time(conserve, u, l, mass, where, accept=source.accept)
+
+        def make() -> tuple[Floats, Floats, Floats]:
+            u, l = operators.reconstruct(*values)
+            return u, l, balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
+
+        u, l, fluxes = prepared.get((*values, mass), make)
+        more = _further(case, name, source, whole, operators)
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes)
 
     notes = [*notes, *case.notes, *whole.notes]
@@ -373,24 +388,34 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
     return names, notes
 
 
-def _at_nodes(
-    case: Case,
-    time: str,
-    source: FlowSource,
-    whole: CaseMesh,
-    reconstruct: Reconstruction,
-    cells: Floats,
-    boundary: Floats,
-) -> list[Any]:
-    """Return u and l at the nodes, and turbulence and viscosity as the source requests."""
-    read, given = partial(case.field, time), None
-    if source.gradient:
-        given = gradients(read(source.gradient, GRADIENT_FIELD), whole.mesh)
-    arrays: list[Any] = [*reconstruct(cells, boundary, given)]
+class _Operators:
+    """Operators of a mesh, made when they are first used."""
+
+    def __init__(self, mesh: Mesh, comm: MeshCommunicator) -> None:
+        self._mesh, self._comm = mesh, comm
+
+    @cached_property
+    def reconstruct(self) -> Reconstruction:
+        return Reconstruction(self._mesh, comm=self._comm)
+
+    @cached_property
+    def conserve(self) -> Conservation:
+        return Conservation(self._mesh, comm=self._comm)
+
+
+def _given(case: Case, time: str, source: FlowSource, whole: CaseMesh) -> Floats | None:
+    """Return the gradient at the cells if it is read."""
+    field = case.field(time, source.gradient, GRADIENT_FIELD) if source.gradient else None
+    return None if field is None else gradients(field, whole.mesh)
+
+
+def _further(case: Case, time: str, source: FlowSource, whole: CaseMesh, operators: _Operators) -> list[Any]:
+    """Return turbulence and viscosity at the nodes, as the source requests."""
+    read, arrays = partial(case.field, time), []
     if source.turbulent:
-        arrays.append(read_turbulence(read, case.folder(time), whole, reconstruct))
+        arrays.append(read_turbulence(read, case.folder(time), whole, operators.reconstruct))
     if source.viscosity:
-        arrays.append(read_viscosity_field(read, source.viscosity, whole, reconstruct))
+        arrays.append(read_viscosity_field(read, source.viscosity, whole, operators.reconstruct))
     return arrays
 
 

@@ -70,6 +70,8 @@ class FlowSource:
     """``vtk`` to read a case's mesh by VTK's OpenFOAM reader, in single precision."""
     scale: float | None = None
     """Factor of the lengths in a mesh file, m; by default 1."""
+    cache: Path | None = None
+    """Folder that keeps the times of cases; see :class:`~foamprb.flow.read.prepared.PreparedTimes`."""
 
     @property
     def length_scale(self) -> float:
