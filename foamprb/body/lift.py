@@ -18,11 +18,11 @@ from foamprb.body.tensor import (
     add_identity,
     dot,
     dot_vector,
+    from_frame,
     inverse,
     norm,
     scale,
     select,
-    transpose,
 )
 
 SAFFMAN = 6.46
@@ -65,7 +65,7 @@ def lift_force(w: Vector, omega: Vector, R: Scalar, rho: Scalar, mu: Scalar) -> 
 
 
 def lifted_slip(
-    w: Vector, Q: Tensor, resistances: Vector, omega: Vector, R: Scalar, rho: Scalar, mu: Scalar
+    w: Vector, Q: Tensor, resistance: Tensor, omega: Vector, R: Scalar, rho: Scalar, mu: Scalar
 ) -> Vector:
     """Return the slip at which drag balances the lift and a load, m/s: μ_f K·w' = μ_f K·w + L ω × w'.
 
@@ -73,20 +73,15 @@ def lifted_slip(
     ----------
     w
         Slip by the load without lift, m/s.
-    Q, resistances
-        Particle frame (rows) and K_a along its axes, m.
+    Q, resistance
+        Particle frame (rows) and K in it, m.
     omega
         Vorticity of the fluid, 1/s.
     R, rho, mu
         Radius, m; density and viscosity of the fluid.
     """
     x, y, z = omega
-    k = (1.0 / (mu * resistances[0]), 1.0 / (mu * resistances[1]), 1.0 / (mu * resistances[2]))
-    mobility = dot(transpose(Q), (
-        k[0] * Q[0], k[0] * Q[1], k[0] * Q[2],
-        k[1] * Q[3], k[1] * Q[4], k[1] * Q[5],
-        k[2] * Q[6], k[2] * Q[7], k[2] * Q[8],
-    ))  # fmt: skip
+    mobility = scale(1.0 / mu, from_frame(Q, inverse(resistance)))
     turn = dot(mobility, (0.0 * x, -z, y, z, 0.0 * x, -x, -y, x, 0.0 * x))
     size = norm(omega)
     slip = w

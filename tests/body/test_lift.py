@@ -41,13 +41,15 @@ def test_drag_balances_load_and_lift_on_an_ellipsoid():
     c, s = math.cos(0.4), math.sin(0.4)
     Q = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
     w0, omega = np.array([SLIP, 2e-4, -3e-4]), np.array([100.0, 300.0, -RATE])
-    w = np.array(lifted_slip(tuple(w0), tuple(Q.ravel()), tuple(K), tuple(omega), R, RHO, MU))
+    w = np.array(
+        lifted_slip(tuple(w0), tuple(Q.ravel()), tuple(np.diag(K).ravel()), tuple(omega), R, RHO, MU)
+    )
     L = lift_coefficient(np.linalg.norm(w), np.linalg.norm(omega), R, RHO, MU)
     resistance = MU * Q.T @ np.diag(K) @ Q
     np.testing.assert_allclose(resistance @ (w - w0), L * np.cross(omega, w), rtol=1e-6, atol=1e-18)
 
 
 def test_without_vorticity_or_load_there_is_no_lift():
-    K, w0 = (6.0 * math.pi * R,) * 3, (SLIP, 0.0, 0.0)
+    K, w0 = tuple(6.0 * math.pi * R * np.eye(3).ravel()), (SLIP, 0.0, 0.0)
     assert lifted_slip(w0, AXES, K, (0.0, 0.0, 0.0), R, RHO, MU) == w0
     assert lifted_slip((0.0, 0.0, 0.0), AXES, K, (0.0, 0.0, RATE), R, RHO, MU) == (0.0, 0.0, 0.0)

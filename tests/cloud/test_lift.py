@@ -9,14 +9,16 @@ from types import FunctionType
 import numpy as np
 import pytest
 
-from foamprb.body.lift import PIPE, PLANE_CHANNEL, balances
+from foamprb.body.lift import PIPE, PLANE_CHANNEL, balances, lift_coefficient
+from foamprb.body.wall import normal_mobility, parallel_mobility
 from foamprb.cloud.block import ROWS, Medium, at
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DuctLift, Gravity, coefficients, compose, forces_on
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.patches import Escape
+from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
+from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic
@@ -53,6 +55,30 @@ def test_a_sphere_with_inertia_comes_to_the_same_slip():
     for rate in (RATE, 1e4):
         v, w = (advance(integrator=i, dt=2e-6, steps=5, rho=1.0, rate=rate) for i in ("rosenbrock", "stokes"))
         np.testing.assert_allclose(v, w, atol=1.5e-6)
+
+
+@pytest.mark.parametrize("h", [2.0, 1.1])
+def test_a_wall_hinders_the_slip_and_the_drift_by_it(h):
+    """Drag hindered along and across the wall balances weight and lift, with and without inertia."""
+    speeds = []
+    for integrator, dt, steps, rho in (("stokes", 1e-9, 1, 1e-6), ("rosenbrock", 2e-6, 6, 1.0)):
+        for around in ((), (SaffmanMeiLift(),)):
+            p = spheres([(0.0, 0.0, h * R)], d=2.0 * R, rho=rho, mu=1e7, poissons_ratio=0.4999)
+            water = Medium(MU, RHO, (-LOAD / (RHO - rho), 0.0, 0.0))
+            models = Models(
+                integrator=integrator, forces=(Gravity(),), surroundings=(WallLift(strain=False), *around)
+            )
+            Cloud(p, analytic.shear_over_wall(RATE), water, [Rebound()], dt, models, threads=1).advance(steps)
+            speeds.append(p.v[0] - (RATE * p.x[0, 2], 0.0, 0.0))
+    along, across = (m(1.0 / h) / (6.0 * math.pi * MU * R) for m in (parallel_mobility, normal_mobility))
+    load = 6.0 * math.pi * MU * R * 1e-3
+    w = np.array([along * load, 0.0])
+    for _ in range(20):
+        L = lift_coefficient(np.hypot(*w), RATE, R, RHO, MU) * RATE
+        w = np.array([along * (load + L * w[1]), -across * L * w[0]])
+    for without, lifted in (speeds[:2], speeds[2:]):
+        np.testing.assert_allclose((lifted - without)[2], w[1], rtol=2e-3)
+        np.testing.assert_allclose((lifted - without)[0], w[0] - along * load, rtol=0.15)
 
 
 def force_at(lift, x, radius=R, rho=1500.0):

@@ -32,6 +32,7 @@ __all__ = [
     "add3",
     "add9",
     "hindrance_by_walls",
+    "present_hindrance",
     "resistances",
     "thermal_force",
     "volume_at_rest",
@@ -161,8 +162,12 @@ def _written(value: Any) -> str:
 
 
 def hindrance_by_walls(_block: Any, _i: int) -> Tensor:
-    """Return zero: no walls; ``wallLift`` binds its own function."""
+    """Return zero: no walls; ``wallLift`` binds its own function, of the walls at the start of a step."""
     return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+present_hindrance = hindrance_by_walls
+"""The same of the walls where the lane is."""
 
 
 def thermal_force(_block: Any, _i: int) -> Vector:

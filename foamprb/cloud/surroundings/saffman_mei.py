@@ -10,12 +10,29 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from foamprb.body.lift import lift_force, lifted_slip, vorticity
-from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, minus, plus, scale_vector, vector_dot
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    Vector,
+    dot_vector,
+    inverse,
+    minus,
+    plus,
+    scale_vector,
+    vector_dot,
+)
+from foamprb.body.wall import hindered_resistance
 from foamprb.cloud.block import Medium, at, load3, load9, local_fluid, viscosity_at
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.stokes import slip_of_body as slip_without_lift
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.surroundings.base import Surrounding, Traits, resistances, volume_at_rest
+from foamprb.cloud.surroundings.base import (
+    Surrounding,
+    Traits,
+    present_hindrance,
+    resistances,
+    volume_at_rest,
+)
 from foamprb.dictionary.constraints import Only
 
 __all__ = ["SaffmanMeiLift"]
@@ -23,9 +40,14 @@ __all__ = ["SaffmanMeiLift"]
 
 def slip_with_lift(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
-    w, K = slip_without_lift(block, i, medium, l_f, Du_Dt), resistances(block, i)
+    w, k = slip_without_lift(block, i, medium, l_f, Du_Dt), resistances(block, i)
     Q, R, mu = load9(block, at.Q, i), block[at.R * LANES + i], viscosity_at(block, i, medium)
-    return lifted_slip(w, Q, K, vorticity(l_f), R, local_fluid(block, i, medium).rho, mu)
+    K = hindered_resistance(k, present_hindrance(block, i))
+    x, y, z = dot_vector(Q, w)
+    # The walls' effect on the slip without lift is part of u.
+    near_walls = vector_dot(dot_vector(inverse(K), (k[0] * x, k[1] * y, k[2] * z)), Q)
+    lifted = lifted_slip(near_walls, Q, K, vorticity(l_f), R, local_fluid(block, i, medium).rho, mu)
+    return plus(w, minus(lifted, near_walls))
 
 
 def acceleration_with_lift(
@@ -39,9 +61,9 @@ def acceleration_with_lift(
     Q, u = load9(block, at.Q, i), load3(block, at.u, i)
     R, mu, omega = block[at.R * LANES + i], viscosity_at(block, i, medium), vorticity(load9(block, at.l, i))
     mass = volume_at_rest(block, i) * block[at.rho * LANES + i] * inertia
-    K = scale_vector(mass / mu, rate)
+    K = hindered_resistance(scale_vector(mass / mu, rate), present_hindrance(block, i))
     load = dot_vector(Q, minus(a, load3(block, at.DuDt, i)))
-    w0 = vector_dot((load[0] / rate[0], load[1] / rate[1], load[2] / rate[2]), Q)
+    w0 = vector_dot(dot_vector(inverse(K), scale_vector(mass / mu, load)), Q)
     balanced = lifted_slip(w0, Q, K, omega, R, local_fluid(block, i, medium).rho, mu)
     y = block[at.dt * LANES + i] * (rate[0] + rate[1] + rate[2]) * (1.0 / 3.0)
     y = y * y

@@ -410,9 +410,14 @@ def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
 
 def hindered_rate(block: Any, i: int, rate: Vector) -> Tensor:
     """Return the rates of drag of lane i near its walls, 1/s, in the particle frame, from those without."""
+    return hindered_resistance(rate, hindrance_now(block, i))
+
+
+def hindrance_now(block: Any, i: int) -> Tensor:
+    """Return W of all walls around lane i, in the particle frame."""
     W = load9(block, near.hindrance, i)
     # Without walls near any lane, the rows of hindrance are from an earlier step.
-    return hindered_resistance(rate, choose(any_near(block, i), W, scale(0.0, W)))
+    return choose(any_near(block, i), W, scale(0.0, W))
 
 
 def across_axes(block: Any, i: int, rate: Vector, w: Vector) -> Vector:
@@ -575,7 +580,8 @@ class WallLift(Surrounding):
         }
         if not self.mobility:
             return motion
-        return {**motion, "hindrance_by_walls": hindrance_at_start, **(_OF_INERTIA if inertia else {})}
+        hindrances = {"hindrance_by_walls": hindrance_at_start, "present_hindrance": hindrance_now}
+        return {**motion, **hindrances, **(_OF_INERTIA if inertia else {})}
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:
         """Refuse ``paper``, whose drag is diagonal in the particle frame, and the hindrance of drops."""
