@@ -27,6 +27,7 @@ from foamprb.cloud.communicator import (
     values_of,
 )
 from foamprb.cloud.contact import in_order
+from foamprb.cloud.integrators.adaptive import stretch_in
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
@@ -41,8 +42,9 @@ from foamprb.cloud.tracker import Models, Tracker, available_threads, check, nev
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
-from foamprb.flow.base import Flow
+from foamprb.flow.base import Floats, Flow
 from foamprb.flow.fields import columns_of
+from foamprb.flow.nodes import NodeValues
 
 __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 
@@ -62,6 +64,7 @@ class Snapshot(NamedTuple):
     step: int
     recovered: int
     reach: float
+    stretch_steps: int
 
 
 @dataclass
@@ -176,7 +179,14 @@ class Cloud:
             patches=self.flow.patches,
             columns=columns_of(self.flow),
         )
+        if self.tracker.stride is None:
+            self.tracker.stretch_steps = stretch_in(self._rate_of_change(), self.dt)
         self.comm.rank.tracker = self.tracker
+
+    @property
+    def stretch_steps(self) -> int:
+        """Multiple of steps at which calls change no results."""
+        return self.tracker.stretch_steps
 
     @property
     def size(self) -> int:
@@ -334,7 +344,9 @@ class Cloud:
         """
         into = None if before is None else before.particles
         particles = self.particles.copy_changing(into, self.tracker.changing, self.threads)
-        return Snapshot(particles, self.flow, self.time, self.step, self.recovered, self.reach)
+        return Snapshot(
+            particles, self.flow, self.time, self.step, self.recovered, self.reach, self.stretch_steps
+        )
 
     def contact_normals(self, p: Particles) -> NDArray[np.float64]:
         """Return unit normals, into the fluid, of the walls on which particles of the cloud ended.
@@ -409,6 +421,18 @@ class Cloud:
                 f"{self.start:g} s, the first at {early.min():g} s"
             )
 
+    def _rate_of_change(self) -> float:
+        """Return the largest velocity gradient at the flow's nodes, or 2 U/L if larger, 1/s; 0 without nodes.
+
+        U is the largest velocity, L the longest edge of the box around the flow.
+        """
+        ends = self.flow.ends_at_nodes(_speeds_and_gradients)
+        if not ends:
+            return 0.0
+        (_, speed), (_, gradient) = ends
+        low, high = self.flow.bounds
+        return max(gradient, 2.0 * speed / float((high - low).max()))
+
     def _find_stokes_numbers(self) -> tuple[float, float]:
         """Return the largest Stokes numbers of shape and path of the particles that have not ended."""
         pairs = [(0.0, 0.0)]
@@ -443,6 +467,10 @@ def _stress_scale(p: Particles) -> NDArray[np.float64]:
     # Ca, if any, is that of the release or of the reference shear rate.
     scale: NDArray[np.float64] = np.maximum(p.mu * np.fmax(p.Ca, 1.0), p.gamma / p.R)
     return scale
+
+
+def _speeds_and_gradients(values: NodeValues) -> tuple[Floats, Floats]:
+    return np.linalg.norm(values.u, axis=1), np.abs(values.l).max(axis=1)
 
 
 _LEAST, _MOST = 1e-30, 1e30

@@ -113,9 +113,9 @@ class Models:
     """Models that change the fluid at a particle, in this order."""
     rebounds: bool = False
     """Whether rebounds, and passages of coupled patches, are recorded (:meth:`Tracker.take_rebounds`)."""
-    stride: int = 1
-    """Longest step of ``stokes`` or ``rosenbrock`` where its error allows it, in tracking steps Δt. No step
-    goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
+    stride: int | None = 1
+    """Longest step of ``stokes`` or ``rosenbrock`` where its error allows it, in tracking steps Δt; None for
+    any. No step goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
     shape: InitVar[str] = "affine"
     """``affine``, or ``quadratic`` for a second mode, which is the first of the ``surroundings``."""
 
@@ -232,11 +232,10 @@ class Tracker:
             surroundings=surroundings.coefficients(around, patches),
         )
         self.dt, self.start = dt, start
-        self.stride = 1
         # Surroundings may change, or draw random numbers, in each tracking step.
-        if integrator.adaptive and models.tolerance < np.inf and not any(m.traits.each_step for m in around):
-            self.stride = models.stride
-        self.options = (models.tolerance, self.stride) if integrator.adaptive else ()
+        free = integrator.adaptive and models.tolerance < np.inf
+        self.stride = models.stride if free and not any(m.traits.each_step for m in around) else 1
+        """Longest step in tracking steps; None for any."""
         self.stretch_steps = stretch_of(self.stride)
         """Multiple of steps at which a run may be cut into calls without any change of its results."""
         self.rebounds: list[NDArray[np.float64]] = []
@@ -245,7 +244,14 @@ class Tracker:
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Compiled code is not sent; the other process loads it from the cache.
-        return Tracker, self._made_of
+        return Tracker, self._made_of, {"stretch_steps": self.stretch_steps}
+
+    @property
+    def options(self) -> tuple[float, ...]:
+        """Further arguments of the integrator's loop."""
+        if not self.integrator.adaptive:
+            return ()
+        return self._made_of[0].tolerance, self.stride or self.stretch_steps, self.stretch_steps
 
     @property
     def changing(self) -> frozenset[str]:
@@ -465,7 +471,7 @@ _ROOM, _MORE_ROOM = 1000, 4
 
 def check(models: Models, tense: bool) -> None:
     """Raise InputError if the models exclude each other; for ``tense`` see :class:`Tracker`."""
-    if not isinstance(models.stride, int | np.integer) or models.stride < 1:
+    if models.stride is not None and (not isinstance(models.stride, int | np.integer) or models.stride < 1):
         raise InputError(
             f"the stride is {models.stride}. Allowed: whole numbers of tracking steps, 1 or more"
         )

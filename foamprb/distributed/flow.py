@@ -160,9 +160,9 @@ class DistributedFlow:
         """Largest number of cells that a body passes in a time, 1/s."""
         return self._fluid + self._slip * self.summaries[0].steepness
 
-    def expect(self, slip: float) -> None:
-        """Prepare for bodies with a velocity relative to the fluid, m/s."""
-        self._slip = slip
+    def expect(self, slip: float, step: float) -> None:
+        """Prepare for bodies with a velocity relative to the fluid, m/s, and exchanges after steps, s."""
+        self._slip, self._step = slip, step
         self._deepen(self._layers)
 
     @property

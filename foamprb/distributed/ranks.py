@@ -349,7 +349,7 @@ class _PartedFlow:
         flow: Any = cloud.flow
         self._ranks, self._flow = ranks, flow
         self._dt, self._stretch = cloud.dt, cloud.tracker.stretch_steps
-        flow.expect(max(cloud.map_ranks(largest_slip, cloud.medium)))
+        flow.expect(max(cloud.map_ranks(largest_slip, cloud.medium)), self._dt * self._stretch)
         cloud.make_ready()
         numbers = ranks.call(Worker.node_number)
         self.ranks_of = [[r for r, n in enumerate(numbers) if n == k] for k in range(max(numbers) + 1)]

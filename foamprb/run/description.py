@@ -95,6 +95,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             "shapeStokesNumber": number,
             "pathStokesNumber": path_number,
             "longestStep": cloud.tracker.stride,
+            "stepsEnd": cloud.tracker.stretch_steps,
             "interaction": settings.interaction,
             "touching": settings.touching,
             "notes": notes,

@@ -77,8 +77,9 @@ def log_description(job: Job) -> None:
         log.info("    auto: Stokes numbers at injection up to %.3g (shape), %.3g (path); "
                  "stokes below %g, else rosenbrock",
                  models["shapeStokesNumber"], models["pathStokesNumber"], SMALL_STOKES)  # fmt: skip
-    if models["longestStep"] > 1:
-        log.info("    steps of up to %d deltaT where the error allows it", models["longestStep"])
+    if models["stepsEnd"] > 1:
+        most = f" of up to {models['longestStep']} deltaT" if models["longestStep"] else ""
+        log.info("    steps%s where the error allows it, to multiples of %d deltaT", most, models["stepsEnd"])
     for name, entries in models["dispersion"].items():
         log.info("Selecting dispersionModel %s %s", name, entries)
     for name, entries in models["fates"].items():
@@ -157,14 +158,14 @@ class RunLog:
             log.info("End")
 
     def _log_steps(self) -> None:
-        """Log the number of time steps per tracking step."""
+        """Log the mean step, and the number of steps per tracking step."""
         cloud = self._job.cloud
         moved, steps, most, short = zip(*cloud.map_in_flow(_steps_of, cloud.dt), strict=True)
         n = sum(moved)
         if n == 0:
             return
-        log.info("    steps per tracking step         = %.3g in the mean, %.3g at most",
-                 sum(steps) / n, max(most))  # fmt: skip
+        log.info("    mean step                       = %.3g deltaT, at most %.3g steps per deltaT",
+                 n / sum(steps), max(most))  # fmt: skip
         log.info("    with a step below deltaT/10     = %.3g %%", 100.0 * sum(short) / n)
 
     def _log_clocks(self) -> None:

@@ -130,6 +130,7 @@ def checkpoint_of(
         "step": cloud.step,
         "recovered": cloud.recovered,
         "reach": cloud.reach,
+        "stretch": cloud.stretch_steps,
         "series": _stems(entries),
         "fingerprint": marks,
         "times": _times_until(cloud.flow, cloud.time),
@@ -242,6 +243,8 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoin
     functions.restore(stored, lambda name: checkpoint.read(f"{FUNCTIONS}{name}"))
     cloud.comm.call(_restore_rank, checkpoint.path)
     cloud.step, cloud.recovered, cloud.reach = header["step"], header["recovered"], header["reach"]
+    if cloud.tracker.stride is None:
+        cloud.tracker.stretch_steps = header["stretch"]
 
 
 def _restore_rank(rank: Rank, file: Path) -> None:

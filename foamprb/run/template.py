@@ -43,7 +43,6 @@ from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.help import meaning, plain
-from foamprb.settings.solution import STRIDE
 
 __all__ = ["FlowScales", "scales_of", "template", "write_template"]
 
@@ -197,7 +196,7 @@ cloudFunctions
     paths
     {{
         type particleTracks; // for foamprb view and foamprb report
-        trackInterval {STRIDE * max(1, round(end / step / _SAMPLES / STRIDE))}; // steps
+        trackInterval {max(1, round(end / step / _SAMPLES))}; // steps
         maxSamples 1000;
         maxTracks 200;
     }}

@@ -20,7 +20,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import FAULTS
 from foamprb.flow.read.caveats import pseudo_time
 
-__all__ = ["STRIDE", "Solution", "StartFrom", "read_solution"]
+__all__ = ["Solution", "StartFrom", "read_solution"]
 
 log = logging.getLogger("foamprb")
 
@@ -28,8 +28,6 @@ _CONTROL = Path("system/controlDict")
 _TIME = Annotated[float, Positive]
 MULTIPLE_TOLERANCE = 1e-6
 """Tolerance of the check that a write interval is a multiple of the step, relative."""
-STRIDE = 8
-"""Default of ``maxDeltaT`` in tracking steps."""
 MOST_STEPS = 2**53
 """Number of steps above which steps have no distinct numbers in double precision."""
 
@@ -87,9 +85,9 @@ class Solution:
         Meaning(
             "[longest step](integrators.md#steps-longer-than-deltat) of integrators with error control",
             "s",
-            "eight times `deltaT`",
+            "by the error and the flow alone",
         ),
-    ] = math.nan
+    ] = math.inf
     endTime: Annotated[
         float, Positive, Meaning("end of the run, which also ends when no particle moves", "s", _OF_CONTROL)
     ] = math.nan
@@ -211,9 +209,13 @@ class Solution:
     averagingMethod: Annotated[None, _NO_SOURCES] = None
 
     @property
-    def stride(self) -> int:
-        """``maxDeltaT`` in tracking steps, rounded down."""
-        return max(1, int(self.maxDeltaT / self.deltaT * (1.0 + MULTIPLE_TOLERANCE)))
+    def stride(self) -> int | None:
+        """``maxDeltaT`` in tracking steps, rounded down; None without."""
+        return (
+            None
+            if self.maxDeltaT == math.inf
+            else max(1, int(self.maxDeltaT / self.deltaT * (1.0 + MULTIPLE_TOLERANCE)))
+        )
 
     @property
     def limits(self) -> Limits:
@@ -256,7 +258,7 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
         raise dictionary.entries["period"].mistake("needs a flow that changes in time: transient yes.")
     step, end = times["deltaT"][1], times["endTime"][1]
     interval = times["writeInterval"][1] if "writeInterval" in times else end
-    longest = times["maxDeltaT"][1] if "maxDeltaT" in times else STRIDE * step
+    longest = times["maxDeltaT"][1] if "maxDeltaT" in times else math.inf
     return replace(solution, deltaT=step, endTime=end, writeInterval=interval, maxDeltaT=longest)
 
 

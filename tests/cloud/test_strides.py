@@ -14,7 +14,7 @@ from foamprb.body.error_control import GROWTH
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.contact import rebounds_of
-from foamprb.cloud.integrators.adaptive import stretch_of
+from foamprb.cloud.integrators.adaptive import stretch_in, stretch_of
 from foamprb.cloud.patches import Escape, Mirror, Rebound, Stick
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
@@ -38,6 +38,17 @@ def in_shear(integrator, stride, dt=0.01, Ca=(1e-3, 0.1, 0.5), tolerance=1e-4):
     p = spheres(np.zeros((len(Ca), 3)), d=2.0, rho=0.15, mu=1.0 / np.array(Ca))
     models = Models(integrator=integrator, tolerance=tolerance, stride=stride)
     return Cloud(p, analytic.shear(1.0), HEAVY, (), dt, models, threads=1)
+
+
+def in_mesh_shear(integrator, dt):
+    """A body at rest in a shear of rate 1 on a mesh, with steps of any length."""
+    mesh = build_mesh(shape := block(4, 0.0), box_patches(shape))
+    gradient = np.zeros((3, 3))
+    gradient[0, 1] = 1.0
+    flow = MeshFlow(mesh, (mesh.nodes - 0.5) @ gradient.T, np.broadcast_to(gradient, (len(mesh.nodes), 3, 3)))
+    p = spheres(np.full((3, 3), 0.5), d=0.02, rho=1500.0, mu=1.0 / np.array([1e-3, 0.1, 0.5]))
+    models = Models(integrator=integrator, stride=None)
+    return Cloud(p, flow, HEAVY, [Rebound()] * len(flow.patches), dt, models, threads=1)
 
 
 def towards_lid(integrator, stride, lid, d=0.02, z=(0.213,), dt=0.004, rate=1.0):
@@ -238,6 +249,30 @@ def test_prepared_flow_of_an_aligned_call_changes_no_bit(calls):
         parts.advance(steps)
     assert_same(whole.particles, parts.particles)
     assert whole.particles.substeps.max() <= 0.25
+
+
+@pytest.mark.parametrize(
+    ("dt", "stretch"), [(0.1, 32), (0.047, 32), (0.046, 64), (0.003, 992), (1e-9, 2**14)]
+)
+def test_a_shorter_tracking_step_makes_no_shorter_stretch(dt, stretch):
+    """Of up to 3/γ̇, and at least 32 tracking steps."""
+    assert stretch_in(1.0, dt) == stretch
+    assert stretch_in(0.0, dt) == 32
+
+
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+def test_a_tenth_of_the_tracking_step_takes_no_more_steps(integrator):
+    """And calls that end at ends of stretches change no bit."""
+    taken = []
+    for dt, steps in ((0.03, 192), (0.003, 1984)):
+        whole, parts = (in_mesh_shear(integrator, dt) for _ in range(2))
+        whole.advance(steps)
+        n = whole.tracker.stretch_steps
+        for part in (n, steps - n):
+            parts.advance(part)
+        assert_same(whole.particles, parts.particles)
+        taken.append(whole.particles.substeps / dt)
+    assert np.all(taken[1] <= 1.1 * taken[0])
 
 
 @pytest.mark.parametrize("stride", [0, -4, 2.5, 4.0, math.nan, math.inf])

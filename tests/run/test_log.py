@@ -91,10 +91,8 @@ def test_steps_of_the_last_tracking_step_are_counted(caplog):
     job = type("Job", (), {"cloud": cloud})
     with caplog.at_level(logging.INFO, "foamprb"):
         log.RunLog(job)._log_steps()
-    mean = cloud.particles.substeps[moved].mean()
-    assert (
-        f"{mean:.3g} in the mean, {int(cloud.particles.substeps[moved].max())} at most" in caplog.messages[0]
-    )
+    steps = cloud.particles.substeps[moved]
+    assert f"= {1.0 / steps.mean():.3g} deltaT, at most {steps.max():.3g} steps" in caplog.messages[0]
     assert caplog.messages[1].endswith("%")
 
 

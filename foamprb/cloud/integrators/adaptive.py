@@ -145,7 +145,11 @@ STEP_ROWS = end(during)
 _SMALLEST = 1e-9
 """Smallest step allowed, over Δt."""
 _STRETCH = 4
-"""Length of a stretch over that of the longest step. Rounding to whole steps then costs little."""
+"""Length of a stretch over ``maxDeltaT``. Rounding to whole steps then costs little."""
+LEAST_STRETCH, _LONGEST_STRETCH = 32, 2**14
+"""Length of a stretch in tracking steps, where steps may be of any length."""
+_SHARE_OF_TIME = 3.0
+"""Largest length of such a stretch over the time scale of the flow, if that is more than the least one."""
 CELLS, MOST_CELLS = 2, 3
 """Cells that a step longer than Δt aims to enter, and enters at most: the flow is not sampled between."""
 _MANY = 6
@@ -379,6 +383,7 @@ def track_adaptive(
     scratch: Scratch,
     tolerance: float,
     most: int,
+    stretch: int,
 ) -> int:
     """Advance particles by ``steps`` tracking steps, each with its own steps.
 
@@ -390,13 +395,17 @@ def track_adaptive(
         Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, limited
         only by :func:`foamprb.body.error_control.longest_step`.
     most
-        Longest step in tracking steps (:func:`stretch_of`).
+        Longest step in tracking steps.
+    stretch
+        Length of a stretch in tracking steps (:func:`stretch_of`): steps of a particle end at its end. Within
+        it they start and end anywhere. As stretches start at multiples of their length, steps do not depend
+        on calls that start and end there.
 
     Returns
     -------
     The number of walks that needed the tree.
     """
-    last, stretch = step + steps, stretch_of(most)
+    last = step + steps
     enough = tolerance if tolerance < math.inf else 0.0
     block, current = scratch.block, scratch.step
     idle_lanes(block, dt)
@@ -498,13 +507,31 @@ def track_adaptive(
     return walks_relocated(scratch)
 
 
-def stretch_of(most: int) -> int:
-    """Return the length of a stretch in tracking steps: steps of a particle end at its end.
+def stretch_of(most: int | None) -> int:
+    """Return the length of a stretch, for steps of at most ``most`` tracking steps, in tracking steps.
 
-    Within it they start and end anywhere, up to ``most`` tracking steps long. As stretches start at multiples
-    of their length, steps do not depend on calls that start and end there.
+    None for any step returns the least length, see :func:`stretch_in`.
     """
-    return 1 if most == 1 else _STRETCH * most
+    return LEAST_STRETCH if most is None else 1 if most == 1 else _STRETCH * most
+
+
+def stretch_in(rate: float, dt: float) -> int:
+    """Return the length of a stretch in a flow, where steps may be of any length, in tracking steps.
+
+    It is the least length, or a multiple of it as long as the time scale of the flow allows. Shorter tracking
+    steps then make no shorter steps.
+
+    Parameters
+    ----------
+    rate
+        Largest rate at which the flow around a particle may change, 1/s.
+    dt
+        Tracking step, s.
+    """
+    if rate <= 0.0:
+        return LEAST_STRETCH
+    most = min(_LONGEST_STRETCH, _SHARE_OF_TIME / (rate * dt))
+    return LEAST_STRETCH * max(1, int(most / LEAST_STRETCH))
 
 
 def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, most: int) -> float:
