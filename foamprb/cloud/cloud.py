@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -103,6 +104,8 @@ class Cloud:
         Names of coupled patches with other interactions than ``Cyclic``.
     comm
         The processes that hold the particles; by default this one alone.
+    end
+        Time at which the last step ends, s. It is shorter than Δt if this is no multiple of Δt.
 
     Raises
     ------
@@ -128,6 +131,7 @@ class Cloud:
     limits: Limits = field(default_factory=Limits)
     decoupled: Collection[str] = ()
     comm: Communicator = field(default_factory=Communicator)
+    end: float = math.inf
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -178,6 +182,7 @@ class Cloud:
             tense=tense,
             patches=self.flow.patches,
             columns=columns_of(self.flow),
+            end=self.end,
         )
         if self.tracker.stride is None:
             self.tracker.stretch_steps = stretch_in(self._rate_of_change(), self.dt)
@@ -241,7 +246,11 @@ class Cloud:
     @property
     def time(self) -> float:
         """Time after the last step, s."""
-        return self.start + self.step * self.dt
+        return self.time_of(self.step)
+
+    def time_of(self, step: int) -> float:
+        """Return the time after a number of steps, s."""
+        return min(self.start + step * self.dt, self.end)
 
     @property
     def medium_there(self) -> Medium:
@@ -316,14 +325,22 @@ class Cloud:
         InputError
             If the flow ends before, or cannot be read.
         """
-        until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
+        until = self.flow.load(self.time, self.time_of(self.step + 1))
         ready = (until - self.time) / self.dt + _ROUND_OFF
+        # The last step may be shorter, and is a call of its own.
+        steps = min(steps, max(1, self.most_steps - 1 - self.step))
         self._grow_reach()
         return self.flow_arrays(), steps if ready > steps else max(1, int(ready))
 
     def steps_until(self, t: float) -> int:
         """Return the number of steps from the start to a time, s; the last may exceed it by round-off."""
-        return math.floor((t - self.start) / self.dt + _ROUND_OFF)
+        return self.most_steps if t >= self.end else math.floor((t - self.start) / self.dt + _ROUND_OFF)
+
+    @property
+    def most_steps(self) -> int:
+        """Number of steps from the start to the end."""
+        steps = (self.end - self.start) / self.dt
+        return math.ceil(steps - _ROUND_OFF) if math.isfinite(steps) else sys.maxsize
 
     def take_rebounds(self) -> NDArray[np.float64]:
         """Return the rebounds and passages since the last call, if the models have ``rebounds``.
@@ -527,7 +544,7 @@ class Stepper:
             If the flow ends before, or cannot be read; earlier steps are kept.
         """
         cloud = self.cloud
-        last = cloud.step + steps
+        last = min(cloud.step + steps, cloud.most_steps)
         while cloud.step < last:
             arrays, ready = cloud.load_flow(last - cloud.step)
             cloud.comm.publish(arrays, cloud.flow)

@@ -152,6 +152,8 @@ class Tracker:
         Patches of the flow.
     columns
         Fields of the case with which the flow was read.
+    end
+        Time at which the last step ends, s; it is shorter than Δt if this is no multiple of Δt.
     """
 
     def __init__(
@@ -166,8 +168,9 @@ class Tracker:
         tense: bool,
         patches: Sequence[Patch] = (),
         columns: Sequence[FieldColumns] = (),
+        end: float = np.inf,
     ) -> None:
-        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches, columns
+        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches, columns, end
         bindings: dict[str, Any] = dict(kernels)
         if models.touching == "centre":
             bindings["gap"] = gap_free
@@ -231,7 +234,7 @@ class Tracker:
             coefficients=coefficients(models.forces),
             surroundings=surroundings.coefficients(around, patches),
         )
-        self.dt, self.start = dt, start
+        self.dt, self.start, self.end = dt, start, end
         # Surroundings may change, or draw random numbers, in each tracking step.
         free = integrator.adaptive and models.tolerance < np.inf
         self.stride = models.stride if free and not any(m.traits.each_step for m in around) else 1
@@ -313,19 +316,28 @@ class Tracker:
             Fields of the case at the loaded times, if the flow was read with some.
         """
         last = step + steps
+        dt, start = times = self._times(step)
         reached = np.full(p.size, step)
         # After an interrupted call some particles are ahead of others.
         active = p.status == Status.ACTIVE
-        reached[active] = np.maximum(step, np.rint((p.t[active] - self.start) / self.dt).astype(np.int64))
+        reached[active] = np.maximum(step, np.rint((p.t[active] - start) / dt).astype(np.int64))
         outcome = Outcome()
         for end in sorted({*np.unique(reached[(reached > step) & (reached < last)]).tolist(), last}):
             rows = np.flatnonzero(np.isin(p.status, self.movable) & (reached <= step))
-            part = self._carry(flow, p, rows, (step, end - step), threads, bounds, stop, fields)
+            part = self._carry(flow, p, rows, (step, end - step), times, threads, bounds, stop, fields)
             outcome += part
             if not part.finished:
                 break
             step = end
         return outcome
+
+    def _times(self, step: int) -> tuple[float, float]:
+        """Return Δt and the time at step 0, s, with which a step ends no later than the last one."""
+        dt, begin = self.dt, self.start + step * self.dt
+        if begin + dt <= self.end:
+            return dt, self.start
+        dt = self.end - begin
+        return dt, begin - step * dt
 
     def _carry(
         self,
@@ -333,6 +345,7 @@ class Tracker:
         p: Particles,
         rows: NDArray[np.int64],
         steps: tuple[int, int],
+        times: tuple[float, float],
         threads: int,
         bounds: LoopLimits,
         stop: Callable[[], bool],
@@ -343,16 +356,14 @@ class Tracker:
 
         def work(task: Task) -> Outcome:
             scratch = self._scratch(halt, bounds, fields)
-            mended: int = self._track(
-                flow, self.table, self.medium, p, *task, self.dt, self.start, scratch, self.options
-            )
+            mended: int = self._track(flow, self.table, self.medium, p, *task, *times, scratch, self.options)
             if scratch.noted[1]:
                 self.rebounds.append(scratch.rebounds[: scratch.noted[1]].copy())
             outgrown = scratch.outgrown[0]
             return Outcome(mended, not (outgrown or halt[0]), outgrown == UNLISTED, outgrown == CROWDED)
 
         # Several tasks per thread, so that a delayed thread leaves some to the others.
-        tasks = tasks_of(p, rows, steps, (self.dt, self.start), _TASKS * threads if threads > 1 else 1)
+        tasks = tasks_of(p, rows, steps, times, _TASKS * threads if threads > 1 else 1)
         # Even a single task runs in another thread: this one handles signals meanwhile.
         with ThreadPoolExecutor(threads) as pool:
             under_way = [pool.submit(work, task) for task in tasks]

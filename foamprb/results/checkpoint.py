@@ -20,12 +20,13 @@ import logging
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import orjson
 import xxhash
 from numpy.typing import NDArray
 
@@ -97,8 +98,14 @@ class Checkpoints:
             _remove(file)
         return path
 
-    def latest(self) -> StoredCheckpoint | None:
-        """Find the latest undamaged checkpoint, and remove the damaged ones after it.
+    def latest(self, fits: Callable[[StoredCheckpoint], bool] = lambda _: True) -> StoredCheckpoint | None:
+        """Find the latest undamaged checkpoint from which a run can continue, and remove those after it.
+
+        Parameters
+        ----------
+        fits
+            Returns whether the run can continue from a checkpoint. If it can from none, the latest
+            undamaged one is returned.
 
         Returns
         -------
@@ -109,21 +116,23 @@ class Checkpoints:
         InputError
             If all are damaged, or the latest undamaged one has another version.
         """
-        files = self.files()
+        files, intact = self.files(), None
         for time, file in sorted(files.items(), reverse=True):
             try:
                 checkpoint = StoredCheckpoint(file, verify=True)
             except DamagedError as error:
                 log.warning("%s is damaged: %s. The checkpoint before it is used.", file, error)
                 continue
-            self.truncate(after=time)
-            return checkpoint
-        if files:
+            if fits(checkpoint):
+                self.truncate(after=time)
+                return checkpoint
+            intact = intact or checkpoint
+        if files and intact is None:
             raise InputError(
                 f"{self.folder}: no intact checkpoint ({len(files)} damaged). Begin again with -overwrite "
                 "or startFrom startTime."
             )
-        return None
+        return intact
 
     def truncate(self, after: float) -> None:
         """Remove the checkpoints of later times, s."""
@@ -188,8 +197,7 @@ def write_arrays(
                 rows[name] = len(array)
             np.lib.format.write_array(file, array[:1] if name in rows else array)
         place = file.tell()
-        text = json.dumps({"time": time, "arrays": names, "rows": rows, **header}, allow_nan=False)
-        file.write(text.encode())
+        file.write(orjson.dumps({"time": time, "arrays": names, "rows": rows, **header}))
         file.seek(len(first) + _SUM_BYTES)
         file.write(place.to_bytes(_PLACE_BYTES, "little"))
         checksum = _checksum(file, first)

@@ -49,7 +49,7 @@ from foamprb.run.follow import Follow, Following, begin_to_follow
 from foamprb.run.release import Release
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import Settings, read_settings
-from foamprb.settings.solution import Solution
+from foamprb.settings.solution import MULTIPLE_TOLERANCE, Solution
 
 log = logging.getLogger("foamprb")
 
@@ -93,7 +93,7 @@ class Job:
     @property
     def steps(self) -> int:
         """Number of steps from the start to the end of the run, or of the solver that it follows."""
-        steps = _steps(self.settings.solution, self.cloud.start)
+        steps, _ = _last_step(self.settings.solution, self.cloud.start)
         if self.following is not None and self.following.ended:
             return min(steps, self.cloud.steps_until(self.following.flow.span[1]))
         return steps
@@ -101,6 +101,8 @@ class Job:
     def next_write(self, step: int) -> int:
         """Return the next step after ``step`` at which results are written, at most the last."""
         solution = self.settings.solution
+        if solution.writeInterval >= solution.endTime:
+            return self.steps
         interval = max(1, round(solution.writeInterval / solution.deltaT))
         return min(self.steps, (step // interval + 1) * interval)
 
@@ -402,6 +404,7 @@ def assemble(
             limits=solution.limits,
             decoupled=[patch.name for patch in flow.patches if by_name[patch.name].code != CYCLIC],
             comm=comm,
+            end=_last_step(solution, start)[1],
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
@@ -423,7 +426,8 @@ def _start(settings: Settings, flow: Flow, growing: bool) -> float:
             f"{settings.file}: solution/endTime is {solution.endTime:g}. Allowed: after {start:g}, the first "
             "time of the flow."
         )
-    end = start + _steps(solution, start) * solution.deltaT
+    steps, end = _last_step(solution, start)
+    end = min(end, start + steps * solution.deltaT)
     if not growing and end > last + TIME_TOLERANCE * abs(last):
         raise InputError(
             f"{settings.file}: solution/endTime is {solution.endTime:g}; the last step ends at {end:g}, "
@@ -438,6 +442,9 @@ def _start(settings: Settings, flow: Flow, growing: bool) -> float:
     return start
 
 
-def _steps(solution: Solution, start: float) -> int:
-    """Return the number of steps from the start to the end of the run."""
-    return max(1, round((solution.endTime - start) / solution.deltaT))
+def _last_step(solution: Solution, start: float) -> tuple[int, float]:
+    """Return the number of steps of the run, and the time at which a shorter last step ends, s, or inf."""
+    steps = (solution.endTime - start) / solution.deltaT
+    if abs(steps - round(steps)) <= MULTIPLE_TOLERANCE:
+        return max(1, round(steps)), math.inf
+    return math.ceil(steps), solution.endTime

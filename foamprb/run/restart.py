@@ -12,6 +12,7 @@ import math
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -306,7 +307,12 @@ def _existing(stem: Path) -> Path:
 
 def _stems(entries: Sequence[SnapshotFile]) -> list[list[float | str]]:
     """Return times and files without their endings, which depend on how many processes wrote them."""
-    return [[entry.time, entry.file.rpartition(".")[0]] for entry in entries]
+    return list(map(_stem, entries))
+
+
+@cache
+def _stem(entry: SnapshotFile) -> list[float | str]:
+    return [entry.time, entry.file.rpartition(".")[0]]
 
 
 def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:

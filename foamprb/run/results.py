@@ -58,6 +58,8 @@ from foamprb.settings.solution import StartFrom
 log = logging.getLogger("foamprb")
 
 HOW_TO_GO_ON = "To continue from the last checkpoint, add -resume."
+_ROUND_OFF = 1e-6
+"""Tolerance of times over the step."""
 _ELSEWHERE = "The option -output DIR writes the results into another folder."
 
 
@@ -129,7 +131,7 @@ class Results:
         self._fingerprint = fingerprint(job.settings, job.cloud)
         self._checkpoints = Checkpoints(job.folder.checkpoints)
         require_choice(job.folder, start_from)
-        checkpoint = self._checkpoints.latest() if start_from == "latestTime" else None
+        checkpoint = self._checkpoints.latest(self._is_at_step) if start_from == "latestTime" else None
         if checkpoint is not None:
             self.finished = self._is_finished(checkpoint)
             self._resume(checkpoint)
@@ -330,6 +332,11 @@ class Results:
         self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
 
+    def _is_at_step(self, checkpoint: StoredCheckpoint) -> bool:
+        """Return whether a step of this run ends at a checkpoint; the last step of an earlier run may."""
+        cloud = self._job.cloud
+        return abs(cloud.time_of(checkpoint.header["step"]) - checkpoint.time) <= _ROUND_OFF * cloud.dt
+
     def _is_finished(self, checkpoint: StoredCheckpoint) -> bool:
         """Return whether the run has ended at a checkpoint, and has written its tables."""
         status = checkpoint.read(f"{PARTICLES}status")
@@ -346,6 +353,11 @@ class Results:
         description = job.description
         where = f"{job.folder.path}: cannot continue from t = {checkpoint.time:.12g} s"
         refuse_changes(checkpoint, self._fingerprint, where)
+        if not self._is_at_step(checkpoint):
+            raise InputError(
+                f"{where}: the run before has ended there, and no step of deltaT = {job.cloud.dt:g} s does. "
+                "Restore its endTime, or start over: -overwrite, or startFrom startTime."
+            )
         refuse_other_times(checkpoint, job.cloud.flow, where)
         entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
         restore(job.cloud, job.functions, checkpoint, where)

@@ -89,7 +89,14 @@ class Solution:
         ),
     ] = math.inf
     endTime: Annotated[
-        float, Positive, Meaning("end of the run, which also ends when no particle moves", "s", _OF_CONTROL)
+        float,
+        Positive,
+        Meaning(
+            "end of the run, which also ends when no particle moves; the last step is shorter if this is no "
+            "multiple of `deltaT`",
+            "s",
+            _OF_CONTROL,
+        ),
     ] = math.nan
     writeInterval: Annotated[
         float,

@@ -82,6 +82,28 @@ def test_a_flow_that_changes_is_followed_from_one_of_its_times_to_the_next(calls
     assert p.x[0] - 0.5 == pytest.approx(np.trapezoid(np.interp(t, times, speed), t) * way, abs=1e-7)
 
 
+@pytest.mark.parametrize("integrator", ["paper", "stokes"])
+def test_a_shorter_last_step_is_a_step_of_that_length(integrator):
+    """51.685 steps; some particles are released in the last one."""
+    end = 1.0337e-3
+    cloud = scattered_cloud(integrator=integrator, end=end)
+    cloud.particles.t0[-3:] = cloud.particles.t[-3:] = 51.3 * cloud.dt
+    cloud.advance(100)
+    assert (cloud.step, cloud.time) == (52, end)
+    assert cloud.particles.t[cloud.particles.status == Status.ACTIVE] == pytest.approx(end, rel=1e-14)
+    first = scattered_cloud(integrator=integrator)
+    first.particles.t0[-3:] = first.particles.t[-3:] = 51.3 * first.dt
+    first.advance(51)
+    last = Cloud(
+        first.particles, first.flow, AIR, first.interactions, end - first.time, first.models, start=first.time
+    )
+    last.advance(1)
+    found, expected = cloud.particles, last.particles
+    assert (found.status == expected.status).all()
+    np.testing.assert_allclose(found.x, expected.x, rtol=1e-11)
+    np.testing.assert_allclose(found.F, expected.F, rtol=0.0, atol=1e-10)
+
+
 class TestPipe:
     """Sect. 5.4 with the exact profile."""
 

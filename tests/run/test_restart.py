@@ -19,13 +19,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from paths import ROOT
-from pipe_case import EARLIER, END, edit, message, results, stop_after, time_folder
+from pipe_case import EARLIER, END, edit, fates, message, results, stop_after, time_folder
 
 from foamprb import execute, prepare
 from foamprb.cli import main
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
 from foamprb.results.background import Writer
+from foamprb.results.pvd import read_pvd
 from foamprb.run import restart
 
 KILL_TEST = ROOT / "tools/hardening/kill_test"
@@ -93,6 +94,30 @@ def test_a_later_end_time_continues_the_run(case, truth):
     edit(case, r"endTime\s+\S+;", f"startFrom latestTime; startTime 0; endTime {END};")
     assert main(["run", "-case", str(case)]) == 0
     assert results(case) == truth
+
+
+def test_a_run_ends_at_an_end_time_between_two_steps(case, truth):
+    """A later end time continues before the shorter last step, which a longer run does not have."""
+    edit(case, r"endTime\s+\S+;", "endTime 0.0030137;")
+    assert main(["run", "-case", str(case)]) == 0
+    ended = results(case)
+    pvd = case / "postProcessing/softCloud/softCloud.pvd"
+    assert [entry.time for entry in read_pvd(pvd)] == pytest.approx([0.0, 1e-3, 2e-3, 3e-3, 3.0137e-3])
+    assert {float(row["t1"]) for row in fates(case) if row["fate"] == "active"} == {0.0030137}
+    shutil.rmtree(pvd.parent)
+    stop_after(case, 0.002)
+    go_on(case)
+    assert results(case) == ended
+    edit(case, r"endTime\s+\S+;", f"endTime {END};")
+    go_on(case)
+    assert results(case) == truth
+
+
+def test_a_run_with_one_checkpoint_between_two_steps_cannot_be_extended(case, capsys):
+    edit(case, r"endTime\s+\S+;", "endTime 0.0005137;")
+    assert main(["run", "-case", str(case)]) == 0
+    edit(case, r"endTime\s+\S+;", "endTime 0.001;")
+    assert "no step of deltaT = 2e-05 s does. Restore its endTime" in message(case, capsys, "-resume")
 
 
 def test_another_write_interval_changes_no_particle(stopped, truth):
