@@ -73,7 +73,7 @@ class Images:
             mean = a * _turned(turns, points[here]) + b * points[there]
             points[here], points[there] = _turned(turns.transpose(0, 2, 1), mean), mean
             axis = here[here == there]
-            if len(axis) and np.any(turn != np.eye(3)):
+            if len(axis) and points.ndim < 4 and np.any(turn != np.eye(3)):
                 points[axis] = _unturned(turn, points[axis])
 
 

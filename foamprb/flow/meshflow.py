@@ -163,6 +163,8 @@ class MeshFlow:
         is not corrected.
     viscosity
         (n_nodes, 4): a field of the viscosity and its gradient, if it was read.
+    curvatures
+        (n_nodes, 18) second derivatives of u, by :func:`foamprb.flow.reconstruct.mean_curvatures`.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -193,6 +195,7 @@ class MeshFlow:
         turbulence: Floats | None = None,
         fluxes: Floats | None = None,
         viscosity: Floats | None = None,
+        curvatures: NDArray[np.float32] | None = None,
     ) -> None:
         self._time = time
         self.field_columns: tuple[FieldColumns, ...] = ()
@@ -241,6 +244,7 @@ class MeshFlow:
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             turbulence=np.empty((0, 8)) if turbulence is None else turbulence,
             viscosity=np.empty((0, 4)) if viscosity is None else viscosity,
+            curvatures=np.empty((0, 18), dtype=np.float32) if curvatures is None else curvatures,
             wall_boxes=np.empty((2, 6)),
             seen_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             correction=sparse_zeros((0 if fluxes is None else len(mesh.tets), 4), np.float32),

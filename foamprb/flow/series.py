@@ -30,6 +30,7 @@ from foamprb.flow.timeline import Timeline
 from foamprb.flow.viscosity import blend_scalar
 from foamprb.flow.walk import (
     FAILED,
+    blend_curvature,
     blend_turbulence,
     corners,
     correction_at,
@@ -65,6 +66,8 @@ class SeriesArrays(NamedTuple):
     they were read; last viscosity and its gradient, if it was."""
     slack: float
     """Times closer than this are the same, s."""
+    curvatures: NDArray[np.float32]
+    """(rows, 18) as those of :class:`MeshArrays`, time by time; no rows for none."""
     first_tet: NDArray[np.int64]
     """(n,) row of ``correction`` at which the tetrahedra of each time begin."""
     correction: NDArray[np.float32]
@@ -139,16 +142,24 @@ def viscosity(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[float
     return a + s * (b - a), between(da, db, s)
 
 
-def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001
+def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature:
     """See :func:`foamprb.flow.walk.curvature`; linear in t."""
     k = _interval(flow, t)
     s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
-    a = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k])
-    b = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k + 1])
+    a, b = _curvature_at(flow, host, x, k), _curvature_at(flow, host, x, k + 1)
     return (
         between(a[0], b[0], s), between(a[1], b[1], s), between(a[2], b[2], s),
         between(a[3], b[3], s), between(a[4], b[4], s), between(a[5], b[5], s),
     )  # fmt: skip
+
+
+def _curvature_at(flow: SeriesArrays, host: int, x: Vector, k: int) -> Curvature:
+    """Return the second derivatives at the k-th of the loaded times."""
+    if flow.curvatures.shape[0] == 0:
+        return curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k])
+    return blend_curvature(
+        flow.curvatures, corners(flow.mesh, host, flow.first[k]), shape(flow.mesh, host, x)
+    )
 
 
 def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -213,9 +224,9 @@ class SeriesFlow(Timeline, MeshFlow):
     read
         Returns u (n_nodes, 3), m/s, and l (n_nodes, 3, 3), 1/s, at the time of an index; with ``turbulent``
         also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8); with ``viscous`` also the viscosity and its gradient,
-        (n_nodes, 4); with ``sampled`` also these fields, (n_nodes, columns); with ``conservative`` last the
-        fluxes that keep volume, (n_faces,) (:mod:`foamprb.flow.fluxes`). One thread at a time calls it, not
-        always the same.
+        (n_nodes, 4); with ``sampled`` also these fields, (n_nodes, columns); with ``conservative`` the
+        fluxes that keep volume, (n_faces,) (:mod:`foamprb.flow.fluxes`); with ``curved`` last the second
+        derivatives, (n_nodes, 18). One thread at a time calls it, not always the same.
     period
         Duration after which the flow repeats itself, s. Times from ``times[0] + period`` on are ignored; at
         that time the first field follows.
@@ -225,8 +236,8 @@ class SeriesFlow(Timeline, MeshFlow):
         Number of times to keep in memory, if more than a step needs.
     zones
         Returns the cells of each zone by name; called when a zone is requested.
-    turbulent, conservative, viscous
-        Whether ``read`` returns the turbulence, the fluxes, and the viscosity.
+    turbulent, conservative, viscous, curved
+        Whether ``read`` returns the turbulence, the fluxes, the viscosity, and the second derivatives.
     sampled
         Further fields that ``read`` returns.
     names
@@ -268,6 +279,7 @@ class SeriesFlow(Timeline, MeshFlow):
         viscous: bool = False,
         sampled: Sequence[FieldColumns] = (),
         names: list[str] | None = None,
+        curved: bool = False,
     ) -> None:
         nodes = mesh.n_points + mesh.n_cells
         super().__init__(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
@@ -280,6 +292,7 @@ class SeriesFlow(Timeline, MeshFlow):
         self._fields = np.empty((0, nodes, _width(turbulent, viscous)))
         self._corrections = np.empty((0, len(mesh.tets) if conservative else 0, 4), dtype=np.float32)
         self._fluxes = np.empty((0, len(mesh.owner) if conservative else 0))
+        self._curvatures = np.empty((0, nodes if curved else 0, 18), dtype=np.float32)
         self._in_memory: dict[int, int] = {}
         """Row in ``_fields`` of each loaded time by its index, the least recently used first."""
         self._levels = range(0)
@@ -293,7 +306,7 @@ class SeriesFlow(Timeline, MeshFlow):
         """See :meth:`MeshFlow.nothing`."""
         rows = np.empty(0, dtype=np.int64)
         return SeriesArrays(
-            no_mesh(), np.empty(0), rows, np.empty((0, 12)), 0.0,
+            no_mesh(), np.empty(0), rows, np.empty((0, 12)), 0.0, np.empty((0, 18), dtype=np.float32),
             rows, np.empty((0, 4), dtype=np.float32), rows, np.empty(0),
         )  # fmt: skip
 
@@ -345,6 +358,7 @@ class SeriesFlow(Timeline, MeshFlow):
             places * nodes,
             self._fields.reshape(-1, self._fields.shape[2]),
             self._slack(float(times.max(initial=self.times[0]))),
+            self._curvatures.reshape(-1, 18),
             places * tets,
             self._corrections.reshape(-1, 4),
             places * faces,
@@ -443,6 +457,7 @@ class SeriesFlow(Timeline, MeshFlow):
             empty = sparse_zeros((capacity, *self._corrections.shape[1:]), np.float32)
             self._corrections = self._placed(empty, self._corrections)
             self._fluxes = self._grown(self._fluxes, capacity)
+            self._curvatures = self._grown(self._curvatures, capacity)
             self.field_table = self._grown(self.field_table, capacity)
         for index in wanted:
             if index in self._in_memory:
@@ -468,6 +483,8 @@ class SeriesFlow(Timeline, MeshFlow):
             place = self._in_memory.pop(next(iter(self._in_memory)))
         self._fields[place, :, :3] = u
         self._fields[place, :, 3:_OF_VELOCITY] = l.reshape(-1, 9)
+        if self._curvatures.shape[1] > 0:
+            self._curvatures[place] = more.pop()
         if self._corrections.shape[1] > 0:
             self._fluxes[place] = more.pop()
             clear(self._corrections[place])
@@ -510,6 +527,7 @@ def series_of(
     viscous: bool = False,
     sampled: Sequence[FieldColumns] = (),
     make: Callable[..., SeriesFlow] = SeriesFlow,
+    curved: bool = False,
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
 
@@ -523,7 +541,7 @@ def series_of(
         Names of the times, rising; see :class:`SeriesFlow`.
     read
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
-    period, notes, zones, turbulent, conservative, viscous, sampled
+    period, notes, zones, turbulent, conservative, viscous, sampled, curved
         See :class:`SeriesFlow`.
     make
         Class of the flow.
@@ -537,12 +555,14 @@ def series_of(
     note += "." if period is None else f", and repeats itself every {period:g} s."
     size = 8 * (_width(turbulent, viscous) + width(sampled)) * (mesh.n_points + mesh.n_cells)
     size += 16 * len(mesh.tets) if conservative else 0
+    size += 72 * (mesh.n_points + mesh.n_cells) if curved else 0
     keep = _MOST_IN_MEMORY // size if period is not None else 0
     times = [float(name) for name in names]
     try:
         return make(
             mesh, times, lambda i: read(names[i]), period, [*notes, note], keep=keep, zones=zones,
             turbulent=turbulent, conservative=conservative, viscous=viscous, sampled=sampled, names=names,
+            curved=curved,
         )  # fmt: skip
     except InputError as error:
         raise InputError(f"{source}: {error}") from None

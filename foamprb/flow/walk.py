@@ -357,8 +357,25 @@ def _drop(f: Floats, k: int, i: int, j: int, d: Vector) -> Any:
 
 
 def curvature(flow: MeshArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001
-    """Return the second derivatives of the velocity in the tetrahedron ``host``, 1/(m s)."""
-    return curvature_in(flow, host, flow.nodes, 6, 0)
+    """Return the second derivatives of the velocity at x, 1/(m s): linear in the tetrahedron ``host``.
+
+    They are constant there if they were not reconstructed at the nodes.
+    """
+    if flow.curvatures.shape[0] == 0:
+        return curvature_in(flow, host, flow.nodes, 6, 0)
+    return blend_curvature(flow.curvatures, corners(flow, host, 0), shape(flow, host, x))
+
+
+def blend_curvature(f: NDArray[np.float32], nodes: Corners, w: Weights) -> Curvature:
+    """Interpolate second derivatives between four rows of their table."""
+    return (
+        _blend_vector(f, 0, nodes, w), _blend_vector(f, 3, nodes, w), _blend_vector(f, 6, nodes, w),
+        _blend_vector(f, 9, nodes, w), _blend_vector(f, 12, nodes, w), _blend_vector(f, 15, nodes, w),
+    )  # fmt: skip
+
+
+def _blend_vector(f: Any, k: int, nodes: Corners, w: Weights) -> Vector:
+    return blend(f, k, nodes, w), blend(f, k + 1, nodes, w), blend(f, k + 2, nodes, w)
 
 
 def curvature_in(flow: MeshArrays, host: int, f: Floats, k: int, first: int) -> Curvature:

@@ -180,7 +180,12 @@ def prepare(
     source = replace(source, scale=None if scale == 1.0 else scale)
     turbulent = any(model.traits.turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
-    source = replace(source, turbulent=turbulent, relative=relative, viscosity=settings.fluid.field)
+    curved = settings.shape != "affine" or any(
+        "curvature" in model.traits.kernels for model in settings.surroundings.values()
+    )
+    source = replace(
+        source, turbulent=turbulent, curved=curved, relative=relative, viscosity=settings.fluid.field
+    )
     readers: list[Any] = [*settings.functions.values(), *settings.forces.values()]
     needed = dict.fromkeys(name for reader in readers for name in reader.needed_fields)
     source = replace(source, sampled=tuple(needed), accept=settings.solution.accept)

@@ -385,7 +385,7 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
     # A force reads a field, and its gradient, on both nodes.
     (case / "constant/push.py").write_text(PUSH)
     edit(case, "^cloudFunctions", 'libs ("push.py"); cloudFunctions')
-    edit(case, "gravity;", "gravity; wallLift { cutOff 1000; } pushByField { rate 100; }")
+    edit(case, "gravity;", "gravity; wallLift { cutOff 1000; } faxenCorrection; pushByField { rate 100; }")
     edit(case, r'"\.\*" \{ type escape; \}', 'lid { type escape; } "floor|sides" { type stick; }')
     # The second goes to the other node. The third ends before a time of the flow, and is sampled after it.
     (case / "constant/positions").write_text("((0.5 0.5 0.5) (0.499 0.5 0.55) (0.7 0.7 0.99))")

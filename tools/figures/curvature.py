@@ -35,7 +35,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.openfoam import Case, velocities
-from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.reconstruct import Reconstruction, mean_curvatures
 from foamprb.flow.walk import curvature
 
 Floats = NDArray[np.float64]
@@ -124,7 +124,8 @@ def rows_of(p: Pipe) -> Iterator[str]:
     if p.solved is not None:
         sources.append(("Poiseuille", "solver", p.solved))
     for name, source, values in sources:
-        flow = MeshFlow(mesh, *reconstruct(*values))
+        u, l = reconstruct(*values)
+        flow = MeshFlow(mesh, u, l, curvatures=mean_curvatures(mesh, l))
         hosts = flow.locate(x)
         inside = hosts >= 0
         places = x[inside]

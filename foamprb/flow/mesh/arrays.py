@@ -79,6 +79,9 @@ class MeshArrays(NamedTuple):
     """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); no rows if they were not read."""
     viscosity: Floats
     """(n_nodes, 4): a field of the viscosity and its gradient; no rows if it was not read."""
+    curvatures: NDArray[np.float32]
+    """(n_nodes, 18), 1/(m s): second derivatives of the velocity, a vector for each of xx, yy, zz, xy, yz and
+    xz; no rows if they were not reconstructed."""
     correction: NDArray[np.float32]
     """(n_tets, 4), 1/s, of the velocity between the nodes (:mod:`foamprb.flow.fluxes`): the additional flux
     through the side opposite each vertex over the volume and the number of the side's nodes that lie on no
@@ -111,6 +114,7 @@ def no_mesh() -> MeshArrays:
     empty |= {name: np.empty((0, columns)) for name, columns in _FLOATS.items()}
     empty |= {name: np.empty((0, columns), dtype=np.int32) for name, columns in _TABLES.items()}
     empty |= {"folds": np.empty(0, dtype=np.uint8), "correction": np.empty((0, 4), dtype=np.float32)}
+    empty |= {"curvatures": np.empty((0, 18), dtype=np.float32)}
     empty |= {"phi": np.empty(0)}
     return MeshArrays(**empty | {"n_points": 0})
 

@@ -45,7 +45,7 @@ from foamprb.flow.read.vtkfile import (
     solid_cells,
     times_of_file,
 )
-from foamprb.flow.reconstruct import Reconstruction, from_points
+from foamprb.flow.reconstruct import Reconstruction, from_points, mean_curvatures
 from foamprb.flow.series import series_of
 
 _MOST_TIMES = 10
@@ -62,6 +62,7 @@ def read_mesh_file(
     gradient: str = "",
     division: Division | None = None,
     scale: float = 1.0,
+    curved: bool = False,
 ) -> MeshFlow:
     """Read a mesh with velocities.
 
@@ -82,6 +83,8 @@ def read_mesh_file(
         Division of a boundary without named patches.
     scale
         Factor of the lengths in the file, m; velocities stay in m/s.
+    curved
+        See :func:`~foamprb.flow.read.openfoam.read_case`.
 
     Raises
     ------
@@ -94,7 +97,8 @@ def read_mesh_file(
     u, l = field(file.grid, file.surfaces)
     notes: list[str] = [*file.notes, *field.notes]
     fluxes = balanced(field.conserve, u, l, CONSTANT, path, notes=notes)
-    return MeshFlow(file.mesh, u, l, notes, fluxes=fluxes)
+    curvatures = mean_curvatures(file.mesh, l) if curved else None
+    return MeshFlow(file.mesh, u, l, notes, fluxes=fluxes, curvatures=curvatures)
 
 
 def read_mesh_series(
@@ -107,6 +111,7 @@ def read_mesh_series(
     division: Division | None = None,
     scale: float = 1.0,
     accept: Sequence[str] = (),
+    curved: bool = False,
 ) -> MeshFlow:
     """Prepare the flow of a file at several times, which are read when needed; one time gives a steady flow.
 
@@ -118,7 +123,7 @@ def read_mesh_series(
         See :func:`~foamprb.flow.read.times.choose_times`.
     period
         Duration after which the flow repeats itself, s.
-    velocity, gradient, division, scale
+    velocity, gradient, division, scale, curved
         See :func:`read_mesh_file`.
     accept
         See :class:`~foamprb.flow.read.source.FlowSource`.
@@ -133,7 +138,9 @@ def read_mesh_series(
     names = choose_times(path, all_times, times) if all_times else ()
     if len(names) < 2:
         time = names[0] if names else "latestTime"
-        return read_mesh_file(path, velocity, time=time, gradient=gradient, division=division, scale=scale)
+        return read_mesh_file(
+            path, velocity, time=time, gradient=gradient, division=division, scale=scale, curved=curved
+        )
     file = open_file(path, velocity, names[0], division, scale, among=names)
     field = _NodalVelocity(path, file, velocity, gradient, scale)
     topology = _topology(file.grid, file.surfaces)
@@ -148,10 +155,11 @@ def read_mesh_series(
             )
         u, l = field(now.grid, now.surfaces)
         where = f"{path}, time {name}"
-        return u, l, balanced_in_time(field.conserve, u, l, CONSTANT, where, accept=accept)
+        fluxes = balanced_in_time(field.conserve, u, l, CONSTANT, where, accept=accept)
+        return u, l, fluxes, *([mean_curvatures(file.mesh, l)] if curved else [])
 
     notes = [*file.notes, *field.notes]
-    return series_of(path, file.mesh, list(names), read, period, notes, conservative=True)
+    return series_of(path, file.mesh, list(names), read, period, notes, conservative=True, curved=curved)
 
 
 class _NodalVelocity:

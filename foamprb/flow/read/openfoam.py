@@ -63,7 +63,7 @@ from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.read.times import listed
 from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.viscosity import read_viscosity_field
-from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.reconstruct import Reconstruction, mean_curvatures
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import SeriesFlow, series_of
 from foamprb.memory import trim
@@ -183,6 +183,7 @@ def read_case(
     region: str = "",
     gradient: str = "",
     turbulent: bool = False,
+    curved: bool = False,
 ) -> MeshFlow:
     """Read mesh, patches and velocity of a case at one time, and reconstruct the flow.
 
@@ -201,13 +202,16 @@ def read_case(
         to reconstruct it from the velocity.
     turbulent
         Read also k and ε, or k and ω.
+    curved
+        Reconstruct also the second derivatives of the velocity, for ``FaxenCorrection`` and the quadratic
+        mode. Otherwise these are less accurate, and constant in each tetrahedron.
 
     Raises
     ------
     InputError
         The case, the time, the field, the mesh or a patch is missing, broken or inconsistent.
     """
-    source = FlowSource(velocity=velocity, gradient=gradient, turbulent=turbulent)
+    source = FlowSource(velocity=velocity, gradient=gradient, turbulent=turbulent, curved=curved)
     return steady_flow(Case(Path(case), region), time, source)
 
 
@@ -219,12 +223,13 @@ def read_series(
     region: str = "",
     gradient: str = "",
     turbulent: bool = False,
+    curved: bool = False,
 ) -> MeshFlow:
     """Prepare the flow of a case at several times, which are read when needed; one time gives a steady flow.
 
     Parameters
     ----------
-    case, velocity, region, gradient, turbulent
+    case, velocity, region, gradient, turbulent, curved
         See :func:`read_case`.
     times
         See :func:`~foamprb.flow.read.times.choose_times`.
@@ -236,7 +241,7 @@ def read_series(
     InputError
         See :func:`read_case`; or the mesh moves, or the times do not fill the period.
     """
-    source = FlowSource(velocity=velocity, gradient=gradient, turbulent=turbulent)
+    source = FlowSource(velocity=velocity, gradient=gradient, turbulent=turbulent, curved=curved)
     return transient_flow(Case(Path(case), region), times, period, source)
 
 
@@ -297,7 +302,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     ]
     zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
     viscosity = more[-1] if source.viscosity else None
-    parts = whole.mesh, u, l, notes, zones, name, turbulence, fluxes, viscosity
+    curvatures = mean_curvatures(whole.mesh, l, case.comm) if source.curved else None
+    parts = whole.mesh, u, l, notes, zones, name, turbulence, fluxes, viscosity, curvatures
     flow = RotatingFlow(rotating, *parts) if rotating else case.make(MeshFlow, *parts)
     if sampled is not None:
         flow.field_table, flow.field_columns = sampled
@@ -346,7 +352,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
         u, l, fluxes = prepared.get((*values, mass), make)
         more = _further(case, name, source, whole, operators)
-        return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes)
+        curvatures = [mean_curvatures(whole.mesh, l, case.comm)] if source.curved else []
+        return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
 
     notes = [*notes, *case.notes, *whole.notes]
     notes += _caveats(case, names[-1], source, moving=False)
@@ -355,7 +362,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     return series_of(
         case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
-        make=partial(case.make, SeriesFlow),
+        make=partial(case.make, SeriesFlow), curved=source.curved,
     )  # fmt: skip
 
 

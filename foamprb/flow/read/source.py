@@ -58,6 +58,8 @@ class FlowSource:
     """Read the processor folders even if there is a flow beside them."""
     turbulent: bool = False
     """Read also k and ε, or k and ω."""
+    curved: bool = False
+    """Reconstruct also second derivatives of the velocity."""
     relative: bool = False
     """Describe rotating zones in the frames of their rotors."""
     viscosity: ViscosityField | None = None
@@ -81,7 +83,12 @@ class FlowSource:
     @property
     def of_file(self) -> dict[str, Any]:
         """Return the options of reading a mesh file, beside its velocity."""
-        return {"gradient": self.gradient, "division": self.division, "scale": self.length_scale}
+        return {
+            "gradient": self.gradient,
+            "division": self.division,
+            "scale": self.length_scale,
+            "curved": self.curved,
+        }
 
     @property
     def options(self) -> str:
