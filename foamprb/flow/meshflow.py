@@ -164,7 +164,7 @@ class MeshFlow:
     viscosity
         (n_nodes, 4): a field of the viscosity and its gradient, if it was read.
     curvatures
-        (n_nodes, 18) second derivatives of u, by :func:`foamprb.flow.reconstruct.mean_curvatures`.
+        (n_nodes, 18) second derivatives of u, by :func:`foamprb.flow.curvatures.mean_curvatures`.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012

@@ -19,7 +19,6 @@ import math
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
@@ -32,21 +31,16 @@ from foamprb.flow.gradient import (
     mean_series,
 )
 from foamprb.flow.images import Images, points_of_faces
-from foamprb.flow.mesh.arrays import MeshArrays, frame, no_mesh, nodes_of
 from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import VALUELESS, PatchKind
-from foamprb.flow.walk import curvature_in
 
 _SMOOTH = 0.9
 """Least cosine between a face's normal and the mean around its corner on a surface that is smooth there."""
 _MOST_OFFSET = 0.3
 """Largest distance of a wall from the face, over that of the cell's centre."""
 _MOST_PASSES = 5
-_DIRECTIONS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
-_PLACES = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
-"""Order of second derivatives, and the place of each in it."""
 _CHANGE = 1e-3
 """Change of the gradients in a pass, over the gradients, after which no other one follows; norms."""
 
@@ -345,45 +339,6 @@ class Reconstruction:
                 # Nothing flows through walls that meet at a point, though one of them moves.
                 excess = normals[own] @ u_points[on_wall[row]]
                 u_points[on_wall[row]] -= np.linalg.lstsq(normals[own], excess, rcond=0.1)[0]
-
-
-def mean_curvatures(mesh: Mesh, l: Floats, comm: MeshCommunicator = SINGLE_NODE) -> NDArray[np.float32]:
-    """Return the second derivatives of u at the nodes, (n_nodes, 18), 1/(m s), from ∇u there.
-
-    ∇u is linear in each tetrahedron. Its slopes are constant there; their means around a node, weighted by
-    volume, are more accurate (Zienkiewicz & Zhu 1992). They are the same on both sides of mirrors and coupled
-    patches. The columns are a vector for each of xx, yy, zz, xy, yz and xz.
-    """
-    n, images = mesh.n_points + mesh.n_cells, Images(mesh)
-    slopes, volumes = np.zeros((n, 18)), np.zeros(n)
-    arrays = no_mesh()._replace(nodes=mesh.nodes, tets=mesh.tets)
-    link(sum_slopes)(arrays, np.ascontiguousarray(l).reshape(-1, 9), slopes, volumes)
-    slopes /= np.maximum(volumes, 1e-300)[:, None]
-    points = slopes[: mesh.n_points]
-    if len(images.faces):
-        full = np.take(points.reshape(-1, 6, 3), _PLACES, axis=1).transpose(0, 3, 1, 2).copy()
-        images.agree(full)
-        for place, (j, k) in enumerate(_DIRECTIONS):
-            points[:, 3 * place : 3 * place + 3] = full[:, :, j, k]
-    comm.fill("points", points)
-    return slopes.astype(np.float32)
-
-
-def sum_slopes(flow: MeshArrays, l: Floats, sums: Floats, volumes: Floats) -> None:
-    """Sum at the nodes the slopes of ∇u (n_nodes, 9) in the tetrahedra around them, times their volumes.
-
-    ``sums`` (n_nodes, 18) and ``volumes`` (n_nodes,) must hold zeros.
-    """
-    for tet in range(flow.tets.shape[0]):
-        volume = frame(flow, tet)[4]
-        if volume <= 0.0:
-            continue
-        slopes = curvature_in(flow, tet, l, 0, 0)
-        for node in nodes_of(flow, tet):
-            volumes[node] += volume
-            for j in range(6):
-                for c in range(3):
-                    sums[node, 3 * j + c] += volume * slopes[j][c]
 
 
 def wall_offsets(mesh: Mesh, faces: Index) -> Floats:

@@ -8,10 +8,11 @@ from mesh_shapes import block, box_patches, cyclic_row
 
 from foamprb.compile.link import link
 from foamprb.flow import analytic
+from foamprb.flow.curvatures import _PLACES, mean_curvatures
 from foamprb.flow.images import _seam
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.reconstruct import _PLACES, Reconstruction, mean_curvatures
+from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow
 
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))

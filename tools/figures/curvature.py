@@ -31,11 +31,12 @@ from figures import simple_cells
 import foamprb
 from foamprb.body.quadratic import parts, square
 from foamprb.compile.link import link
+from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.openfoam import Case, velocities
-from foamprb.flow.reconstruct import Reconstruction, mean_curvatures
+from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.walk import curvature
 
 Floats = NDArray[np.float64]

@@ -20,6 +20,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.balance import CONSTANT
 from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.cells import poly_of_grid
@@ -45,7 +46,7 @@ from foamprb.flow.read.vtkfile import (
     solid_cells,
     times_of_file,
 )
-from foamprb.flow.reconstruct import Reconstruction, from_points, mean_curvatures
+from foamprb.flow.reconstruct import Reconstruction, from_points
 from foamprb.flow.series import series_of
 
 _MOST_TIMES = 10

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.fields import FieldColumns
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
@@ -63,7 +64,7 @@ from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.read.times import listed
 from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.viscosity import read_viscosity_field
-from foamprb.flow.reconstruct import Reconstruction, mean_curvatures
+from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import SeriesFlow, series_of
 from foamprb.memory import trim
