@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from itertools import islice
+from itertools import groupby, islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -54,7 +54,10 @@ def rows_of(columns: Mapping[str, Column]) -> Rows:
         raise ValueError(f"Columns of a table differ in length: {lengths}.")
     text = []
     for start in range(0, max(lengths.values(), default=0), _CHUNK):
-        cells = (_texts(array[start : start + _CHUNK]) for array in arrays.values())
+        chunks = (array[start : start + _CHUNK] for array in arrays.values())
+        # Adjacent columns of numbers become text together.
+        groups = (list(group) for _, group in groupby(chunks, lambda chunk: chunk.dtype.kind))
+        cells = [cell for group in groups for cell in _texts(group)]
         text.append("".join(",".join(row) + "\n" for row in zip(*cells, strict=True)).encode())
     return Rows(tuple(arrays), b"".join(text))
 
@@ -176,17 +179,31 @@ def as_column(name: str, column: Column) -> NDArray[Any]:
     return array
 
 
-def _texts(column: NDArray[Any]) -> list[str]:
-    """Return the cells of a column as text."""
-    kind = column.dtype.kind
+def _texts(columns: Sequence[NDArray[Any]]) -> list[list[str]]:
+    """Return the cells of adjacent columns of one kind as text; several columns of numbers as one."""
+    kind = columns[0].dtype.kind
     if kind not in _WIDE:
-        return list(map(_cell, column.tolist()))
+        return [_words(column.tolist()) for column in columns]
+    if not len(columns[0]):
+        return [[]]
     # JSON's numbers are valid in tables, and orjson writes them much faster than Python does.
-    numbers = column.astype(_WIDE[kind], order="C", copy=False)
-    texts = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()[1:-1].split(",")
-    for row in np.flatnonzero(~np.isfinite(numbers)):
-        texts[row] = repr(float(numbers[row]))
-    return texts
+    numbers = np.stack(columns, axis=1, dtype=_WIDE[kind], casting="same_kind")
+    texts = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()[2:-2].split("],[")
+    finite = np.isfinite(numbers)
+    for row in np.flatnonzero(~finite.all(axis=1)):
+        cells = texts[row].split(",")
+        for k in np.flatnonzero(~finite[row]):
+            cells[k] = repr(float(numbers[row, k]))
+        texts[row] = ",".join(cells)
+    return [texts]
+
+
+def _words(values: Sequence[object]) -> list[str]:
+    """Return the cells of a column that is not of numbers; most have few different texts."""
+    if {*map(type, values)} == {str}:
+        cells = {value: _cell(value) for value in {*values}}
+        return [cells[value] for value in values]
+    return list(map(_cell, values))
 
 
 def _cell(value: object) -> str:

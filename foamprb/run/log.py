@@ -198,7 +198,8 @@ class RunLog:
     def _log_slip(self) -> None:
         """Record the slip of the particles, and warn of the first Reynolds number that is too large."""
         before = self._slip.worst.reynolds[0]
-        for record in self._job.cloud.map_in_flow(SlipRecord.of, self._job.cloud.medium):
+        cloud = self._job.cloud
+        for record in cloud.map_in_flow(SlipRecord.of, cloud.medium, cloud.size):
             self._slip.add(record)
         worst = self._slip.worst.reynolds[0]
         if before <= SMALL_REYNOLDS < worst:

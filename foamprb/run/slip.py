@@ -20,6 +20,8 @@ Floats = NDArray[np.float64]
 _CHUNK = 16_384
 _EDGES = np.hstack([0.0, np.logspace(-15.0, 5.0, 2001), np.inf])
 """Bounds of the classes from which quantiles are taken."""
+_MOST = 50_000
+"""Particles in a record, at most."""
 
 
 class Slip(NamedTuple):
@@ -45,7 +47,7 @@ def _slip(p: Particles, flow: Sampled, time: float, medium: Medium) -> Slip:
 
 
 class SlipRecord:
-    """Distribution of both numbers over all active particles at the write times of a run."""
+    """Distribution of both numbers over active particles at the write times of a run."""
 
     def __init__(self) -> None:
         self.counts = np.zeros((2, len(_EDGES) - 1), dtype=np.int64)
@@ -58,9 +60,10 @@ class SlipRecord:
         self.worst = Slip(*np.fmax(self.worst, other.worst))
 
     @classmethod
-    def of(cls, p: Particles, flow: Sampled, time: float, medium: Medium) -> Self:
-        """Return the record of the active particles of a cloud at its time, s."""
-        record, active = cls(), np.flatnonzero(p.status == Status.ACTIVE)
+    def of(cls, p: Particles, flow: Sampled, time: float, medium: Medium, size: int) -> Self:
+        """Return the record of active particles of a cloud of some size at its time, s; of many, of some."""
+        stride = max(1, -(-size // _MOST))
+        record, active = cls(), np.flatnonzero((p.status == Status.ACTIVE) & (p.number % stride == 0))
         for start in range(0, len(active), _CHUNK):
             slip = _slip(p.take(active[start : start + _CHUNK]), flow, time, medium)
             record.counts += [np.histogram(values, _EDGES)[0] for values in slip]

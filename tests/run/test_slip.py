@@ -10,6 +10,7 @@ import pytest
 
 from foamprb import Medium, analytic, spheres
 from foamprb.cloud.cloud import Cloud
+from foamprb.run import slip
 from foamprb.run.log import RunLog
 from foamprb.run.slip import SlipRecord, drag_excess
 
@@ -26,7 +27,7 @@ def sliding(speeds):
 
 
 def record_of(cloud):
-    return cloud.map_in_flow(SlipRecord.of, WATER)[0]
+    return cloud.map_in_flow(SlipRecord.of, WATER, cloud.size)[0]
 
 
 def test_usual_and_worst_of_both_numbers():
@@ -40,6 +41,14 @@ def test_usual_and_worst_of_both_numbers():
     reynolds, stokes = record.lines()
     assert reynolds == "Reynolds number of slip  99 % below 0.0102, at most 10"
     assert stokes.startswith("Stokes number            99 % below 0.139")
+
+
+def test_of_a_large_cloud_some_particles_are_recorded(monkeypatch):
+    """Those of evenly spread numbers, on whichever process they are."""
+    monkeypatch.setattr(slip, "_MOST", 20)
+    record = record_of(sliding(np.repeat([1e-4, 0.1], [990, 10])))
+    assert record.counts.sum(axis=1).tolist() == [20, 20]
+    assert record.worst.reynolds[0] == pytest.approx(1e-2)
 
 
 def test_the_velocity_of_its_eddy_is_no_slip_of_a_particle():
