@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from functools import cached_property, partial
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -279,10 +279,10 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     def make() -> tuple[Floats, Floats, Floats | None]:
         u, l = operators.reconstruct(cells, boundary, given)
         # Its arrays take half as much memory as the flow.
-        del operators.reconstruct
+        operators.free()
         trim()
         fluxes = balanced(operators.conserve, u, l, mass, file, notes=notes)
-        del operators.conserve
+        operators.free()
         return u, l, fluxes
 
     prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
@@ -397,18 +397,29 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
 
 
 class _Operators:
-    """Operators of a mesh, made when they are first used."""
+    """Operators of a mesh, made when they are first used.
+
+    They are no ``cached_property``: that lets one thread at a time make one, and nodes make them together.
+    """
 
     def __init__(self, mesh: Mesh, comm: MeshCommunicator) -> None:
         self._mesh, self._comm = mesh, comm
+        self._reconstruct: Reconstruction | None = None
+        self._conserve: Conservation | None = None
 
-    @cached_property
+    @property
     def reconstruct(self) -> Reconstruction:
-        return Reconstruction(self._mesh, comm=self._comm)
+        self._reconstruct = self._reconstruct or Reconstruction(self._mesh, comm=self._comm)
+        return self._reconstruct
 
-    @cached_property
+    @property
     def conserve(self) -> Conservation:
-        return Conservation(self._mesh, comm=self._comm)
+        self._conserve = self._conserve or Conservation(self._mesh, comm=self._comm)
+        return self._conserve
+
+    def free(self) -> None:
+        """Free the operators; others are made if they are used again."""
+        self._reconstruct = self._conserve = None
 
 
 def _given(case: Case, time: str, source: FlowSource, whole: CaseMesh) -> Floats | None:
