@@ -24,7 +24,7 @@ import numpy as np
 
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.philox import Word, normals, philox
-from foamprb.body.tensor import Scalar, Tensor, Vector, reciprocals
+from foamprb.body.tensor import Scalar, Tensor, Vector, reciprocals, select
 
 BOLTZMANN = 1.380649e-23
 """k_B, J/K."""
@@ -32,6 +32,7 @@ BOLTZMANN = 1.380649e-23
 _LOW, _HALF, _TWO = np.uint64(0xFFFFFFFF), np.uint64(32), np.uint64(2)
 _FIRST, _SECOND, _THIRD = np.uint64(0), np.uint64(1), np.uint64(2)
 _PAIR = sqrt(0.5)
+_SMALL, _LARGE, _TINY = 1e-6, 700.0, 1e-300
 
 
 def deviates(particle: Word, step: Word, key: tuple[Word, Word]) -> tuple[Vector, Tensor]:
@@ -108,28 +109,49 @@ def shape_resistance(semi_axes: Vector, g: Integrals, eta: Scalar) -> ShapeResis
     )
 
 
-def random_stress(r: ShapeResistance, size: Scalar, xi: Tensor) -> Tensor:
+def random_stress(r: ShapeResistance, size: Scalar, xi: Tensor, relaxing: Scalar = 0.0) -> Tensor:
     """Return T_B, Pa; its skew part is the random torque over the volume.
 
-    ``size`` is √(2 k_B T μ_f/(V Δt)), √(Pa Pa s), with the volume V of the body.
+    A constant stress deforms a body with the modulus μ less than one that changes all the time, if it lasts
+    longer than the shape takes to relax. The deforming part is larger by so much that the variance of the
+    strain is that of equilibrium: √(y/2 coth(y/2)) times, with y = 2 μ Δt/(μ_f r) and the resistance r.
+
+    Parameters
+    ----------
+    size
+        √(2 k_B T μ_f/(V Δt)), √(Pa Pa s), with the volume V of the body.
+    relaxing
+        2 μ Δt/μ_f.
     """
     half = _PAIR * size
-    T23, T32 = _random_pair(r.shear[0], r.cross[0], r.spin[0], half, xi[5], xi[7])
-    T13, T31 = _random_pair(r.shear[1], r.cross[1], r.spin[1], half, xi[2], xi[6])
-    T12, T21 = _random_pair(r.shear[2], r.cross[2], r.spin[2], half, xi[1], xi[3])
+    T23, T32 = _random_pair(r.shear[0], r.cross[0], r.spin[0], half, xi[5], xi[7], relaxing)
+    T13, T31 = _random_pair(r.shear[1], r.cross[1], r.spin[1], half, xi[2], xi[6], relaxing)
+    T12, T21 = _random_pair(r.shear[2], r.cross[2], r.spin[2], half, xi[1], xi[3], relaxing)
+    n, m = (
+        r.normal,
+        (_held(r.normal[0], relaxing), _held(r.normal[1], relaxing), _held(r.normal[2], relaxing)),
+    )
     return (
-        size * np.sqrt(r.normal[0]) * xi[0], T12, T13,
-        T21, size * np.sqrt(r.normal[1]) * xi[4], T23,
-        T31, T32, size * np.sqrt(r.normal[2]) * xi[8],
+        size * np.sqrt(n[0] * m[0]) * xi[0], T12, T13,
+        T21, size * np.sqrt(n[1] * m[1]) * xi[4], T23,
+        T31, T32, size * np.sqrt(n[2] * m[2]) * xi[8],
     )  # fmt: skip
 
 
+def _held(r: Scalar, relaxing: Scalar) -> Scalar:
+    """Return y/2 coth(y/2) for y = relaxing/r, at least 1."""
+    y = relaxing / r
+    e = np.exp(-np.minimum(y, _LARGE))
+    return select(y > _SMALL, 0.5 * y * (1.0 + e) / (1.0 - e + _TINY), 1.0)
+
+
 def _random_pair(
-    shear: Scalar, cross: Scalar, spin: Scalar, size: Scalar, x: Scalar, y: Scalar
+    shear: Scalar, cross: Scalar, spin: Scalar, size: Scalar, x: Scalar, y: Scalar, relaxing: Scalar
 ) -> tuple[Scalar, Scalar]:
     a = np.sqrt(shear)
     b = cross / a
-    s, t = size * a * x, size * (b * x + np.sqrt(spin - b * b) * y)
+    s = size * a * np.sqrt(_held(shear, relaxing)) * x
+    t = size * (b * x + np.sqrt(spin - b * b) * y)
     return s - t, s + t
 
 

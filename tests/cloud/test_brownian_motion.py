@@ -37,8 +37,8 @@ def beads(n, mu=STIFF, rho=1000.0, height=0.0):
 
 
 def carried(p, steps, dt, *, flow=STILL, medium=WATER, models=MOLECULES, threads=1,
-            integrator="stokes"):  # fmt: skip
-    chosen = Models(integrator=integrator, surroundings=models)
+            integrator="stokes", stride=1):  # fmt: skip
+    chosen = Models(integrator=integrator, surroundings=models, stride=stride)
     cloud = Cloud(p, flow, medium, [Rebound()] * len(flow.patches), dt, chosen, threads=threads)
     cloud.advance(steps)
     return p
@@ -73,8 +73,12 @@ def test_a_spheroid_diffuses_and_turns_as_perrin_says(ratio):
     assert tilted == pytest.approx([1.0, 1.0], rel=1.5 * tolerance)
 
 
-def test_heights_over_a_wall_come_to_boltzmanns():
-    """With the hindered mobility, heights come to exp(−W h/kT) in steps √(2 D Δt) of a tenth of kT/W."""
+@pytest.mark.parametrize(("share", "stride"), [(1, 1), (16, None)])
+def test_heights_over_a_wall_come_to_boltzmanns(share, stride):
+    """With the hindered mobility, heights come to exp(−W h/kT) in steps √(2 D Δt) of a tenth of kT/W.
+
+    And in steps of any length, from a sixteenth of these on.
+    """
     n = 250
     p = beads(n, rho=RHO_OF_SCALE_R)
     random = np.random.default_rng(3)
@@ -82,7 +86,8 @@ def test_heights_over_a_wall_come_to_boltzmanns():
     p.x[:, 2] = R * (1.0 + random.exponential(1.0, n))
     dt = 0.5 * 0.1**2 * R**2 / D
     models = (WallLift(cutOff=20.0), BrownianMotion(T=T, shape=False))
-    carried(p, 200, dt, flow=analytic.shear_over_wall(0.0), medium=HEAVY, models=models)
+    flow = analytic.shear_over_wall(0.0)
+    carried(p, 200 * share, dt / share, flow=flow, medium=HEAVY, models=models, stride=stride)
     gaps = p.x[:, 2] / R - 1.0
     assert gaps.mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
     assert kstest(np.maximum(gaps, 0.0), "expon").pvalue > 1e-3
@@ -118,6 +123,32 @@ def test_a_sphere_near_a_wall_diffuses_with_its_hindered_mobilities(integrator, 
     e = 1.0 / h
     expected = parallel_mobility(e), parallel_mobility(e), normal_mobility(e)
     assert (moved**2).mean(axis=0) == pytest.approx(expected, rel=4.0 * np.sqrt(2.0 / n))
+
+
+def test_random_numbers_may_hold_for_several_tracking_steps():
+    """The variance is Einstein's. Neither threads nor calls that end at ends of stretches change a bit."""
+    n, dt = 1000, 1e-3
+    models = (BrownianMotion(T=T, shape=False),)
+    whole = carried(beads(n), 64, dt, models=models, stride=None)
+    assert np.all(whole.substeps < 0.2)
+    assert (whole.x**2).mean() / (2.0 * D * 64 * dt) == pytest.approx(1.0, abs=4.0 * np.sqrt(2.0 / 3.0 / n))
+    p = beads(n)
+    chosen = Models(integrator="stokes", surroundings=models, stride=None)
+    cloud = Cloud(p, STILL, WATER, (), dt, chosen, threads=3)
+    for _ in range(64 // cloud.stretch_steps):
+        cloud.advance(cloud.stretch_steps)
+    assert np.array_equal(whole.x, p.x)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 20.0])
+def test_strains_have_the_energy_of_equilibrium_in_steps_of_any_length(ratio):
+    """5/2 kT, also where Δt is many times the relaxation time 3 μ_f/(2 μ_s)."""
+    n, mu = 2000, 500.0
+    p = carried(beads(n, mu=mu), 8, ratio * 1.5 * MU_F / mu)
+    F = p.F.reshape(-1, 3, 3)
+    strain = 0.5 * (F @ F.transpose(0, 2, 1) - np.eye(3))
+    energy = 4.0 / 3.0 * np.pi * R**3 * mu * (strain**2).sum(axis=(1, 2))
+    assert energy.mean() == pytest.approx(2.5 * KT, rel=4.0 * np.sqrt(0.4 / n) + 0.01)
 
 
 def test_numbers_depend_on_the_particle_and_the_step_alone():

@@ -17,10 +17,11 @@ from foamprb.cloud.contact import rebounds_of
 from foamprb.cloud.integrators.adaptive import stretch_in, stretch_of
 from foamprb.cloud.patches import Escape, Mirror, Rebound, Stick
 from foamprb.cloud.state import Status, spheres
-from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import FateLimits, Fates
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
+from foamprb.cloud.surroundings.swimming import Swimming
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
@@ -292,11 +293,14 @@ def test_any_number_of_steps_will_do(stride):
     assert whole.particles.substeps == pytest.approx(1.0 / stride)
 
 
-DETERMINISTIC = FaxenCorrection(), SaffmanMeiLift(), WallLift(), Fates(ruptured=FateLimits(dose=1e9))
+SMOOTH = (
+    FaxenCorrection(), SaffmanMeiLift(), WallLift(), Swimming(speed=1e-3),
+    Fates(ruptured=FateLimits(dose=1e9)),
+)  # fmt: skip
 
 
-@pytest.mark.parametrize("model", DETERMINISTIC, ids=lambda model: type(model).__name__)
-def test_a_model_without_random_numbers_takes_steps_as_long_as_none(model):
+@pytest.mark.parametrize("model", SMOOTH, ids=lambda model: type(model).__name__)
+def test_a_model_that_changes_smoothly_takes_steps_as_long_as_none(model):
     p = spheres(np.array([[0.0, 0.0, 50.0]]), d=2.0, rho=0.15, mu=10.0)
     models = Models(integrator="stokes", surroundings=(model,), stride=4)
     cloud = Cloud(p, analytic.shear_over_wall(1.0), HEAVY, (Rebound(),), 0.01, models, threads=1)
@@ -304,11 +308,11 @@ def test_a_model_without_random_numbers_takes_steps_as_long_as_none(model):
     assert p.substeps == pytest.approx(0.25)
 
 
-def test_fixed_steps_and_random_numbers_keep_the_tracking_step():
+def test_fixed_steps_and_models_of_each_step_keep_the_tracking_step():
     for models in (
         Models(integrator="paper", stride=4),
         Models(integrator="stokes", tolerance=math.inf, stride=4),
-        Models(integrator="stokes", surroundings=(BrownianMotion(T=300.0),), stride=4),
+        Models(integrator="stokes", surroundings=(Surrounding(),), stride=4),
     ):
         p = spheres(np.zeros((1, 3)), d=1.0, rho=1.0, mu=1.0)
         assert Cloud(p, analytic.shear(1.0), HEAVY, (), 0.01, models, threads=1).tracker.stride == 1

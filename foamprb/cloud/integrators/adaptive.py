@@ -63,6 +63,7 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.integrators.base import (
     apply_surroundings,
+    held_for,
     look_ahead,
     resolved_share,
     update_surroundings,
@@ -132,7 +133,9 @@ class StepRows(NamedTuple):
     difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
     path: Annotated[int, Row(1, "1", "error of the path over its length")]
     by_path: Annotated[int, Row(1, "1", "length of the next step over that of this one, by that error")]
-    remaining: Annotated[int, Row(1, "s", "what is left of the stretch", 1.0)]
+    remaining: Annotated[int, Row(1, "s", "time to the next given end of a step", 1.0)]
+    held_from: Annotated[int, Row(1, "", "tracking step in which its random numbers begin", lasting=True)]
+    held_until: Annotated[int, Row(1, "", "tracking step before which they end", -1.0, lasting=True)]
     again: Annotated[int, Row(1, "", "1 after a step whose error was too large, else 0", lasting=True)]
     ahead: Annotated[int, Row(3, "m", "where the step was to lead when its end was sampled")]
     entered: Annotated[int, Row(1, "", "number of cells that the way there enters")]
@@ -142,6 +145,8 @@ class StepRows(NamedTuple):
 during = offsets(StepRows, ROWS)
 STEP_ROWS = end(during)
 
+draws = 0
+"""Bound to 1 by models that draw random numbers."""
 _SMALLEST = 1e-9
 """Smallest step allowed, over Δt."""
 _STRETCH = 4
@@ -439,7 +444,8 @@ def track_adaptive(
             store9(block, during.start_l, i, l_f)
             store3(block, at.DuDt, i, u_t)
             scratch.stride[i] = min((current[i] // stretch + 1) * stretch, last) - current[i]
-            remaining = start + (current[i] + scratch.stride[i]) * dt - t
+            block[during.held_until * LANES + i] = next_end(scratch, i, t, dt, start, stretch, medium)
+            remaining = start + block[during.held_until * LANES + i] * dt - t
             left = steps_left(block, i, remaining, l_f, dt, most)
             block[during.remaining * LANES + i], block[at.dt * LANES + i] = remaining, remaining / left
             if measures_again(scratch, i, left, stretch):
@@ -447,7 +453,11 @@ def track_adaptive(
         begin_stage(block)
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
-                update_surroundings(flow, scratch, i, current[i], block[during.remaining * LANES + i], medium)
+                first, remaining = (
+                    int(block[during.held_from * LANES + i]),
+                    block[during.remaining * LANES + i],
+                )
+                update_surroundings(flow, scratch, i, first, remaining, medium)
         evaluate_shape(block, medium, 0.0)
         predict(block, medium)
         for i in range(LANES):
@@ -473,10 +483,10 @@ def track_adaptive(
         for i in range(LANES):
             if not block[at.moving * LANES + i] > 0.0:
                 continue
-            if overspent(scratch, i, block[during.remaining * LANES + i] / dt):
+            h, size, t_before = block[at.dt * LANES + i], block[at.h * LANES + i], block[at.t * LANES + i]
+            if overspent(scratch, i, (start + (current[i] + scratch.stride[i]) * dt - t_before) / dt):
                 continue
-            h, size = block[at.dt * LANES + i], block[at.h * LANES + i]
-            t_end = start + (current[i] + scratch.stride[i]) * dt
+            t_end = start + block[during.held_until * LANES + i] * dt
             error = block[at.error * LANES + i]
             third = block[during.third * LANES + i] > 0.0
             difference, by_path = block[during.difference * LANES + i], block[during.by_path * LANES + i]
@@ -491,7 +501,7 @@ def track_adaptive(
                 continue
             allowed = next_size(h, size, factor, block[during.again * LANES + i] > 0.0)
             block[during.again * LANES + i] = 0.0
-            t_new = block[at.t * LANES + i] + h
+            t_new = t_before + h
             reaches_end = t_new >= t_end - SHORTEST_STEP * dt
             if reaches_end:
                 t_new = t_end
@@ -501,7 +511,8 @@ def track_adaptive(
             ahead = scratch.ahead[i]
             scratch.mended[i] += reach_end(flow, patches, scratch, i, goal, ahead, held, t_new, h)
             # A step ends early where a body bounces.
-            if reaches_end and (scratch.status[i] != ACTIVE or block[at.t * LANES + i] >= t_end):
+            at_end = reaches_end and (scratch.status[i] != ACTIVE or block[at.t * LANES + i] >= t_end)
+            if at_end and block[during.held_until * LANES + i] >= current[i] + scratch.stride[i]:
                 end_tracking_steps(scratch, i)
     end_block(scratch)
     return walks_relocated(scratch)
@@ -532,6 +543,26 @@ def stretch_in(rate: float, dt: float) -> int:
         return LEAST_STRETCH
     most = min(_LONGEST_STRETCH, _SHARE_OF_TIME / (rate * dt))
     return LEAST_STRETCH * max(1, int(most / LEAST_STRETCH))
+
+
+def next_end(s: Scratch, i: int, t: float, dt: float, start: float, stretch: int, medium: Medium) -> float:
+    """Return the tracking step before which the next step of lane i ends: its stretch or its random numbers.
+
+    Random numbers hold up to the next multiple of a power of two of tracking steps; their length depends on
+    the state in which they begin, and not on themselves.
+    """
+    block, end = s.block, float(s.step[i] + s.stride[i])
+    if draws == 0:
+        block[during.held_from * LANES + i] = s.step[i]
+        return end
+    if t < start + (block[during.held_until * LANES + i] - SHORTEST_STEP) * dt:
+        return float(block[during.held_until * LANES + i])
+    first = np.floor((t - start) / dt + SHORTEST_STEP)
+    block[during.held_from * LANES + i] = first
+    longest, n = min(held_for(block, i, medium) / dt, float(stretch)), 1.0
+    while 2.0 * n <= longest:
+        n *= 2.0
+    return float(min((np.floor(first / n) + 1.0) * n, end))
 
 
 def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, most: int) -> float:

@@ -29,6 +29,8 @@ __all__ = [
     "Integrator",
     "all_resolved",
     "apply_surroundings",
+    "held_for",
+    "held_forever",
     "lifted",
     "look_ahead",
     "no_disturbance",
@@ -87,9 +89,9 @@ def update_surroundings(flow: Any, s: Scratch, i: int, step: int, remaining: flo
     Parameters
     ----------
     step
-        Number of the tracking step.
+        Number of the tracking step in which the lane's random numbers begin.
     remaining
-        Time from the lane's t to the end of the tracking step, s.
+        Time from the lane's t to the end of their validity, s; 0 at the end of a call.
     """
     update_all(flow, s, i, step, remaining, medium, medium.surroundings)
 
@@ -109,6 +111,17 @@ def resolved_share(flow: Any, s: Scratch, i: int, medium: Medium) -> float:
     """Return the smallest share of a step of lane i longer than Δt that a model resolves, 1 for all of it."""
     share: float = resolve_all(flow, s, i, medium, medium.surroundings)
     return share
+
+
+def held_for(block: Any, i: int, medium: Medium) -> float:
+    """Return how long lane i may hold its next random numbers, s."""
+    longest: float = hold_all(block, i, medium, medium.surroundings)
+    return longest
+
+
+def held_forever(_block: Any, _i: int, _medium: Medium, _coefficients: Any) -> float:
+    """Return infinity: there are no random numbers."""
+    return inf
 
 
 def no_look(_flow: Any, _s: Scratch, _i: int, _medium: Medium, _coefficients: Any) -> None:
@@ -143,6 +156,7 @@ def lifted(
 
 update_all: Any = no_update
 look_all: Any = no_look
+hold_all: Any = held_forever
 resolve_all: Any = all_resolved
 prepare_all: Any = no_disturbance
 disturb_all: Any = no_disturbance

@@ -17,7 +17,14 @@ from foamprb.body.tensor import (
     scale_vector,
 )
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.integrators.base import Integrator, all_resolved, no_disturbance, no_look, no_update
+from foamprb.cloud.integrators.base import (
+    Integrator,
+    all_resolved,
+    held_forever,
+    no_disturbance,
+    no_look,
+    no_update,
+)
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
 from foamprb.dictionary.constraints import Seed
@@ -96,9 +103,13 @@ class Surrounding:
     update: ClassVar[Callable[..., None]] = staticmethod(no_update)
     """``update(flow, s, i, step, remaining, medium, coefficients)``: update rows of lane i before a step h.
 
-    ``step`` is the number of the tracking step and ``remaining`` the time to its end, s. A further call with
-    ``remaining`` 0 comes at the end of a call, for the last rates. The lane's x and t are at the start of h.
+    Random numbers belong to the tracking step ``step`` and hold for the time ``remaining``, s, through one or
+    more steps h (:attr:`hold`). A further call with ``remaining`` 0 comes at the end of a call, for the last
+    rates. The lane's x and t are at the start of h.
     """
+    hold: ClassVar[Callable[..., float]] = staticmethod(held_forever)
+    """``hold(block, i, medium, coefficients) -> s``: how long lane i may hold the next random numbers. They
+    hold for a power of two of tracking steps at most, one at least. Such a model binds ``draws`` to 1."""
     look: ClassVar[Callable[..., None]] = staticmethod(no_look)
     """``look(flow, s, i, medium, coefficients)``: update rows of lane i where the step is to lead, new_x in
     the host ``s.ahead[i]``; not with ``paper``."""

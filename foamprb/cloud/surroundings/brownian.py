@@ -1,7 +1,7 @@
 """Brownian motion: random force and stress of the fluid's molecules on a particle.
 
-The formulas are those of :mod:`foamprb.body.brownian`. Force and stress are drawn once per tracking step,
-with the resistances at its start, and are constant in space's axes during the step. The response of the
+The formulas are those of :mod:`foamprb.body.brownian`. Force and stress are drawn with the resistances at the
+start of one or more tracking steps, and are constant in space's axes during these. The response of the
 particle follows its present resistances.
 """
 
@@ -23,13 +23,17 @@ from foamprb.body.brownian import (
     response,
     shape_resistance,
 )
+from foamprb.body.error_control import longest_step
 from foamprb.body.tensor import (
+    Tensor,
     Vector,
+    dot,
     dot_vector,
     from_frame,
     scale,
     select,
     to_frame,
+    transpose,
     vector_dot,
 )
 from foamprb.body.wall import hindered_resistance
@@ -46,6 +50,7 @@ from foamprb.cloud.block import (
     store9,
     viscosity_at,
 )
+from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
@@ -62,7 +67,7 @@ from foamprb.cloud.surroundings.base import (
     volume_at_rest,
 )
 from foamprb.dictionary.constraints import Meaning, Positive
-from foamprb.flow.base import Patch
+from foamprb.flow.base import NEAR, Patch
 
 __all__ = ["BrownianMotion"]
 
@@ -70,12 +75,14 @@ LARGE_STRAIN = 0.3
 """Thermal strain above which the user is warned."""
 LONG_STEP = 0.1
 """√(2 D Δt) over the room of a particle above which the user is warned."""
+_SHARE_OF_GAP, _HELD_TURN = 0.2, 0.002
+"""√(2 D t) over the gap, and D_R t, up to which random numbers may hold for longer than a tracking step."""
 _KIND = np.uint64(1)
 """Second word of the key of these random numbers; the seed is the first."""
 
 
 class BrownianRows(NamedTuple):
-    """Action of the molecules on a particle during a tracking step."""
+    """Action of the molecules on a particle during some tracking steps."""
 
     number: Annotated[int, Row(1, "", "number in the cloud", of="number")]
     drawn: Annotated[int, Row(1, "", "tracking step, from 1 on, for which numbers were drawn last")]
@@ -99,7 +106,7 @@ thermal = offsets(BrownianRows)
 def draw(
     _flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
-    """Draw the random numbers of lane i at the start of a tracking step."""
+    """Draw the random numbers of lane i, which hold for the time that remains."""
     block = s.block
     if block[thermal.drawn * LANES + i] != step + 1.0 and remaining > 0.0:
         block[thermal.drawn * LANES + i] = step + 1.0
@@ -108,6 +115,21 @@ def draw(
         three, nine = deviates(number, np.uint64(step), (coefficients[1], _KIND))
         store3(block, thermal.three, i, three)
         store9(block, thermal.nine, i, nine)
+
+
+def hold_of_molecules(block: Any, i: int, medium: Medium, coefficients: Any) -> float:
+    """Return how long force and stress on lane i may be constant, s.
+
+    The particle then moves by a share of the gap to a wall, and turns little, by itself or with the fluid.
+    """
+    R, kT = block[at.R * LANES + i], coefficients[0]
+    D = kT / (6.0 * math.pi * medium.mu * R)
+    room = _SHARE_OF_GAP * min(block[at.clearance * LANES + i], NEAR * R)
+    longest = min(0.5 * room * room / D, longest_step(load9(block, during.start_l, i)))
+    if coefficients[2] > 0.0:
+        longest = min(longest, _HELD_TURN * 8.0 * math.pi * medium.mu * R * R * R / kT)
+    # A viscosity that varies is not known before a step.
+    return longest if longest > 0.0 else 0.0
 
 
 def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
@@ -128,7 +150,8 @@ def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -
         f = vector_dot(random_force(K, size, load3(block, thermal.three, i)), Q)
         volume = volume_at_rest(block, i) * stretches[0] * stretches[1] * stretches[2]
         r = shape_resistance(stretches, load_integrals(block, i), block[at.eta * LANES + i] / mu_f)
-        T = from_frame(Q, random_stress(r, size / np.sqrt(volume), load9(block, thermal.nine, i)))
+        relaxing = 2.0 * block[at.mu * LANES + i] / mu_f * select(fresh, duration, 0.0)
+        T = from_frame(Q, random_stress(r, size / np.sqrt(volume), load9(block, thermal.nine, i), relaxing))
         store3(block, thermal.thermal_force, i, choose3(fresh, f, load3(block, thermal.thermal_force, i)))
         store9(block, thermal.thermal_stress, i, choose(fresh, T, load9(block, thermal.thermal_stress, i)))
         block[thermal.duration * LANES + i] = 0.0
@@ -154,6 +177,13 @@ def apply_force(block: Any, medium: Medium, share: float, coefficients: Any) -> 
             add9(block, at.l, i, from_frame(Q, l))
 
 
+def turn_force(block: Any, i: int, turn: Tensor) -> None:
+    """Rotate or mirror force and stress on lane i, together with the particle."""
+    store3(block, thermal.thermal_force, i, dot_vector(turn, load3(block, thermal.thermal_force, i)))
+    T = load9(block, thermal.thermal_stress, i)
+    store9(block, thermal.thermal_stress, i, dot(turn, dot(T, transpose(turn))))
+
+
 def force_of_molecules(block: Any, i: int) -> Vector:
     """Return the force on lane i, N."""
     return load3(block, thermal.thermal_force, i)
@@ -168,8 +198,9 @@ class BrownianMotion(Surrounding):
     shape: Annotated[bool, Meaning("whether molecules also turn and deform the particle")] = True
 
     rows: ClassVar = {"thermal": BrownianRows}
-    traits: ClassVar = Traits(surveys=("R", "rho", "mu"))
+    traits: ClassVar = Traits(each_step=False, surveys=("R", "rho", "mu"))
     update: ClassVar = staticmethod(draw)
+    hold: ClassVar = staticmethod(hold_of_molecules)
     disturb: ClassVar = staticmethod(apply_force)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
@@ -177,8 +208,14 @@ class BrownianMotion(Surrounding):
         return BOLTZMANN * self.T, np.uint64(self.seed), float(self.shape)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
-        """Return the force, which walls hinder too; and that walls reflect steps."""
-        return {"prepare": compute_force, "thermal_force": force_of_molecules, "reflects_steps": 1}
+        """Return the force, which walls hinder too; that walls reflect steps, and mirrors the force."""
+        return {
+            "prepare": compute_force,
+            "thermal_force": force_of_molecules,
+            "reflects_steps": 1,
+            "turn_along": turn_force,
+            "draws": 1,
+        }
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:
         """Refuse ``paper``, whose resistances are those at the start of the step, and drops.

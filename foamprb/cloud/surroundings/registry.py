@@ -8,7 +8,7 @@ from typing import Any
 
 from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.forces import nested
-from foamprb.cloud.integrators.base import all_resolved, no_disturbance, no_look, no_update
+from foamprb.cloud.integrators.base import all_resolved, held_forever, no_disturbance, no_look, no_update
 from foamprb.cloud.layout import Layout, end, keep, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.brownian import BrownianMotion
@@ -84,6 +84,7 @@ def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) ->
     update: Callable[..., None] = no_update
     look: Callable[..., None] = no_look
     resolve: Callable[..., float] = all_resolved
+    hold: Callable[..., float] = held_forever
     prepare: Callable[..., None] = no_disturbance
     disturb: Callable[..., None] = no_disturbance
     bindings: dict[str, Any] = dict(_offsets(base, surroundings))
@@ -91,13 +92,14 @@ def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) ->
         update = bound(_then_update, others=update, model=type(model).update)
         look = bound(_then_look, others=look, model=type(model).look)
         resolve = bound(_least_resolved, others=resolve, model=type(model).resolve)
+        hold = bound(_shortest_held, others=hold, model=type(model).hold)
         functions: dict[str, Any] = dict(model.bindings(inertia))
         prepare = bound(_then_disturb, others=prepare, model=functions.pop("prepare", no_disturbance))
         disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
         for name in _TOGETHER & functions.keys() & bindings.keys():
             functions[name] = bound(_both, one=bindings[name], other=functions[name])
         bindings |= functions
-    composed = {"update_all": update, "look_all": look, "resolve_all": resolve}
+    composed = {"update_all": update, "look_all": look, "resolve_all": resolve, "hold_all": hold}
     return {**bindings, **composed, "prepare_all": prepare, "disturb_all": disturb}
 
 
@@ -148,6 +150,11 @@ def _least_resolved(flow: Any, s: Scratch, i: int, medium: Medium, coefficients:
         others(flow, s, i, medium, coefficients[0]), model(flow, s, i, medium, coefficients[1])
     )
     return share
+
+
+def _shortest_held(block: Any, i: int, medium: Medium, coefficients: Any) -> float:
+    longest: float = min(others(block, i, medium, coefficients[0]), model(block, i, medium, coefficients[1]))
+    return longest
 
 
 def _then_disturb(block: Any, medium: Medium, share: float, coefficients: Any) -> None:

@@ -1,6 +1,7 @@
 """Swimmers: bodies that move through the fluid in a direction of their own.
 
-The formulas are those of :mod:`foamprb.body.swimming`. The random spin is drawn once per tracking step.
+The formulas are those of :mod:`foamprb.body.swimming`. The random spin is drawn at the start of one or more
+tracking steps, and constant during these.
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ __all__ = ["Swimming"]
 
 LARGE_TURN = 0.02
 """D_R Δt above which the user is warned."""
+_HELD_TURN = 0.002
+"""D_R t up to which a spin may hold for longer than a tracking step."""
 _START, _KIND = np.uint64(4), np.uint64(3)
 """Second words of the keys of the first directions and of the spins; the seed is the first."""
 
@@ -49,13 +52,18 @@ swimmers = offsets(SwimmerRows)
 def draw_spin(
     _flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
-    """Draw the spin of lane i at the start of a tracking step."""
+    """Draw the spin of lane i, which holds for the time that remains."""
     block = s.block
     if block[swimmers.spun * LANES + i] != step + 1.0 and remaining > 0.0:
         block[swimmers.spun * LANES + i] = step + 1.0
         number = np.uint64(block[swimmers.swimmer * LANES + i])
         three, _ = deviates(number, np.uint64(step), (coefficients[2], _KIND))
         store3(block, swimmers.tumble, i, random_spin(coefficients[1], remaining, three))
+
+
+def hold_of_spin(_block: Any, _i: int, _medium: Medium, coefficients: Any) -> float:
+    """Return how long the spin may be constant, s: the swimmer then turns little."""
+    return _HELD_TURN / (coefficients[1] + 1e-300)  # type: ignore[no-any-return]
 
 
 @traced
@@ -95,8 +103,9 @@ class Swimming(Surrounding):
     seed: Seed = 1
 
     rows: ClassVar = {"swimmers": SwimmerRows}
-    traits: ClassVar = Traits(mirrors=True, measures=("swimmingDirection",), surveys=())
+    traits: ClassVar = Traits(each_step=False, mirrors=True, measures=("swimmingDirection",), surveys=())
     update: ClassVar = staticmethod(draw_spin)
+    hold: ClassVar = staticmethod(hold_of_spin)
     disturb: ClassVar = staticmethod(swim)
 
     def __post_init__(self) -> None:
@@ -107,9 +116,9 @@ class Swimming(Surrounding):
         """Return the speed, the diffusivity and the seed."""
         return float(self.speed), float(self.rotationalDiffusivity), np.uint64(self.seed)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
         """Return the functions by which mirrors and walls change the direction."""
-        return {"turn_along": turn_heading, "bounce_along": leave_wall}
+        return {"turn_along": turn_heading, "bounce_along": leave_wall, "draws": 1}
 
     def begin(self, p: Particles) -> None:
         """Set the directions of the particles that have none."""
