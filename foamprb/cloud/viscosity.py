@@ -105,13 +105,20 @@ def evaluate_law(block: Any, _medium: Medium, _share: float, coefficients: Any) 
         block[fluid.mu_f * LANES + i] = law(rate, *coefficients)
 
 
+def start_law(
+    _flow: Any, s: Scratch, i: int, _step: int, _remaining: float, _medium: Medium, coefficients: Any
+) -> None:
+    """Compute μ_f where a step of lane i starts, for the other models' updates."""
+    s.block[fluid.mu_f * LANES + i] = law(shear_rate(load9(s.block, at.l, i)), *coefficients)
+
+
 def sample_field(
     flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Store the field and its gradient at the position of lane i."""
     block = s.block
     mu, slope = viscosity(flow, s.host[i], load3(block, at.x, i), _middle(block, i, remaining))
-    block[fluid.mu_there * LANES + i] = coefficients[0] * mu
+    block[fluid.mu_there * LANES + i] = block[fluid.mu_f * LANES + i] = coefficients[0] * mu
     store3(block, fluid.mu_slope, i, scale_vector(coefficients[0], slope))
 
 
@@ -132,13 +139,22 @@ def evaluate_field(block: Any, _medium: Medium, share: float, _coefficients: Any
 
 
 def sample_fraction(
-    flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, _coefficients: Any
+    flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
-    """Store the volume fraction and its gradient at the position of lane i."""
+    """Store the volume fraction and its gradient at the position of lane i, and the fluid there."""
     block = s.block
     a, slope = viscosity(flow, s.host[i], load3(block, at.x, i), _middle(block, i, remaining))
     block[fluid.fraction * LANES + i] = a
     store3(block, fluid.fraction_slope, i, slope)
+    store_mixture(block, i, a, coefficients)
+
+
+def store_mixture(block: Any, i: int, fraction: Scalar, coefficients: Any) -> None:
+    """Store μ_f and ρ_f of lane i."""
+    a = np.maximum(0.0, np.minimum(1.0, fraction))
+    mu, other_mu, rho, other_rho = coefficients
+    block[fluid.mu_f * LANES + i] = other_mu + a * (mu - other_mu)
+    block[fluid.rho_f * LANES + i] = other_rho + a * (rho - other_rho)
 
 
 @traced
@@ -148,10 +164,7 @@ def evaluate_mixture(block: Any, _medium: Medium, share: float, coefficients: An
         # At the start of a step new_x is not known.
         way = minus(load3(block, at.new_x, i), load3(block, at.x, i))
         more = select(share > 0.0, share * inner(way, load3(block, fluid.fraction_slope, i)), 0.0)
-        a = np.maximum(0.0, np.minimum(1.0, block[fluid.fraction * LANES + i] + more))
-        mu, other_mu, rho, other_rho = coefficients
-        block[fluid.mu_f * LANES + i] = other_mu + a * (mu - other_mu)
-        block[fluid.rho_f * LANES + i] = other_rho + a * (rho - other_rho)
+        store_mixture(block, i, block[fluid.fraction * LANES + i] + more, coefficients)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -181,6 +194,7 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
 
     rows: ClassVar = {"fluid": ViscosityRows}
     traits: ClassVar = Traits(each_step=False)
+    update: ClassVar = staticmethod(start_law)
 
     @classmethod
     def of_kinematic(cls, coefficients: Mapping[str, float], rho: float) -> Self:

@@ -17,6 +17,7 @@ from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
 from foamprb.cloud.surroundings.swimming import Swimming
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.compile.link import bound
+from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 
 __all__ = ["SURROUNDINGS", "add_surrounding", "coefficients", "compose", "stages", "with_rows"]
@@ -78,6 +79,11 @@ def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) ->
         Layout of the integrator's block without them.
     inertia
         Whether the integrator's solid has inertia.
+
+    Raises
+    ------
+    InputError
+        If two models determine the same quantity.
     """
     if not surroundings:
         return {}
@@ -96,8 +102,14 @@ def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) ->
         functions: dict[str, Any] = dict(model.bindings(inertia))
         prepare = bound(_then_disturb, others=prepare, model=functions.pop("prepare", no_disturbance))
         disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
-        for name in _TOGETHER & functions.keys() & bindings.keys():
-            functions[name] = bound(_both, one=bindings[name], other=functions[name])
+        for name in functions.keys() & bindings.keys():
+            if name in _TOGETHER:
+                functions[name] = bound(_both, one=bindings[name], other=functions[name])
+            elif functions[name] is not bindings[name]:
+                others = [
+                    type(m).__name__ for m in surroundings if m is not model and name in m.bindings(inertia)
+                ]
+                raise InputError(f"{type(model).__name__} excludes {others[0]}: both determine {name}")
         bindings |= functions
     composed = {"update_all": update, "look_all": look, "resolve_all": resolve, "hold_all": hold}
     return {**bindings, **composed, "prepare_all": prepare, "disturb_all": disturb}
