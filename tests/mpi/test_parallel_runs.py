@@ -398,7 +398,8 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
         for folder in [f / t for f in case.glob("processor*") for t in ("0.5", "1.5")]:
             folder.rename(folder.with_name("late" + folder.name))
         hook += SOLVER
-    done = run(2, case, *["-follow"] * following, script=after_hook(tmp_path, hook))
+    options = ["-follow"] if following else ["-cache", str(tmp_path / "cache")]
+    done = run(2, case, *options, script=after_hook(tmp_path, hook))
     assert done.returncode == 0, done.stderr
     if following:
         reason = "-follow reads times while the solver writes them"
@@ -406,6 +407,8 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
     else:
         assert "Nodes take processor folders again" in done.stdout
         assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
+        # Each node keeps its part of each time.
+        assert len(list((tmp_path / "cache").iterdir())) >= 6
     assert distances in done.stdout
     assert_same(case, alone)
 
