@@ -145,9 +145,9 @@ class PartFlow(MeshFlow):
         count, nodes, n_nodes = len(first), arrays.nodes, mesh.n_points + mesh.n_cells
         if len(nodes) == n_nodes:
             # In place at the start, when a second copy would be the peak of memory.
-            nodes.resize((n_nodes + count, 16), refcheck=False)
+            nodes.resize((n_nodes + count, nodes.shape[1]), refcheck=False)
         else:
-            nodes = np.concatenate([nodes[:n_nodes], np.zeros((count, 16))])
+            nodes = np.concatenate([nodes[:n_nodes], np.zeros((count, nodes.shape[1]))])
         nodes[n_nodes:, :3] = walls.corners.reshape(-1, 3)[first]
         of_walls = (n_nodes + place.reshape(-1, 3)).astype(np.int32)
         self._arrays = arrays._replace(

@@ -30,16 +30,20 @@ def count_jumps(l: Floats, first: Ints, second: Ints, at_walls: Mask) -> NDArray
     at_walls
         (n_cells,) cells with a face on a wall.
     """
-    counts = NO_JUMPS.copy()
+    counts, norms = NO_JUMPS.copy(), _norms(l)
     for k in range(0, len(first), _AT_ONCE):
         a, b = first[k : k + _AT_ONCE], second[k : k + _AT_ONCE]
-        sizes = np.linalg.norm(l[a], axis=1) + np.linalg.norm(l[b], axis=1)
-        ratios = 2.0 * np.linalg.norm(l[a] - l[b], axis=1) / np.maximum(sizes, 1e-300)
+        ratios = 2.0 * _norms(l[a] - l[b]) / np.maximum(norms[a] + norms[b], 1e-300)
         bins = np.floor((np.log10(np.maximum(ratios, 1e-300)) - _DECADES[0]) * _PER_DECADE)
         bins = np.clip(bins, 0, _BINS - 1).astype(np.intp)
         counts[0] += np.bincount(bins, minlength=_BINS)
         counts[1] += np.bincount(bins[at_walls[a] | at_walls[b]], minlength=_BINS)
     return counts
+
+
+def _norms(rows: Floats) -> Floats:
+    norms: Floats = np.sqrt(np.einsum("ij,ij->i", rows, rows))
+    return norms
 
 
 def medians(counts: NDArray[np.int64]) -> tuple[float, float]:

@@ -15,11 +15,10 @@ from foamprb.flow.base import Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
 from foamprb.flow.jumps import count_jumps
-from foamprb.flow.mesh.arrays import FREE, MeshArrays, no_mesh
+from foamprb.flow.mesh.arrays import FREE, GRADIENT, VELOCITY, MeshArrays, no_mesh
 from foamprb.flow.mesh.communicator import single_node, total_of
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
-from foamprb.flow.mesh.lists import share
 from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
@@ -149,7 +148,8 @@ class MeshFlow:
     mesh
         The mesh.
     u, l
-        (n_nodes, 3) in m/s and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j in 1/s; mesh points, then cell centres.
+        (n_nodes, 3) in m/s and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j in 1/s; mesh points, then cell centres. None
+        of a flow that has them in other arrays.
     notes
         Sentences for the user about the flow.
     zones
@@ -187,8 +187,8 @@ class MeshFlow:
     def __init__(
         self,
         mesh: Mesh,
-        u: Floats,
-        l: Floats,
+        u: Floats | None,
+        l: Floats | None,
         notes: Iterable[str] = (),
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
         time: str = "",
@@ -211,12 +211,9 @@ class MeshFlow:
             )
         self.bounds, self.width = self._extents(mesh)
         tree = self._tree(mesh)
-        nodes, columns = np.empty((len(u), 16)), (u, l.reshape(-1, 9))
-
-        def fill(low: int, high: int) -> None:
-            np.concatenate([a[low:high] for a in columns], axis=1, out=nodes[low:high, 3:FREE])
-
-        share(len(u), fill)
+        nodes = np.empty((mesh.n_points + mesh.n_cells, VELOCITY if u is None or l is None else 16))
+        if u is not None and l is not None:
+            nodes[:, VELOCITY:GRADIENT], nodes[:, GRADIENT:] = u, l.reshape(-1, 9)
         nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
         nodes[:, FREE] = free_nodes(mesh)
         self.span = (-np.inf, np.inf)
@@ -307,7 +304,7 @@ class MeshFlow:
         mesh, arrays = self.mesh, self._arrays
         if images is not None:
             n, nodes, triangles = len(images.patches), len(arrays.nodes), len(arrays.triangles)
-            beyond = np.zeros((3 * n, 16))
+            beyond = np.zeros((3 * n, arrays.nodes.shape[1]))
             beyond[:, :3] = images.corners.reshape(-1, 3)
             names = np.concatenate([names, np.arange(triangles, triangles + n, dtype=np.int32)])
             walls = Walls(*(np.concatenate([own, other]) for own, other in zip(walls, images, strict=True)))
@@ -369,7 +366,7 @@ class MeshFlow:
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
-        return self._time, self._arrays.nodes[:, 3:6], self._arrays.nodes[:, 6:15]
+        return self._time, self._arrays.nodes[:, VELOCITY:GRADIENT], self._arrays.nodes[:, GRADIENT:]
 
     def turbulence_at_nodes(self) -> Floats:
         """Return k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); no rows if they were not read."""
@@ -534,7 +531,7 @@ class MeshFlow:
             vertices=vertices,
             areas=0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1),
             normals=mesh.triangle_normals[at],
-            velocity=self._arrays.nodes[triangles, 3:6],
+            velocity=self._arrays.nodes[triangles, VELOCITY:GRADIENT],
             hosts=mesh.triangle_tet[at],
         )
 

@@ -282,7 +282,7 @@ class SeriesFlow(Timeline, MeshFlow):
         curved: bool = False,
     ) -> None:
         nodes = mesh.n_points + mesh.n_cells
-        super().__init__(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
+        super().__init__(mesh, None, None, notes, zones)
         self._set_times(times, period)
         self._read, self._keep = read, keep
         self._names = names if names is not None else []

@@ -16,7 +16,19 @@ from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
 from foamprb.flow.base import Floats, Turbulence
 from foamprb.flow.correction import correct_cell, is_stored, stored
-from foamprb.flow.mesh.arrays import FREE, TOLERANCE, MeshArrays, arm, bends, frame, nodes_of, point, weights
+from foamprb.flow.mesh.arrays import (
+    FREE,
+    GRADIENT,
+    TOLERANCE,
+    VELOCITY,
+    MeshArrays,
+    arm,
+    bends,
+    frame,
+    nodes_of,
+    point,
+    weights,
+)
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
 
@@ -51,8 +63,8 @@ def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Te
 def parts(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Vector, Tensor]:
     """Return u at x in the tetrahedron ``host``, its correction c, both m/s, and l, 1/s."""
     sides, s, w = shape_and_sides(flow, host, x)
-    u, l = interpolate(flow, host, flow.nodes, 3, 0, w)
-    c = correction_at(flow, flow.correction, host, flow.phi, 0, flow.nodes, 3, 0, host, w, sides, s)
+    u, l = interpolate(flow, host, flow.nodes, VELOCITY, 0, w)
+    c = correction_at(flow, flow.correction, host, flow.phi, 0, flow.nodes, VELOCITY, 0, host, w, sides, s)
     return u, c, l
 
 
@@ -82,8 +94,10 @@ def sample_ahead(
         least = min(w0, w1, w2, w3)
     s = 1.0 / volume
     w = (s * w0, s * w1, s * w2, s * w3)
-    u, l = interpolate(flow, last, flow.nodes, 3, 0, w)
-    c = correction_at(flow, flow.correction, last, flow.phi, 0, flow.nodes, 3, 0, last, w, (c1, c2, c3), s)
+    u, l = interpolate(flow, last, flow.nodes, VELOCITY, 0, w)
+    c = correction_at(
+        flow, flow.correction, last, flow.phi, 0, flow.nodes, VELOCITY, 0, last, w, (c1, c2, c3), s
+    )
     # The gradient of a weight is its cofactor vector; that of the origin minus the sum of the others.
     room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
     return last, room, entered, plus(u, c), l, minus(STEADY, dot_vector(l, c))
@@ -362,7 +376,7 @@ def curvature(flow: MeshArrays, host: int, x: Vector, t: float) -> Curvature:  #
     They are constant there if they were not reconstructed at the nodes.
     """
     if flow.curvatures.shape[0] == 0:
-        return curvature_in(flow, host, flow.nodes, 6, 0)
+        return curvature_in(flow, host, flow.nodes, GRADIENT, 0)
     return blend_curvature(flow.curvatures, corners(flow, host, 0), shape(flow, host, x))
 
 

@@ -220,11 +220,10 @@ def _lines(lines: Sequence[str], by: int = 4) -> str:
 
 def scales_of(flow: MeshFlow) -> FlowScales:
     """Return the scales of a flow on a mesh."""
-    nodes = flow.arrays().nodes
-    speeds = np.linalg.norm(nodes[:, 3:6], axis=1)
-    cells = nodes[flow.mesh.n_points :]
-    rates = np.asarray(shear_rate(tuple(cells[:, 6:15].T)))
-    everywhere = np.asarray(shear_rate(tuple(nodes[:, 6:15].T)))
+    _, u, l = flow.at_nodes()
+    speeds = np.linalg.norm(u, axis=1)
+    rates = np.asarray(shear_rate(tuple(l[flow.mesh.n_points :].T)))
+    everywhere = np.asarray(shear_rate(tuple(l.T)))
     volumes = np.maximum(flow.mesh.volumes, 0.0)
     sizes = np.cbrt(volumes)
     volume, speed = float(volumes.sum()), float(speeds.max())

@@ -134,8 +134,8 @@ def test_nodes_are_points_and_centres_with_their_values(random):
     flow = MeshFlow(mesh, u, l, ["one", "two"], time="0.25", turbulence=k)
     nodes = flow.arrays().nodes
     np.testing.assert_array_equal(nodes[:, :3], np.concatenate([mesh.points, mesh.centres]))
-    np.testing.assert_array_equal(nodes[:, 3:6], u)
-    np.testing.assert_array_equal(nodes[:, 6:15], l.reshape(-1, 9))
+    np.testing.assert_array_equal(nodes[:, 4:7], u)
+    np.testing.assert_array_equal(nodes[:, 7:], l.reshape(-1, 9))
     assert np.array_equal(nodes[:, FREE], free_nodes(mesh))
     name, u_nodes, l_nodes = flow.at_nodes()
     assert name == "0.25"

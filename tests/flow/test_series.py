@@ -244,7 +244,7 @@ def test_all_columns_are_linear_in_time_and_all_but_the_velocity_between_nodes(m
         assert (k_e, epsilon, *slope, *drift) == pytest.approx(mean[12:], rel=1e-9, abs=1e-10)
         bends = []
         for level in (k, (k + 1) % 3):
-            steady._arrays.nodes[:, 6:15] = values[level, :, 3:12]
+            steady._arrays.nodes[:, 7:] = values[level, :, 3:12]
             bends.append(np.array(steady.kernels["curvature"](steady.arrays(), host, x, t)))
         found = np.array(flow.kernels["curvature"](arrays, host, x, t))
         np.testing.assert_allclose(found, bends[0] + s * (bends[1] - bends[0]), rtol=1e-9, atol=1e-10)

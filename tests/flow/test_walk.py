@@ -310,9 +310,9 @@ def shares(nodes, tet, x):
 
 def quadratic(nodes, rows, w):
     """The value at weights w: that of the linear field, and the bends along the edges off the walls."""
-    u = w @ nodes[rows, 3:6]
+    u = w @ nodes[rows, 4:7]
     for (i, a), (j, b) in combinations(enumerate(rows), 2):
-        bend = (nodes[a, 6:15] - nodes[b, 6:15]).reshape(3, 3) @ (nodes[b, :3] - nodes[a, :3])
+        bend = (nodes[a, 7:] - nodes[b, 7:]).reshape(3, 3) @ (nodes[b, :3] - nodes[a, :3])
         u = u + 0.5 * w[i] * w[j] * nodes[a, FREE] * nodes[b, FREE] * bend
     return u
 
@@ -324,7 +324,7 @@ def test_the_gradient_is_linear_between_nodes_and_the_velocity_quadratic(tetrahe
     w, rows = shares(arrays.nodes, arrays.tets[host], x), arrays.tets[host]
     u, l, u_t = sample(arrays, host, x, 0.3)
     assert u == pytest.approx(quadratic(arrays.nodes, rows, w), rel=1e-9)
-    assert l == pytest.approx(w @ arrays.nodes[rows, 6:15], rel=1e-9)
+    assert l == pytest.approx(w @ arrays.nodes[rows, 7:], rel=1e-9)
     assert u_t == (0.0, 0.0, 0.0)
     k, epsilon, slope, drift = turbulence(arrays, host, x, 0.3)
     expected = w @ arrays.turbulence[rows]

@@ -52,7 +52,7 @@ def cases(tool, tmp_path_factory):
 
 
 def crowd_is_kept(tool, flow, n=5000):
-    fastest = np.abs(flow.arrays(0.0).nodes[:, 3:6]).max()
+    fastest = np.abs(flow.arrays(0.0).nodes[:, 4:7]).max()
     cloud, _ = tool.crowd(flow, n, 100, 0.4 * float(np.cbrt(flow.mesh.volumes).mean() / fastest))
     counts = cloud.particles.counts()
     assert counts[Status.FAILED] == 0

@@ -186,7 +186,7 @@ def test_a_transient_flow_of_a_mesh_file(case, tmp_path):
         grid.set_active_time_value(float(time))
         shape = grid.read()["internalMesh"]
         shape.clear_data()
-        shape.cell_data["U"] = flow.arrays(0.0).nodes[flow.mesh.n_points :, 3:6]
+        shape.cell_data["U"] = flow.arrays(0.0).nodes[flow.mesh.n_points :, 4:7]
         shape.save(tmp_path / f"flow{time}.vtu")
         names.append({"name": f"flow{time}.vtu", "time": float(time)})
     (tmp_path / "flow.vtu.series").write_text(json.dumps({"files": names}))

@@ -102,7 +102,7 @@ def test_first_guesses_suit_the_flow(case):
     job = prepare(case)
     flow, solution = job.cloud.flow, settings.solution
     length = (flow.bounds[1] - flow.bounds[0]).max()
-    speed = max(abs(flow.arrays().nodes[:, 3:6]).ravel())
+    speed = max(abs(flow.arrays().nodes[:, 4:7]).ravel())
     assert 1.0 < solution.endTime * speed / length < 20.0
     assert solution.deltaT * speed < length / 50
     assert solution.writeInterval * 50 == pytest.approx(solution.endTime)

@@ -17,8 +17,8 @@ TOLERANCE = 1e-9
 Weights follow from differences of coordinates: their round-off is about 1e-16 × distance from the origin.
 """
 
-FREE = 15
-"""Column of the nodes; see :func:`foamprb.flow.fluxes.free_nodes`."""
+FREE, VELOCITY, GRADIENT = 3, 4, 7
+"""First columns of the nodes after the place; of :data:`FREE` see :func:`foamprb.flow.fluxes.free_nodes`."""
 
 
 @record
@@ -26,8 +26,8 @@ class MeshArrays(NamedTuple):
     """Arrays of a flow on a mesh that the kernels read; SI units, indices int32."""
 
     nodes: Floats
-    """(n_nodes, 16): x y z, u v w, the nine ∂u_i/∂x_j row by row, and
-    :func:`~foamprb.flow.fluxes.free_nodes`: two cache lines a node."""
+    """(n_nodes, 16): x y z, :func:`~foamprb.flow.fluxes.free_nodes`, u v w, and the nine ∂u_i/∂x_j row by
+    row: two cache lines a node. (n_nodes, 4) if u and ∇u are in another table."""
     n_points: int
     """Number of mesh points; the centre of cell c is node ``n_points + c``."""
     tets: Ints

@@ -69,7 +69,7 @@ def pipe_flow():
 
 
 def with_zones(flow, zones):
-    return MeshFlow(flow.mesh, flow._arrays.nodes[:, 3:6], flow._arrays.nodes[:, 6:15], zones=lambda: zones)
+    return MeshFlow(flow.mesh, flow._arrays.nodes[:, 4:7], flow._arrays.nodes[:, 7:], zones=lambda: zones)
 
 
 class TestCellZone:
@@ -433,7 +433,7 @@ class TestFlowRate:
     @pytest.fixture
     def series(self, lid_flow):
         """At rest at 0, f = 1 at 1 s, 0 at 2 s and −1 at 3 s."""
-        u, l = lid_flow._arrays.nodes[:, 3:6], np.zeros((len(lid_flow.mesh.nodes), 3, 3))
+        u, l = lid_flow._arrays.nodes[:, 4:7], np.zeros((len(lid_flow.mesh.nodes), 3, 3))
         return SeriesFlow(lid_flow.mesh, [0.0, 1.0, 3.0], lambda k: ((0.0, 1.0, -1.0)[k] * u, l))
 
     def test_number_and_times_follow_the_inflow(self, series):
@@ -458,7 +458,7 @@ class TestFlowRate:
             release(PatchFlowRateInjection("lid", 4000.0, 1.0, SOI=2.0), series, rng(), no_file)
 
     def test_times_of_each_period_count(self, lid_flow):
-        u, l = lid_flow._arrays.nodes[:, 3:6], np.zeros((len(lid_flow.mesh.nodes), 3, 3))
+        u, l = lid_flow._arrays.nodes[:, 4:7], np.zeros((len(lid_flow.mesh.nodes), 3, 3))
         flow = SeriesFlow(lid_flow.mesh, [0.0, 1.0], lambda k: (k * u, l), period=2.0)
         assert flow.times_within(0.5, 4.0) == [1.0, 2.0, 3.0]
         p = release(PatchFlowRateInjection("lid", 400.0, 4.0), flow, rng(), no_file)
