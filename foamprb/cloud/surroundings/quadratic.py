@@ -30,6 +30,7 @@ from foamprb.body.quadratic import (
     rotation,
     shift,
     source,
+    square,
     turned,
     weights,
 )
@@ -66,6 +67,7 @@ class QuadraticRows(NamedTuple):
     shift: Annotated[int, Row(3, "m", "displacement q of the surface of a solid", of="shift", saved=True)]
     sampled: Annotated[int, Row(1, "", "1 once the flow is sampled, else 0")]
     reached: Annotated[int, Row(1, "s", "time at which it was sampled")]
+    recovery: Annotated[int, Row(1, "1/s", "relaxation 1/τ₃ of B then")]
     growth: Annotated[int, Row(7, "1/s", "source of B then")]
     pull: Annotated[int, Row(3, "m/s", "source of q then")]
     fluid_spin: Annotated[int, Row(3, "1/s", "angular velocity of the fluid then")]
@@ -80,6 +82,9 @@ class SecondRows(NamedTuple):
     T: Annotated[int, Row(9, "1/(m s)", "symmetric part of the gradient of the vorticity")]
     laplacian: Annotated[int, Row(3, "1/(m s)", "Laplacian of the velocity")]
 
+
+_CHANGE, _CHANGE_OF_B = 0.2, 1e-3
+"""Relative change of S, and change of B, within a step longer than Δt."""
 
 mode = offsets(QuadraticRows)
 second = offsets(SecondRows)
@@ -142,6 +147,7 @@ def advance_mode(block: Any, i: int, growth: Third, rate: float, spin: Vector, s
     half = 0.5 * step
     store7(block, mode.middle, i, advanced(B, growth, growth, weights(rate, half), rotation(spin, half)))
     store7(block, mode.growth, i, growth)
+    block[mode.recovery * LANES + i] = rate
 
 
 def advance_shift(block: Any, i: int, pull: Vector, rate: float, spin: Vector, step: float) -> None:
@@ -230,6 +236,20 @@ def carry_drop(block: Any, medium: Medium, share: float, coefficients: Any) -> N
         add3(block, at.u, i, drift_of_drop(block[at.R * LANES + i], ratio, A, B, E, flow))
 
 
+def stays_resolved(flow: Any, s: Scratch, i: int, medium: Medium, _coefficients: Any) -> float:
+    """Return the share of a step of lane i in which the source of B changes little, or changes B little."""
+    block = s.block
+    t, h = block[at.t * LANES + i], block[at.dt * LANES + i]
+    S = parts(curvature(flow, s.ahead[i], load3(block, at.new_x, i), t + h)).S
+    c = source(block[at.eta * LANES + i] / viscosity_at(block, i, medium)) * block[at.R * LANES + i]
+    before = load7(block, mode.growth, i)
+    change = square(combine(c, S, -1.0, before)) ** 0.5
+    largest = max(square(before) ** 0.5, c * square(S) ** 0.5)
+    time = min(h, 1.0 / block[mode.recovery * LANES + i])
+    allowed = max(_CHANGE * largest, _CHANGE_OF_B / time)
+    return float(min(1.0, allowed / (change + 1e-300)))
+
+
 def turn_mode(block: Any, i: int, turn: Tensor) -> None:
     """Turn or mirror the mode of lane i, and the flow where it was computed last."""
     store7(block, mode.B, i, turned(load7(block, mode.B, i), turn))
@@ -247,9 +267,13 @@ class QuadraticSolid(Surrounding):
 
     rows: ClassVar = {"mode": QuadraticRows}
     traits: ClassVar = Traits(
-        kernels=("curvature",), measures=("quadraticShape", "bulletAmplitude"), surveys=("F0",)
+        each_step=False,
+        kernels=("curvature",),
+        measures=("quadraticShape", "bulletAmplitude"),
+        surveys=("F0",),
     )
     update: ClassVar = staticmethod(update_solid)
+    resolve: ClassVar = staticmethod(stays_resolved)
     disturb: ClassVar = staticmethod(carry_solid)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
