@@ -10,7 +10,8 @@ from foamprb import analytic
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Stick
-from foamprb.cloud.state import spheres
+from foamprb.cloud.paths import COLUMNS, Steps, step
+from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import ObservedCloud
 from foamprb.cloudfunctions.registry import CloudFunctions
@@ -57,12 +58,8 @@ def restore(functions, state):
 def go_on(cloud, functions, folder, writes):
     folder.mkdir(exist_ok=True)
     for target in writes:
-        while cloud.step < target:
-            until = functions.next_sample(target)
-            cloud.advance(until - cloud.step)
-            cloud.step = until
-            functions.sample(functions.due)
-        functions.sample(functions.functions)
+        cloud.advance(target - cloud.step)
+        cloud.step = target
         functions.write(folder)
 
 
@@ -73,3 +70,28 @@ def table(path):
 
 def column(rows, name):
     return np.array([float(row[name]) for row in rows])
+
+
+def made_steps(t, x=None, v=None, F=None, l=None, number=0):
+    """Steps of a particle, one after the other, from values of some quantities at n + 1 times."""
+    n = len(t) - 1
+    tables = np.zeros((1, COLUMNS, n))
+    still = {"x": np.zeros((n + 1, 3)), "v": np.zeros((n + 1, 3)), "l": np.zeros((n + 1, 9))}
+    still["F"] = np.tile(np.eye(3).ravel(), (n + 1, 1))
+    given = {name: values for name, values in {"x": x, "v": v, "F": F, "l": l}.items() if values is not None}
+    for name, values in {**still, **given, "t": np.reshape(t, (-1, 1))}.items():
+        for end, ends in enumerate((values[:-1], values[1:])):
+            first = getattr(step, f"{name}{end}")
+            tables[0, first : first + ends.shape[1]] = np.transpose(ends)
+    tables[0, step.Q0 : step.Q0 + 9] = tables[0, step.Q1 : step.Q1 + 9] = np.eye(3).reshape(9, 1)
+    tables[0, step.row] = tables[0, step.number] = number
+    tables[0, step.status] = Status.ACTIVE
+    return Steps(tables, in_frame=False)
+
+
+def see(cloud, steps):
+    """Give steps to the functions of a cloud."""
+    cloud.comm.prepare_steps(cloud)
+    cloud.publish()
+    rank = cloud.comm.rank
+    rank.sampling.observers(rank, cloud.time).observe(steps)

@@ -188,11 +188,23 @@ class Scratch(NamedTuple):
     """Sink for prefetched values; keeps the compiler from removing the prefetch."""
     stride: Any
     """(LANES,) tracking steps to the end of the stretch."""
+    passed: Any
+    """(LANES,) 1 where the step went through a coupled patch, else 0."""
+    paths: Any
+    """Tables of steps, (n, :data:`foamprb.cloud.paths.COLUMNS`, LANES); n = 0 without."""
+    recorded: Any
+    """(1,) number of tables with steps."""
+    starts: Any
+    """(k, 2) rows that are recorded before a step is accepted, and those of the table."""
+    ends: Any
+    """The same after it."""
+    watched: Any
+    """1 for each particle of the cloud whose steps are recorded, else 0; empty for all."""
     fields: Any = ()
     """Arrays of the fields of the case that forces need, see :func:`foamprb.flow.fields.blend_fields`."""
 
 
-SHELF, LABELS, COUNTS = 15 * LANES, 8, 5
+SHELF, LABELS, COUNTS = 15 * LANES, 8, 6
 """Places on the shelf, integers of each, and counts."""
 
 
@@ -216,7 +228,7 @@ def new_scratch(
     """
     lasting_rows, fresh = lasting
     # One array, so that no other thread writes to the same lines of memory.
-    lanes = iter(np.zeros((10, LANES), dtype=np.int64))
+    lanes = iter(np.zeros((11, LANES), dtype=np.int64))
 
     return Scratch(
         block=new_block(rows),
@@ -242,6 +254,12 @@ def new_scratch(
         counts=np.zeros(COUNTS, dtype=np.int64),
         prefetched=np.empty(1),
         stride=next(lanes),
+        passed=next(lanes),
+        paths=np.empty((0, 0, 0)),
+        recorded=np.zeros(1, dtype=np.int64),
+        starts=np.empty((0, 2), dtype=np.int64),
+        ends=np.empty((0, 2), dtype=np.int64),
+        watched=np.empty(0, dtype=np.bool_),
     )
 
 

@@ -101,21 +101,12 @@ class Rank:
         """Return which of the given particles this rank owns, and the rows of these."""
         return np.ones(len(numbers), dtype=bool), numbers
 
-    def sent(self, to: NDArray[np.int64], array: NDArray[Any]) -> NDArray[Any]:  # noqa: ARG002
-        """Send each row of an array to a rank; return the rows that arrive. All ranks call it together."""
-        return array
-
     def advance(self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool]) -> Outcome:
         """Advance the particles by some steps in the loaded flow."""
-        tracker = self.tracker
-        start, until = (tracker.start + n * tracker.dt for n in (step, step + steps))
-        if self.sampling is not None:
-            self.sampling.before_steps(self, start, until)
+        until = self.tracker.start + (step + steps) * self.tracker.dt
+        observers = None if self.sampling is None else self.sampling.observers(self, until)
         arguments = self.flow, self.particles, step, steps, self.threads, bounds, stop, self.sampled
-        outcome = tracker.advance(*arguments)
-        if self.sampling is not None:
-            self.sampling.after_steps(self, until)
-        return outcome
+        return self.tracker.advance(*arguments, observers)
 
 
 class Communicator:
@@ -189,8 +180,7 @@ class Communicator:
 
     def arrays_here(self) -> Arrays:
         """Return the arrays of cloud functions that the first rank writes to checkpoints."""
-        sums = {} if self.rank.sampling is None else self.rank.sampling.sums
-        return {**self.rank.share.memory, **{name: array for name, (_, array) in sums.items()}}
+        return self.rank.share.memory
 
     def prepare_steps(self, cloud: Any) -> None:
         """Prepare the ranks for the steps of a :class:`~foamprb.cloud.cloud.Cloud`."""

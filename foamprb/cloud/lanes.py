@@ -12,7 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.block import SHELF, Scratch, at, load_particle, prefetch_particle, save_particle
+from foamprb.cloud.block import (
+    SHELF,
+    Scratch,
+    at,
+    idle_lanes,
+    load_particle,
+    prefetch_particle,
+    save_particle,
+)
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import (
     ACTIVE,
@@ -25,9 +33,10 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.state import Particles
 
-READY, WAITING, ENDED, _NEXT, _RELOCATED = 0, 1, 2, 3, 4
+READY, WAITING, ENDED, _NEXT, _RELOCATED, PAUSED = 0, 1, 2, 3, 4, 5
 """Indices in :attr:`~foamprb.cloud.block.Scratch.counts`: particles set aside that may continue, that need
-order 3, and that need the rates at their end; particles loaded so far; walks that needed the tree."""
+order 3, and that need the rates at their end; particles loaded so far; walks that needed the tree; 1 between
+two calls for the same particles, else 0."""
 NOTHING, AGAIN, NEW = 0, 1, 2
 """Results of :func:`fetch`."""
 _MEMBER, _STATUS, _REASON, _PATCH, _HOST, _STEP, _NUMBER, _WALKS = 0, 1, 2, 3, 4, 5, 6, 7
@@ -46,12 +55,21 @@ def hold(
     """No-op: particles that stick stay."""
 
 
-def empty_lanes(s: Scratch) -> None:
-    """Start with no particle in any lane, after :func:`foamprb.cloud.block.idle_lanes`."""
+def begin_lanes(s: Scratch, dt: float) -> None:
+    """Start with no particle in any lane, or go on after :func:`pause`."""
+    if s.counts[PAUSED]:
+        s.counts[PAUSED] = 0
+        return
+    idle_lanes(s.block, dt)
     for i in range(LANES):
         s.member[i] = -1
     for n in range(len(s.counts)):
         s.counts[n] = 0
+
+
+def pause(s: Scratch) -> None:
+    """Leave all particles in their lanes and on the shelf until the next call."""
+    s.counts[PAUSED] = 1
 
 
 def others(s: Scratch, n: int) -> bool:

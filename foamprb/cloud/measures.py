@@ -467,7 +467,7 @@ def name_of_field(name: str) -> str:
     return name_of_field(f"{name}c") if name in _TAKEN else name
 
 
-def fields_at(flow: Sampled, x: Floats, hosts: NDArray[np.int32], t: Any) -> dict[str, FieldValues]:
+def fields_at(flow: Sampled, x: Floats, hosts: NDArray[Any], t: Any) -> dict[str, FieldValues]:
     """Return the sampled fields of a flow at points (n, 3) in hosts (n,), −1 for none, by name; no gradients.
 
     The times t, s, are one for all or (n,).

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import InitVar, dataclass
 from functools import partial
@@ -33,11 +33,13 @@ from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.base import track_share
 from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.lanes import PAUSED
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import LoopLimits
-from foamprb.cloud.motion import RARE, UNLISTED, PatchTable
+from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, interrupted
 from foamprb.cloud.needs import needed_by, reader_of
-from foamprb.cloud.patches import MIRROR, NO_BOND, Adhere, Interaction, Rebound
+from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, Adhere, Interaction, Rebound
+from foamprb.cloud.paths import COLUMNS, ROOM, Steps, steps_of
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
@@ -52,7 +54,7 @@ from foamprb.flow.fields import FieldColumns, Fields, fields_on, width
 from foamprb.flow.mesh.arrays import no_mesh
 from foamprb.flow.meshflow import LONG
 
-__all__ = ["Models", "Outcome", "Tracker", "available_threads", "never"]
+__all__ = ["Models", "Observers", "Outcome", "Tracker", "available_threads", "never"]
 
 
 def never() -> bool:
@@ -285,9 +287,16 @@ class Tracker:
         stop: Any = None,
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
         fields: Fields | None = None,
+        observers: Observers | None = None,
     ) -> Scratch:
         lasting = self.layout.lasting, self.layout.fresh
         scratch = new_scratch(self.layout.rows, stop, bounds, self._room, lasting)
+        if observers is not None:
+            recorded = self.integrator.recorded
+            scratch = scratch._replace(
+                paths=np.empty((ROOM, COLUMNS, LANES)), starts=recorded.starts(observers.needs),
+                ends=recorded.ends(observers.needs), watched=observers.watched,
+            )  # fmt: skip
         return scratch._replace(fields=fields.arrays) if self._columns and fields is not None else scratch
 
     def advance(
@@ -300,6 +309,7 @@ class Tracker:
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
         stop: Callable[[], bool] = never,
         fields: Fields | None = None,
+        observers: Observers | None = None,
     ) -> Outcome:
         """Advance particles from step ``step`` by ``steps`` steps, in place.
 
@@ -314,6 +324,8 @@ class Tracker:
             raises.
         fields
             Fields of the case at the loaded times, if the flow was read with some.
+        observers
+            Functions to which the steps are given.
         """
         last = step + steps
         dt, start = times = self._times(step)
@@ -324,7 +336,9 @@ class Tracker:
         outcome = Outcome()
         for end in sorted({*np.unique(reached[(reached > step) & (reached < last)]).tolist(), last}):
             rows = np.flatnonzero(np.isin(p.status, self.movable) & (reached <= step))
-            part = self._carry(flow, p, rows, (step, end - step), times, threads, bounds, stop, fields)
+            part = self._carry(
+                flow, p, rows, (step, end - step), times, threads, bounds, stop, fields, observers
+            )
             outcome += part
             if not part.finished:
                 break
@@ -350,13 +364,23 @@ class Tracker:
         bounds: LoopLimits,
         stop: Callable[[], bool],
         fields: Fields | None,
+        observers: Observers | None,
     ) -> Outcome:
         """Advance the particles of some rows from a step by a number of steps."""
         halt = np.zeros(1, dtype=np.int64)
 
         def work(task: Task) -> Outcome:
-            scratch = self._scratch(halt, bounds, fields)
-            mended: int = self._track(flow, self.table, self.medium, p, *task, *times, scratch, self.options)
+            scratch = self._scratch(halt, bounds, fields, observers)
+            mended = 0
+            for part in task.parts(self.integrator.adaptive or observers is None):
+                going_on = 1
+                while going_on:
+                    mended += self._track(
+                        flow, self.table, self.medium, p, *part, *times, scratch, self.options
+                    )
+                    going_on = scratch.counts[PAUSED]
+                    if observers is not None:
+                        observers.observe(self._steps(scratch, p, finished=not interrupted(scratch)))
             if scratch.noted[1]:
                 self.rebounds.append(scratch.rebounds[: scratch.noted[1]].copy())
             outgrown = scratch.outgrown[0]
@@ -379,6 +403,14 @@ class Tracker:
             self._room *= _MORE_ROOM
         return outcome
 
+    def _steps(self, s: Scratch, p: Particles, finished: bool) -> Steps:
+        """Return the recorded steps, and empty their table."""
+        tables, s.recorded[0] = s.paths[: s.recorded[0]], 0
+        coupled = np.flatnonzero(self.table.code == CYCLIC).tolist()
+        steps = steps_of(tables, self.integrator.recorded, s.rebounds[: s.noted[0]], coupled)
+        # Those of particles that stay where they began are taken again.
+        return steps if finished else steps.take(steps.t[1] <= p.t[steps.row])
+
     def contact_normals(self, flow: Any, p: Particles, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""
         normals = np.empty((len(rows), 3))
@@ -392,12 +424,31 @@ class Tracker:
         return in_order(records)
 
 
+class Observers(NamedTuple):
+    """Functions to which steps are given, and the particles whose steps these are."""
+
+    watched: NDArray[np.bool_]
+    """1 for each particle whose steps are recorded, else 0; empty for all."""
+    needs: frozenset[str]
+    """Quantities that are recorded, by the names of :class:`foamprb.cloud.paths.StepRows`."""
+    observe: Callable[[Steps], None]
+    """Called in several threads."""
+
+
 class Task(NamedTuple):
     """Particles and steps of one call of the compiled loop."""
 
     rows: NDArray[np.int64]
     step: int
     steps: int
+
+    def parts(self, whole: bool) -> Iterator[Task]:
+        """Yield the same task, or unless it may be ``whole``, parts whose steps of Δt fit into a table."""
+        rows, steps = (len(self.rows), self.steps) if whole else (4 * LANES, ROOM // 4)
+        for step in range(self.step, self.step + self.steps, max(steps, 1)):
+            for first in range(0, len(self.rows), max(rows, 1)):
+                count = min(steps, self.step + self.steps - step)
+                yield Task(self.rows[first : first + rows], step, count)
 
 
 def tasks_of(

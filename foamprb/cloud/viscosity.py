@@ -340,7 +340,7 @@ def model_of(mu: float | VaryingViscosity) -> tuple[VaryingViscosity, ...]:
 
 
 def viscosity_of(
-    mu: float | VaryingViscosity, flow: Any, x: Floats, hosts: NDArray[np.int32], l_f: Floats, t: float
+    mu: float | VaryingViscosity, flow: Any, x: Floats, hosts: NDArray[Any], l_f: Floats, t: float | Floats
 ) -> float | Floats:
     """Return μ_f, Pa s, at points in their hosts, NaN where l_f is; a constant as it is.
 
@@ -349,7 +349,7 @@ def viscosity_of(
     mu
         Viscosity, Pa s, or a model of it.
     flow, x, hosts, t
-        The flow, points (n, 3), m, their hosts, and the time, s.
+        The flow, points (n, 3), m, their hosts, and the times, s, one for all or (n,).
     l_f
         ∂u_i/∂x_j there, (n, 9), 1/s.
     """
@@ -357,7 +357,8 @@ def viscosity_of(
         return mu
     rate = np.asarray(shear_rate(tuple(l_f.T)))
     finite, mu_f = np.isfinite(rate), np.full(len(x), np.nan)
-    mu_f[finite] = mu.of(flow, x[finite], hosts[finite], rate[finite], t)
+    times = np.broadcast_to(t, len(x))[finite]
+    mu_f[finite] = mu.of(flow, x[finite], hosts[finite], rate[finite], times)
     return mu_f
 
 

@@ -13,27 +13,30 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, NamedTuple, TypeAlias
+from typing import Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.ellipsoid import taylor_deformation
+from foamprb.body.tensor import stretches_in_frame
 from foamprb.cloud import contact
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.communicator import Rank, Value
+from foamprb.cloud.communicator import Value
 from foamprb.cloud.contact import Rebounds
-from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts, fields_at
+from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, FlowSamples, as_slice, contexts
 from foamprb.cloud.patches import CYCLIC, Interaction
+from foamprb.cloud.paths import Steps, step, tensor_of
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Tracker
-from foamprb.dictionary.constraints import AtLeastOne, Meaning
-from foamprb.flow.fields import FieldColumns, FieldValues
+from foamprb.compile.link import compiled
+from foamprb.flow.base import Sampled
+from foamprb.flow.fields import FieldColumns
 from foamprb.flow.loaded import LoadedFlow
 from foamprb.results.tables import Column
 
 __all__ = [
-    "CELLS",
     "STATUS_NAMES",
     "CloudFunction",
     "CloudShare",
@@ -41,20 +44,12 @@ __all__ = [
     "Kind",
     "Memory",
     "ObservedCloud",
+    "PathFunction",
     "Rows",
-    "SampleInterval",
-    "SampledFunction",
-    "StepObserver",
-    "add_up",
-    "appearing",
     "append",
     "columns",
     "events_of",
-    "fields_at_release",
-    "fields_of",
-    "has_ended",
     "in_time",
-    "map_where_they_move",
     "masses",
     "memory_of",
     "names_of",
@@ -64,18 +59,13 @@ __all__ = [
     "per_event",
     "per_particle",
     "rows_of_particles",
-    "store",
-    "sums_of_cells",
     "table",
-    "taylor_of",
+    "taylor_at_end",
 ]
 
 Rows: TypeAlias = NDArray[np.int64]
 """Row numbers of particles in their cloud."""
 Memory: TypeAlias = dict[str, NDArray[Any]]
-CELLS = 1 << 18
-"""Cells in a part of :func:`sums_of_cells`."""
-SampleInterval = Annotated[int, AtLeastOne, Meaning("steps between two samples")]
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
 
 
@@ -84,11 +74,8 @@ class Kind(Enum):
 
     per_particle = "a row for each particle, which goes with the particle to the process that advances it"
     per_event = "a row for each event: number of the particle, time, and others; in the order of time"
-    per_cell = (
-        "a row for each cell of the mesh, to which the events of each sample are added and then removed: "
-        "number of the particle, a number that orders its events, cell, and the columns of this array, `sums`"
-    )
-    table = "rows that only begin and write use"
+    per_cell = "sums of each cell of the mesh, see :mod:`foamprb.cloudfunctions.cells`"
+    table = "rows that only begin and write change"
 
 
 per_particle, per_event, per_cell, table = Kind
@@ -102,6 +89,8 @@ class CloudShare(NamedTuple):
     medium: Medium
     tracker: Tracker
     time: float
+    size: int
+    """Number of particles of all processes."""
 
 
 @dataclass(frozen=True)
@@ -115,6 +104,8 @@ class ObservedCloud:
     """Observed particles; None for all."""
     _name: str = ""
     """Name of the observing function."""
+    add_to_cells: Callable[[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]], None] | None = None
+    """Adds values, (columns, n), to the sums of cells, (n,), with their scales, (columns,); of steps only."""
 
     @cached_property
     def particles(self) -> Particles:
@@ -141,13 +132,22 @@ class ObservedCloud:
             Names of :data:`foamprb.cloud.measures.MEASURES`, or functions of a
             :class:`~foamprb.cloud.measures.Context`.
         """
-        functions = [MEASURES[value].value if isinstance(value, str) else value for value in values]
-        parts = []
+        p, parts = self.particles, []
         for start in range(0, max(len(rows), 1), PER_CONTEXT):
-            p = self.particles.take(as_slice(rows[start : start + PER_CONTEXT]))
-            p = p._replace(status=np.full_like(p.status, Status.ACTIVE))
-            for c in contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time):
-                parts.append([np.array(function(c)) for function in functions])
+            some = self.of(p.take(as_slice(rows[start : start + PER_CONTEXT])))
+            parts.append(some.measure_in(self.cloud.flow, *values))
+        return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
+
+    def measure_in(
+        self, flow: Sampled | FlowSamples, *values: str | Callable[[Context], NDArray[Any]]
+    ) -> list[NDArray[Any]]:
+        """Return values of all observed particles in a flow, or in what it is where they are."""
+        p = self.particles._replace(status=np.full_like(self.particles.status, Status.ACTIVE))
+        functions = [MEASURES[value].value if isinstance(value, str) else value for value in values]
+        parts = [
+            [np.array(function(c)) for function in functions]
+            for c in contexts(p, flow, self.cloud.medium.mu, self.time)
+        ]
         return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
 
     def map(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
@@ -167,13 +167,7 @@ class CloudFunction:
     """A function that records data while the cloud moves."""
 
     arrays: ClassVar[Mapping[str, Kind]] = {}
-    """Kinds of the arrays of its data. With an array ``per_particle`` it samples on each process, with the
-    particles and rows of that process."""
-
-    @property
-    def interval(self) -> int:
-        """Tracking steps between two samples: ``sampleInterval``, or 0 for samples at write times only."""
-        return int(getattr(self, "sampleInterval", 0))
+    """Kinds of the arrays of its data."""
 
     @property
     def needed_fields(self) -> tuple[str, ...]:
@@ -184,8 +178,9 @@ class CloudFunction:
         """Return the initial data; raise InputError if the cloud lacks a name in the entries."""
         return {}
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Record a sample of the cloud, every ``interval`` steps and before each writing."""
+    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:  # noqa: ARG002
+        """Return whether the cloud must record rebounds and passages, by the interactions of the patches."""
+        return False
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the data into the function's own folder, at each write time."""
@@ -199,76 +194,74 @@ class CloudFunction:
         return {}
 
 
-class StepObserver:
-    """Cloud function that observes particles around each call of the loop, while its flow is loaded."""
-
-    def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
-        """Observe particles before steps from the time of the cloud ``until``, s."""
-
-    def after_steps(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Observe particles after these steps; by default no-op."""
-
-
 class ContactObserver:
     """Cloud function that records rebounds, and passages of coupled patches."""
 
-    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
-        """Return whether it records any, by the interactions of the patches; by default, coupled patches."""
-        return any(interaction.code == CYCLIC for interaction in interactions.values())
-
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
-        """Record rebounds and passages, see :meth:`foamprb.cloud.cloud.Cloud.take_rebounds`.
-
-        The next sample follows.
-        """
+        """Record rebounds and passages, see :meth:`foamprb.cloud.cloud.Cloud.take_rebounds`."""
         raise NotImplementedError
 
 
 @dataclass(frozen=True)
-class SampledFunction(CloudFunction):
-    """A cloud function that compares each sample of a particle with the one before.
+class PathFunction(CloudFunction):
+    """A cloud function that observes all steps of particles, see :class:`foamprb.cloud.paths.Steps`.
 
-    Between two samples a particle is not observed, but the last sample is at its exact end.
+    A particle is observed up to the end of its last step. No step ends for it.
     """
 
-    arrays: ClassVar[Mapping[str, Kind]] = {"closed": per_particle, "t": per_particle}
-    """Kinds of its arrays; those of :meth:`observe` and :meth:`initial` are added."""
+    arrays: ClassVar[Mapping[str, Kind]] = {"t": per_particle}
+    """Kinds of its arrays: the time to which each particle was observed; those of :meth:`initial` are added.
+    """
 
-    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return the values of particles that are stored at each sample, by name."""
-        raise NotImplementedError
+    @property
+    def needs(self) -> frozenset[str]:
+        """What it reads of steps beside times and places, see :class:`foamprb.cloud.paths.StepRows`."""
+        return frozenset()
+
+    def watches(self, numbers: Rows, n: int) -> NDArray[np.bool_] | None:  # noqa: ARG002
+        """Return which of some of n particles it observes, by their numbers; None for all."""
+        return None
 
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return further data at the start: sums of zero and empty tables."""
         raise NotImplementedError
 
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
-        """Add a sample: ``memory`` has the values and times ``t`` of the last, ``now`` those of the present.
+    def add(
+        self, memory: Memory, cloud: ObservedCloud, steps: Steps, fresh: NDArray[np.bool_]
+    ) -> NDArray[np.float64] | None:
+        """Add the fresh ones, (n,), of some steps; return rows of its array ``per_event``, None for none.
 
-        It may change ``now``, which is stored afterwards.
+        It changes its rows of these particles only, and sums of cells by ``cloud.add_to_cells``. Threads call
+        it with different particles at the same time.
         """
         raise NotImplementedError
 
+    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
+        """Return whether there are coupled patches, at which a path is divided."""
+        return any(interaction.code == CYCLIC for interaction in interactions.values())
+
     def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return the first sample, of all particles, and the initial data."""
-        p = cloud.particles
-        initial = self.initial(cloud)
-        closed = np.zeros(p.size, dtype=bool)
-        return {"closed": closed, "t": p.t.copy(), **self.observe(cloud, np.arange(p.size)), **initial}
+        """Return the times of the start, and the initial data."""
+        return {"t": cloud.particles.t.copy(), **self.initial(cloud)}
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Add a sample of the particles that move, or that have ended since the last one."""
-        self._add(memory, cloud, ~memory["closed"] & (cloud.particles.status != Status.PENDING))
+    def follow(self, memory: Memory, cloud: ObservedCloud, steps: Steps) -> NDArray[np.float64] | None:
+        """Add the steps that were not added before; return new rows of its array ``per_event``."""
+        fresh = np.empty(steps.n, dtype=np.bool_)
+        # After an interruption, particles take some steps again.
+        compiled(_select_fresh)(steps.tables, memory["t"], fresh)
+        return self.add(memory, cloud, steps, fresh)
 
-    def close(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Add the last sample of the particles that have ended since the one before."""
-        self._add(memory, cloud, ~memory["closed"] & has_ended(cloud, slice(None)))
 
-    def _add(self, memory: Memory, cloud: ObservedCloud, mask: NDArray[np.bool_]) -> None:
-        p, rows = cloud.particles, np.flatnonzero(mask)
-        now = {**self.observe(cloud, rows), "t": p.t[rows]}
-        self.add(memory, cloud, rows, now)
-        store(memory, rows, {**now, "closed": has_ended(cloud, rows)})
+def _select_fresh(tables: NDArray[np.float64], seen: NDArray[np.float64], fresh: NDArray[np.bool_]) -> None:
+    """Tell which steps end after the time to which their particle was seen, which is then their end."""
+    k = 0
+    for table in tables:
+        for i in range(table.shape[1]):
+            t, row = table[step.t1, i], int(table[step.row, i])
+            fresh[k] = row >= 0 and t > table[step.t0, i] and t > seen[row]
+            if fresh[k]:
+                seen[row] = t
+            k += 1
 
 
 def names_of_kind(function: CloudFunction, kind: Kind) -> list[str]:
@@ -286,70 +279,9 @@ def rows_of_particles(function: CloudFunction, memory: Memory) -> Memory:
     return {key: array for key, array in memory.items() if function.arrays[key] is per_particle}
 
 
-def has_ended(cloud: ObservedCloud, rows: Rows | slice) -> NDArray[np.bool_]:
-    """Return whether particles have ended and cannot move again."""
-    return np.isin(cloud.particles.status[rows], cloud.cloud.tracker.movable, invert=True)
-
-
 def passages(cloud: ObservedCloud, rows: NDArray[np.float64]) -> Iterator[tuple[Rebounds, Rebounds]]:
     """Yield the passages of coupled patches among records, see :func:`foamprb.cloud.contact.passages`."""
     return contact.passages(rows, [k for k, i in enumerate(cloud.cloud.interactions) if i.code == CYCLIC])
-
-
-def appearing(cloud: ObservedCloud, until: float) -> Rows:
-    """Return the pending particles that appear between the time of the cloud and ``until``, s."""
-    p = cloud.particles
-    return np.flatnonzero((p.status == Status.PENDING) & (p.t0 >= cloud.time) & (p.t0 <= until))
-
-
-def fields_of(cloud: ObservedCloud, rows: Rows) -> Mapping[str, FieldValues]:
-    """Return the sampled fields at particles at their times; NaN at pending ones."""
-    p = cloud.particles.take(rows)
-    hosts = np.where(p.status == Status.PENDING, np.int32(-1), p.host)
-    return fields_at(cloud.cloud.flow, p.x, hosts, np.minimum(p.t, cloud.time))
-
-
-def fields_at_release(
-    cloud: ObservedCloud, rows: Rows, hosts: NDArray[np.int32]
-) -> Mapping[str, FieldValues]:
-    """Return the sampled fields where and when particles were released in their hosts."""
-    p = cloud.particles
-    return fields_at(cloud.cloud.flow, p.x0[rows], hosts, p.t0[rows])
-
-
-def sums_of_cells(cloud: ObservedCloud, name: str, n: int) -> Iterator[tuple[slice, NDArray[np.float64]]]:
-    """Yield parts of n cells in their order, and the rows of each of an array ``per_cell``."""
-    for first in range(0, n, CELLS):
-        part = slice(first, min(first + CELLS, n))
-        yield part, np.concatenate(cloud.cloud.comm.call(_sums_of, f"{cloud._name}/{name}", part))
-
-
-def _sums_of(rank: Rank, path: str, part: slice) -> NDArray[np.float64]:
-    """Return the cell sums of a rank's part of a range."""
-    first, sums = rank.sampling.sums[path]
-    ends = first[rank.number : rank.number + 2]
-    of_range: NDArray[np.float64] = sums[slice(*np.clip([part.start, part.stop], *ends) - ends[0])]
-    return of_range
-
-
-def map_where_they_move(
-    cloud: ObservedCloud, numbers: Rows, function: Callable[..., Value], *arguments: Any
-) -> list[Value]:
-    """Apply a function to the cloud with the given particles, by rising numbers, that each rank owns."""
-    return cloud.cloud.comm.call(_observe, numbers, function, cloud.time, *arguments)
-
-
-def _observe(
-    rank: Rank, numbers: Rows, function: Callable[..., Value], time: float, *arguments: Any
-) -> Value:
-    p = rank.particles.take(rank.find(numbers)[1])
-    return function(rank.sampling.cloud(rank, p, time), *arguments)
-
-
-def store(memory: Memory, rows: Rows, values: Memory) -> None:
-    """Store values of the particles of some rows."""
-    for name, array in values.items():
-        memory[name][rows] = array
 
 
 def memory_of(memory: Mapping[str, NDArray[Any]], name: str) -> Memory:
@@ -373,17 +305,10 @@ def in_time(events: NDArray[np.float64]) -> NDArray[np.float64]:
     return events[np.lexsort((events[:, 0], events[:, 1]))]
 
 
-def add_up(sums: NDArray[np.float64], events: NDArray[np.float64]) -> None:
-    """Add events, (n, 3 + k), in their order to an array ``per_cell``, (n_cells, k); see :class:`Kind`."""
-    cell = events[:, 2].astype(np.int64)
-    for total, values in zip(sums.T, events[:, 3:].T, strict=True):
-        np.add.at(total, cell, values)
-
-
-def taylor_of(cloud: ObservedCloud, rows: Rows, F: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return Taylor's D of particles with the deformation gradients F, (n, 9)."""
-    p = cloud.particles.take(rows)._replace(F=np.ascontiguousarray(F))
-    return cloud.of(p).measure(np.arange(p.size), "taylorDeformation")[0]
+def taylor_at_end(table: NDArray[np.float64], k: int) -> float:
+    """Return Taylor's D at the end of step k of a table."""
+    (a, b, c), _ = stretches_in_frame(tensor_of(table, step.F1, k), tensor_of(table, step.Q1, k))
+    return taylor_deformation(max(a, b, c), min(a, b, c))  # type: ignore[no-any-return]
 
 
 def masses(p: Particles, rows: Rows) -> NDArray[np.float64]:

@@ -1,80 +1,84 @@
-"""Place and time at which particles cross a plane between two samples."""
+"""Place, time and shape at which particles cross a plane."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.contact import Rebounds
-from foamprb.cloudfunctions.base import (
-    ContactObserver,
-    Kind,
-    Memory,
-    ObservedCloud,
-    Rows,
-    SampledFunction,
-    passages,
-    per_particle,
-    store,
-)
+from foamprb.body.tensor import Vector, inner, minus
+from foamprb.cloud.paths import Steps, cubic, shape_between, step, vector_of, way_at_end, way_at_start
+from foamprb.cloud.state import Particles
+from foamprb.cloudfunctions.base import Memory, ObservedCloud, PathFunction, per_event
+from foamprb.compile.link import compiled
 from foamprb.dictionary.constraints import Vector3
 from foamprb.errors import InputError
 
-__all__ = ["Crossings", "PlaneFunction", "crossings", "unit"]
+__all__ = ["Crossings", "PlaneFunction", "unit"]
 
 Floats = NDArray[np.float64]
 
+_COLUMNS = 15
+_HALVINGS = 53
+
 
 class Crossings(NamedTuple):
-    """Particles that have changed sides."""
+    """Crossings of a plane."""
 
-    among: NDArray[np.bool_]
-    """For each of the given rows, whether it has."""
-    rows: Rows
-    """(n,)."""
-    share: Floats
-    """Share of the time between the samples, (n,)."""
-    time: Floats
-    """(n,), s."""
+    particles: Particles
+    """The particles, with their shapes there."""
+    t: Floats
+    """Times, (n,), s."""
     x: Floats
-    """(n, 3), m."""
+    """Places, (n, 3), m."""
     sense: Floats
     """1 along the normal, −1 against it, (n,)."""
 
 
-class PlaneFunction(SampledFunction, ContactObserver):
-    """Cloud function that finds the particles that cross a plane.
+class PlaneFunction(PathFunction):
+    """Cloud function that observes the particles that cross a plane.
 
     A passage of a coupled patch is no crossing: the path ends before it and begins anew after it.
     """
 
+    origin: Vector3
     normal: Vector3
 
-    arrays: ClassVar[Mapping[str, Kind]] = {
-        **SampledFunction.arrays,
-        "x": per_particle,
-        "v": per_particle,
-        "F": per_particle,
-    }
+    arrays: ClassVar = {**PathFunction.arrays, "crossings": per_event}
 
     def __post_init__(self) -> None:
         if not any(self.normal):
             raise InputError("has a normal (0 0 0)")
 
-    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return positions, velocities and shapes."""
-        p = cloud.particles
-        return {"x": p.x[rows], "v": p.v[rows], "F": p.F[rows]}
+    def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
+        """Return an empty table: number, time, place, sense, and F."""
+        return {"crossings": np.empty((0, _COLUMNS))}
 
-    def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
-        """Add a sample before each passage, and store the one after it."""
-        for before, after in passages(cloud, rows):
-            self.add(memory, cloud, before.number, _sample(before))
-            store(memory, after.number, _sample(after))
+    @property
+    def needs(self) -> frozenset[str]:
+        """See :class:`PathFunction`."""
+        return frozenset({"v0", "v1", "F0", "F1", "Q0", "A0"})
+
+    def add(
+        self,
+        memory: Memory,  # noqa: ARG002
+        cloud: ObservedCloud,  # noqa: ARG002
+        steps: Steps,
+        fresh: NDArray[np.bool_],
+    ) -> Floats:
+        """Return the crossings among the steps."""
+        found = np.empty((np.count_nonzero(fresh) + 1, _COLUMNS))
+        plane = np.array(self.origin, dtype=float), unit(self.normal)
+        n = compiled(_find)(steps.tables, fresh, *plane, int(steps.in_frame), found)
+        return found[:n].copy()
+
+    def crossings(self, memory: Memory, cloud: ObservedCloud) -> Crossings:
+        """Return all crossings, in the order of time."""
+        rows = memory["crossings"]
+        p = cloud.cloud.of(rows[:, 0].astype(np.int64))._replace(F=np.ascontiguousarray(rows[:, 6:]))
+        return Crossings(p, rows[:, 1], rows[:, 2:5], rows[:, 5])
 
 
 def unit(vector: Vector3) -> Floats:
@@ -82,50 +86,45 @@ def unit(vector: Vector3) -> Floats:
     return np.array(vector) / math.hypot(*vector)
 
 
-def _sample(met: Rebounds) -> Memory:
-    return {"t": met.t, "x": met.x, "v": met.v, "F": met.F}
+def _find(
+    tables: Floats, fresh: NDArray[np.bool_], origin: Floats, normal: Floats, in_frame: int, found: Floats
+) -> int:
+    """Find the fresh steps whose ends lie on different sides of a plane; return their number.
 
-
-def crossings(memory: Memory, now: Memory, rows: Rows, origin: Any, normal: Any) -> Crossings:
-    """Find the particles that have changed sides of a plane since the last sample.
-
-    Parameters
-    ----------
-    memory
-        ``x``, ``v`` and ``t`` of all particles at the last sample.
-    now, rows
-        The same of the particles to be tested now, and their rows.
-    origin, normal
-        A point of the plane, m, and its unit normal.
-
-    Place and time follow from the cubic through positions and velocities at both samples.
+    Place and time follow from the cubic of the step, by bisection.
     """
-    e = np.asarray(normal)
-    heights = [(x - origin) @ e for x in (memory["x"][rows], now["x"])]
-    among = (heights[0] < 0.0) != (heights[1] < 0.0)
-    at = rows[among]
-    h = now["t"][among] - memory["t"][at]
-    before, after = memory["x"][at], now["x"][among]
-    # Particles without a step have no velocity.
-    way = np.where(np.isfinite(memory["v"][at]), h[:, None] * memory["v"][at], after - before)
-    ends = [(before, way), (after, h[:, None] * now["v"][among])]
-    s = _root(*((x - origin) @ e for x in (ends[0][0], ends[1][0])), *(v @ e for _, v in ends))
-    x = _hermite(s[:, None], ends[0][0], ends[1][0], ends[0][1], ends[1][1])
-    sense = np.where(heights[1][among] < 0.0, -1.0, 1.0)
-    return Crossings(among, at, s, memory["t"][at] + s * h, x, sense)
+    o: Vector = (origin[0], origin[1], origin[2])
+    n: Vector = (normal[0], normal[1], normal[2])
+    m, k = 0, -1
+    for table in tables:
+        for i in range(table.shape[1]):
+            k += 1
+            if fresh[k]:
+                m += _cross(table, i, o, n, in_frame, found[m])
+    return m
 
 
-def _hermite(s: Any, x0: Any, x1: Any, m0: Any, m1: Any) -> Any:
-    """Return the value at s of the cubic from x0 with slope m0 at s = 0 to x1 with slope m1 at s = 1."""
-    r = 1.0 - s
-    return r * r * ((1.0 + 2.0 * s) * x0 + s * m0) + s * s * ((1.0 + 2.0 * r) * x1 - r * m1)
-
-
-def _root(x0: Floats, x1: Floats, m0: Floats, m1: Floats) -> Floats:
-    """Return a root of the cubic of :func:`_hermite` between ends of different sign, by bisection."""
-    low, high = np.zeros(len(x0)), np.ones(len(x0))
-    for _ in range(53):
+def _cross(table: Floats, k: int, o: Vector, n: Vector, in_frame: int, found: Floats) -> int:
+    """Return 1 and describe the crossing, if the ends of step k of a table lie on different sides, else 0."""
+    x0, x1 = vector_of(table, step.x0, k), vector_of(table, step.x1, k)
+    before, after = inner(minus(x0, o), n), inner(minus(x1, o), n)
+    if (before < 0.0) == (after < 0.0):
+        return 0
+    m0, m1 = way_at_start(table, k), way_at_end(table, k)
+    slope0, slope1 = inner(m0, n), inner(m1, n)
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        same = (_hermite(middle, x0, x1, m0, m1) < 0.0) == (x0 < 0.0)
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return 0.5 * (low + high)
+        if (cubic(middle, before, after, slope0, slope1) < 0.0) == (before < 0.0):
+            low = middle
+        else:
+            high = middle
+    s = 0.5 * (low + high)
+    found[0], found[1] = table[step.number, k], (1.0 - s) * table[step.t0, k] + s * table[step.t1, k]
+    found[5] = 1.0 if before < 0.0 else -1.0
+    F = shape_between(table, k, s, in_frame)
+    for c in range(3):
+        found[2 + c] = cubic(s, x0[c], x1[c], m0[c], m1[c])
+    for c in range(9):
+        found[6 + c] = F[c]
+    return 1

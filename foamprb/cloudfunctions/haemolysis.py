@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal, NamedTuple
 
@@ -14,22 +13,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.morphology import Rates, morphology_step
-from foamprb.cloud.patches import Interaction
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    add,
+    add_identity,
+    ddot,
+    det,
+    dot,
+    inverse,
+    scale,
+    select,
+    trace,
+    transpose,
+)
+from foamprb.body.viscosity import shear_rate
+from foamprb.cloud.paths import Steps, step, tensor_of
 from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.viscosity import viscosity_of
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
-    ContactObserver,
     Memory,
     ObservedCloud,
-    Rows,
-    SampledFunction,
-    SampleInterval,
+    PathFunction,
     append,
     names_of,
-    passages,
     per_particle,
     table,
 )
+from foamprb.compile.link import compiled
 from foamprb.dictionary.constraints import Choice, Meaning, Positive
 from foamprb.errors import InputError
 from foamprb.results.tables import Rows as TableRows
@@ -83,6 +95,12 @@ FIRST_PORES, MOST_PORES = 3750.0, 42_000.0
 """Shear rates, 1/s: below the first there are no pores, beyond the second no further ones."""
 _LONGEST = 0.1
 """Longest step of a cell's state times the rate at which it changes."""
+_AT_REST: dict[str, list[float]] = {
+    "fluid": [], "KelvinVoigt": [0.0], "morphology": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+}  # fmt: skip
+"""State of a cell at rest: none, its effective shear rate (1/s), or its morphology tensor."""
+_KINDS = tuple(_AT_REST)
+_FLUID, _KELVIN_VOIGT, _MORPHOLOGY = 0, 1, 2
 
 
 def index_of_haemolysis(law: PowerLaw, dose: Floats) -> Floats:
@@ -100,7 +118,7 @@ def index_of_haemolysis(law: PowerLaw, dose: Floats) -> Floats:
     return np.asarray(law.A * dose**law.beta)
 
 
-def effective_shear_rate(D: Floats, f1: float, f2: float) -> Floats:
+def effective_shear_rate(D: Scalar, f1: Scalar, f2: Scalar) -> Scalar:
     """Return the shear rate, 1/s, of the steady shear in which a droplet has the deformation D.
 
     It is 2 f₁ D/((1 − D²) f₂), by the morphology equation of Arora, Behr & Pasquali (Artif. Organs 28, 1002,
@@ -113,23 +131,24 @@ def effective_shear_rate(D: Floats, f1: float, f2: float) -> Floats:
     f1, f2
         Rate of recovery, 1/s, and of deformation, 1.
     """
-    return np.asarray(2.0 * f1 * D / ((1.0 - D * D) * f2))
+    return 2.0 * f1 * D / ((1.0 - D * D) * f2)
 
 
-def pore_area(G: Floats) -> Floats:
+def pore_area(G: Scalar) -> Scalar:
     """Return A_p(G), the area of the membrane's pores at the effective shear rate G, 1/s."""
-    area = np.polyval(_PORES, np.minimum(G, MOST_PORES) / MOST_PORES)
-    return np.where(G < FIRST_PORES, 0.0, area)
+    a, b, c, d, e, f = _PORES
+    x = np.minimum(G, MOST_PORES) / MOST_PORES
+    return select(G < FIRST_PORES, 0.0, ((((a * x + b) * x + c) * x + d) * x + e) * x + f)
 
 
-def relaxed(G: Floats, rate0: Floats, rate1: Floats, h: Floats, f1: float) -> Floats:
+def relaxed(G: Scalar, rate0: Scalar, rate1: Scalar, h: Scalar, f1: Scalar) -> Scalar:
     """Return the G of dG/dt = f₁ (G_f − G) after a time h, s, with G_f linear from ``rate0`` to ``rate1``."""
     lag = (rate1 - rate0) / np.maximum(f1 * h, 1e-300)
     return rate1 - lag + (G - rate0 + lag) * np.exp(-f1 * h)
 
 
 @dataclass(frozen=True)
-class Haemolysis(SampledFunction, ContactObserver):
+class Haemolysis(PathFunction):
     """Damage to red blood cells on each path: ``haemolysis.csv``; means in ``means.csv``.
 
     The stress is τ = μ G, with the shear rate G of the fluid or an effective one of a cell that remembers the
@@ -161,11 +180,10 @@ class Haemolysis(SampledFunction, ContactObserver):
     mu: Annotated[
         float | None, Positive, Meaning("viscosity of whole blood, for τ", "Pa s", "that of the fluid")
     ] = None
-    sampleInterval: SampleInterval = 1
 
     arrays: ClassVar = {
-        **SampledFunction.arrays,
-        **dict.fromkeys(("fluid", "mu", "rate", "l", "dose", "peak", "cell"), per_particle),
+        **PathFunction.arrays,
+        **dict.fromkeys(("dose", "peak", "cell"), per_particle),
         "history": table,
         "warned": table,
     }
@@ -190,109 +208,39 @@ class Haemolysis(SampledFunction, ContactObserver):
             return POWER_LAWS["Ding"]._replace(A=100.0, alpha=1.0, beta=1.0)
         return POWER_LAWS[self.constants]
 
-    def _rate(self, G: Floats, fluid: Memory) -> Floats:
-        """Return the rate of the dose at the effective shear rate, 1/s, in the fluid."""
-        if self.constants == "pores":
-            return PORE_RATE * (fluid["mu"] * fluid["fluid"]) ** PORE_EXPONENT * pore_area(G)
-        return np.asarray((fluid["mu"] * G) ** (self.law.alpha / self.law.beta))
-
     def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return the first sample, and cells at rest; raise InputError for a turning frame."""
+        """Return cells at rest; raise InputError for a turning frame."""
         if self.stress == "morphology" and bool(getattr(cloud.cloud.flow, "rotating", ())):
             raise InputError("stress morphology does not turn with rotating zones: use KelvinVoigt")
         return super().begin(cloud)
 
-    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return the rate of the dose by the fluid's stress, or what a cell feels of the fluid."""
-        gamma, mu, gradient = cloud.measure(
-            rows, "shearRate", lambda c: c.mu, lambda c: np.stack(c.l_f, axis=1)
-        )
-        fluid: Memory = {"fluid": gamma, "mu": mu if self.mu is None else np.full(len(rows), self.mu)}
-        if self.stress == "fluid":
-            return {"rate": self._rate(gamma, fluid)}
-        return {**fluid, "l": gradient} if self.stress == "morphology" else fluid
-
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return integrals of zero, cells at rest and an empty table."""
         n = cloud.particles.size
-        memory = {
+        return {
             "dose": np.zeros(n),
             "history": np.empty((0, 4)),
             "peak": np.zeros(n),
             "warned": np.zeros(1),
+            "cell": np.tile(_AT_REST[self.stress], (n, 1)),
         }
-        if self.stress == "KelvinVoigt":
-            memory["cell"] = np.zeros((n, 1))
-        if self.stress == "morphology":
-            memory["cell"] = np.tile(np.eye(3).ravel(), (n, 1))
-        return memory
 
-    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
-        """Return whether there are coupled patches, at which the shape of a cell turns."""
-        return self.stress == "morphology" and super().needs_rebounds(interactions)
+    @property
+    def needs(self) -> frozenset[str]:
+        """See :class:`PathFunction`."""
+        return frozenset({"l0", "l1", "F0", "F1"} if self.stress == "morphology" else {"l0", "l1"})
 
-    def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
-        """Turn shapes, and the gradients of the last sample, with the particles at coupled patches."""
-        if self.stress != "morphology":
-            return
-        for before, after in passages(cloud, rows):
-            turn = after.F.reshape(-1, 3, 3) @ np.linalg.inv(before.F.reshape(-1, 3, 3))
-            for name in ("cell", "l"):
-                T = memory[name][after.number].reshape(-1, 3, 3)
-                memory[name][after.number] = (turn @ T @ turn.transpose(0, 2, 1)).reshape(-1, 9)
-
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:  # noqa: ARG002
-        """Advance the cells to the present sample, and add to the integrals."""
-        h = now["t"] - memory["t"][rows]
-        # The flow is unknown at a particle that the mesh has lost.
-        for name in now:
-            now[name] = np.where(np.isfinite(now[name]), now[name], memory[name][rows])
-        if self.stress == "fluid":
-            rate = now["rate"]
-            memory["dose"][rows] += 0.5 * h * (memory["rate"][rows] + rate)
-            memory["peak"][rows] = np.maximum(memory["peak"][rows], rate ** (self.law.beta / self.law.alpha))
-            return
-        self._advance(memory, rows, now, h)
-
-    def _advance(self, memory: Memory, rows: Rows, now: Memory, h: Floats) -> None:
-        """Advance cells with a memory by h, s, in sub-steps of two halves each: Simpson's rule."""
-        before: Memory = {name: memory[name][rows] for name in now if name != "t"}
-        fastest = self.f1 + self.f2 * np.maximum(before["fluid"], now["fluid"])
-        steps = np.maximum(np.ceil(h * fastest / _LONGEST), 1.0)
-        cell = memory["cell"][rows]
-        G, dose, peak = self._effective(cell), np.zeros(len(rows)), memory["peak"][rows]
-        some = np.arange(len(rows))
-        for k in range(int(steps.max(initial=0.0))):
-            some = some[k < steps[some]]
-            n, length = steps[some], h[some] / steps[some]
-            ends: list[Memory] = [
-                {name: _between(before[name][some], now[name][some], (k + share) / n) for name in before}
-                for share in (0.0, 0.5, 1.0)
-            ]
-            rates = [self._rate(G[some], ends[0])]
-            for first, last in pairwise(ends):
-                cell[some] = self._step(cell[some], first, last, 0.5 * length)
-                G[some] = self._effective(cell[some])
-                rates.append(self._rate(G[some], last))
-            dose[some] += length / 6.0 * (rates[0] + 4.0 * rates[1] + rates[2])
-            peak[some] = np.maximum(peak[some], ends[-1]["mu"] * G[some])
-        memory["dose"][rows] += dose
-        memory["peak"][rows], memory["cell"][rows] = peak, cell
-
-    def _step(self, cell: Floats, first: Memory, last: Memory, h: Floats) -> Floats:
-        """Return the state of cells after a time h, s, from the fluid at its start and its end."""
-        if self.stress == "KelvinVoigt":
-            return relaxed(cell[:, 0], first["fluid"], last["fluid"], h, self.f1)[:, None]
-        S, l0, l1 = (tuple(T.T) for T in (cell, first["l"], last["l"]))
-        rates = Rates(self.f1, self.f2, self.f2)
-        return np.stack(morphology_step(S, l0, l1, h, rates), axis=1)
-
-    def _effective(self, cell: Floats) -> Floats:
-        """Return the effective shear rate of cells, 1/s."""
-        if self.stress == "KelvinVoigt":
-            return np.array(cell[:, 0])
-        axes = np.sqrt(np.linalg.eigvalsh(cell.reshape(-1, 3, 3)))
-        return effective_shear_rate((axes[:, 2] - axes[:, 0]) / (axes[:, 2] + axes[:, 0]), self.f1, self.f2)
+    def add(self, memory: Memory, cloud: ObservedCloud, steps: Steps, fresh: NDArray[np.bool_]) -> None:
+        """Advance the cells over the steps, and add to the integrals."""
+        mu = np.empty((2, steps.n))
+        for end, x in enumerate(steps.x):
+            flow, l = cloud.cloud.flow, steps.both("l")[end]
+            mu_f = viscosity_of(cloud.cloud.medium.mu, flow, x, steps.hosts[end], l, steps.t[end])
+            mu[end] = mu_f if self.mu is None else self.mu
+        law = self.law.alpha / self.law.beta, self.f1, self.f2
+        kind, pores = _KINDS.index(self.stress), int(self.constants == "pores")
+        sums = memory["dose"], memory["peak"], memory["cell"]
+        compiled(_harm)(steps.tables, fresh, mu, kind, pores, *law, *sums)
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the damage of all particles that were released, and the means by injection model."""
@@ -368,7 +316,146 @@ class _Damage(NamedTuple):
     """Longest time, s."""
 
 
-def _between(a: Floats, b: Floats, share: Floats) -> Floats:
-    """Return a + share (b − a), row by row."""
-    s = share if a.ndim == 1 else share[:, None]
-    return np.asarray(a + s * (b - a))
+def _harm(
+    tables: Floats,
+    fresh: NDArray[np.bool_],
+    mu: Floats,
+    kind: int,
+    pores: int,
+    exponent: float,
+    f1: float,
+    f2: float,
+    dose: Floats,
+    peak: Floats,
+    cell: Floats,
+) -> None:
+    """Add steps to the doses of their particles, Pa^exponent s, and to the largest stresses, Pa.
+
+    Cells with a memory are advanced in sub-steps of two halves each: Simpson's rule. ``mu`` is the viscosity
+    at starts and ends, (2, n).
+    """
+    k = -1
+    for steps in tables:
+        for i in range(steps.shape[1]):
+            k += 1
+            if fresh[k]:
+                row = int(steps[step.row, i])
+                viscosity = mu[0, k], mu[1, k]
+                _add_step(steps, i, viscosity, kind, pores, exponent, f1, f2, dose, peak, cell, row)
+
+
+def _add_step(
+    steps: Floats,
+    k: int,
+    viscosity: tuple[float, float],
+    kind: int,
+    pores: int,
+    exponent: float,
+    f1: float,
+    f2: float,
+    dose: Floats,
+    peak: Floats,
+    cell: Floats,
+    row: int,
+) -> None:
+    """Add step k of a table to the row of its particle, see :func:`_harm`."""
+    h = steps[step.t1, k] - steps[step.t0, k]
+    l0, l1 = tensor_of(steps, step.l0, k), tensor_of(steps, step.l1, k)
+    m0, m1 = viscosity
+    # The flow is unknown at a particle that the mesh has lost, the viscosity at a coupled patch.
+    l1 = l0 if math.isnan(l1[0]) else l1
+    m0 = m1 if math.isnan(m0) else m0
+    m1 = m0 if math.isnan(m1) else m1
+    G0, G1 = shear_rate(l0), shear_rate(l1)
+    if kind == _FLUID:
+        dose[row] += 0.5 * h * ((m0 * G0) ** exponent + (m1 * G1) ** exponent)
+        peak[row] = max(peak[row], m0 * G0, m1 * G1)
+        return
+    if kind == _MORPHOLOGY and steps[step.passed, k] > 0.0:
+        turn = dot(tensor_of(steps, step.F0, k), inverse(tensor_of(steps, step.F1, k - 1)))
+        store_cell(cell, row, dot(turn, dot(load_cell(cell, row), transpose(turn))))
+    n = max(math.ceil(h * (f1 + f2 * max(G0, G1)) / _LONGEST), 1)
+    length = h / n
+    rate = _rate(_effective(cell, row, kind, f1, f2), m0, G0, pores, exponent)
+    for part in range(n):
+        total, factor = rate, 4.0
+        for half in range(2):
+            a, b = (part + 0.5 * half) / n, (part + 0.5 * (half + 1)) / n
+            g = _advance(cell, row, kind, l0, l1, (G0, G1), (a, b), 0.5 * length, f1, f2)
+            mu = m0 + b * (m1 - m0)
+            rate = _rate(g, mu, G0 + b * (G1 - G0), pores, exponent)
+            total, factor = total + factor * rate, 1.0
+        dose[row] += length / 6.0 * total
+        peak[row] = max(peak[row], mu * g)
+
+
+def _rate(G: float, mu: float, G_f: float, pores: int, exponent: float) -> float:
+    """Return the rate of the dose at the effective shear rate G in the fluid of shear rate G_f, 1/s."""
+    if pores:
+        return PORE_RATE * (mu * G_f) ** PORE_EXPONENT * pore_area(G)  # type: ignore[no-any-return]
+    return float((mu * G) ** exponent)
+
+
+def _effective(cell: Floats, row: int, kind: int, f1: float, f2: float) -> float:
+    """Return the effective shear rate of a cell, 1/s."""
+    if kind == _KELVIN_VOIGT:
+        return cell[row, 0]  # type: ignore[no-any-return]
+    return float(effective_shear_rate(_deformation(load_cell(cell, row)), f1, f2))
+
+
+def _advance(
+    cell: Floats,
+    row: int,
+    kind: int,
+    l0: Tensor,
+    l1: Tensor,
+    G: tuple[float, float],
+    shares: tuple[float, float],
+    h: float,
+    f1: float,
+    f2: float,
+) -> float:
+    """Advance a cell by h, s, between two shares of a step; return its effective shear rate, 1/s.
+
+    ``l0``, ``l1`` and ``G`` are the gradients of the fluid and its shear rates at both ends of the step, 1/s.
+    """
+    (a, b), (G0, G1) = shares, G
+    if kind == _KELVIN_VOIGT:
+        cell[row, 0] = relaxed(cell[row, 0], G0 + a * (G1 - G0), G0 + b * (G1 - G0), h, f1)
+    else:
+        first, last = mixed(l0, l1, a), mixed(l0, l1, b)
+        S = morphology_step(load_cell(cell, row), first, last, h, Rates(f1, f2, f2))
+        store_cell(cell, row, S)
+    return _effective(cell, row, kind, f1, f2)
+
+
+def load_cell(cell: Floats, row: int) -> Tensor:
+    """Return the morphology tensor of a cell."""
+    return (
+        cell[row, 0], cell[row, 1], cell[row, 2], cell[row, 3], cell[row, 4],
+        cell[row, 5], cell[row, 6], cell[row, 7], cell[row, 8],
+    )  # fmt: skip
+
+
+def store_cell(cell: Floats, row: int, S: Tensor) -> None:
+    """Store the morphology tensor of a cell."""
+    for c in range(9):
+        cell[row, c] = S[c]
+
+
+def mixed(S: Tensor, T: Tensor, share: float) -> Tensor:
+    """Return S + share (T − S)."""
+    return add(scale(1.0 - share, S), scale(share, T))
+
+
+def _deformation(S: Tensor) -> float:
+    """Return Taylor's D of the ellipsoid whose squared semi-axes are the eigenvalues of S."""
+    mean = trace(S) / 3.0
+    B = add_identity(S, -mean)
+    size = math.sqrt(ddot(B, B) / 6.0)
+    if size == 0.0:
+        return 0.0
+    angle = math.acos(min(max(0.5 * det(B) / size**3, -1.0), 1.0)) / 3.0
+    largest, least = 2.0 * math.cos(angle), 2.0 * math.cos(angle + 2.0 * math.pi / 3.0)
+    a, c = math.sqrt(mean + size * largest), math.sqrt(mean + size * least)
+    return size * (largest - least) / ((a + c) * (a + c))

@@ -8,19 +8,9 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from foamprb.cloudfunctions.base import (
-    Memory,
-    ObservedCloud,
-    Rows,
-    SampleInterval,
-    append,
-    masses,
-    names_of,
-    per_event,
-    table,
-    taylor_of,
-)
-from foamprb.cloudfunctions.crossings import PlaneFunction, crossings, unit
+from foamprb.cloud.measures import shapes
+from foamprb.cloudfunctions.base import Memory, ObservedCloud, append, columns, masses, names_of, table
+from foamprb.cloudfunctions.crossings import PlaneFunction, unit
 from foamprb.dictionary.constraints import Meaning, Only, Positive, Vector3
 from foamprb.results.tables import write_table
 
@@ -31,9 +21,8 @@ __all__ = ["ParticleCollector"]
 class ParticleCollector(PlaneFunction):
     """Number and mass of the particles that cross a plane: ``collector.csv``; each in ``crossings.csv``.
 
-    A crossing is a change of sides between two samples. Its place and time follow from the cubic through the
-    positions and velocities at both. The error is of fourth order in the time between samples where the path
-    is smooth. Particles that cross and return between two samples are not counted.
+    A crossing is a change of sides in a time step of the particle. Its place and time follow from the cubic
+    through the positions and velocities at both ends, the path of the step itself.
     """
 
     mode: Annotated[Literal["plane"], Meaning("the only one")]
@@ -47,43 +36,32 @@ class ParticleCollector(PlaneFunction):
     ] = False
     removeCollected: Annotated[bool, Only(False, "the particles go on")] = False
     resetOnWrite: Annotated[bool, Meaning("reset the counts at each write time")] = False
-    sampleInterval: SampleInterval = 10
 
-    arrays: ClassVar = {**PlaneFunction.arrays, "crossings": per_event, "written": table, "history": table}
+    arrays: ClassVar = {**PlaneFunction.arrays, "written": table, "history": table}
 
-    def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
+    def initial(self, cloud: ObservedCloud) -> Memory:
         """Return empty tables."""
         written = np.zeros(1, dtype=np.int64)
-        return {"crossings": np.empty((0, 8)), "written": written, "history": np.empty((0, 6))}
-
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
-        """Add the particles that have changed sides since the last sample."""
-        p = cloud.particles
-        e = unit(self.normal)
-        crossed = crossings(memory, now, rows, np.array(self.origin), e)
-        at, x = crossed.rows, crossed.x
-        before, after = (taylor_of(cloud, at, F) for F in (memory["F"][at], now["F"][crossed.among]))
-        D = before + crossed.share * (after - before)
-        new = np.column_stack([p.number[at], crossed.time, x, crossed.sense, D, masses(p, at)])
-        if self.radius is not None:
-            aside = x - self.origin - ((x - self.origin) @ e)[:, None] * e
-            new = new[np.linalg.norm(aside, axis=1) <= self.radius]
-        append(memory, "crossings", new[np.argsort(new[:, 1], kind="stable")])
+        return {**super().initial(cloud), "written": written, "history": np.empty((0, 6))}
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write both tables, with the crossings since the last writing."""
-        crossings = memory["crossings"]
-        id_, t, x, y, z, sense, D, mass = crossings.T
-        rows = id_.astype(np.int64)
-        injector = cloud.cloud.values_of(rows, "injector")
+        p, t, x, sense = self.crossings(memory, cloud)
+        D, mass, injector = shapes(p)[1], masses(p, np.arange(p.size)), p.injector
+        if self.radius is not None:
+            e = unit(self.normal)
+            aside = x - self.origin - ((x - self.origin) @ e)[:, None] * e
+            within = np.linalg.norm(aside, axis=1) <= self.radius
+            p, t, x, sense = p.take(within), t[within], x[within], sense[within]
+            D, mass, injector = D[within], mass[within], injector[within]
         names = names_of(cloud.names["injector"], injector)
         write_table(
             folder / "crossings.csv",
-            {"id": rows, "injector": names, "t": t, "x": x, "y": y, "z": z,
+            {"id": p.number, "injector": names, "t": t, **columns("xyz", x),
              "direction": sense.astype(np.int64), "D": D, "mass": mass},
         )  # fmt: skip
-        fresh = np.arange(len(crossings)) >= memory["written"][0]
-        counted = fresh if self.resetOnWrite else np.ones(len(crossings), dtype=bool)
+        fresh = np.arange(p.size) >= memory["written"][0]
+        counted = fresh if self.resetOnWrite else np.ones(p.size, dtype=bool)
         weight = mass * np.where(sense < 0.0, -1.0, 1.0) if self.negateParcelsOppositeNormal else mass
         before = memory["history"][-1, 0] if len(memory["history"]) else cloud.cloud.start
         lines = []
@@ -92,7 +70,7 @@ class ParticleCollector(PlaneFunction):
             n = [np.count_nonzero(of_model & counted & (sense * side > 0.0)) for side in (1.0, -1.0)]
             rate = weight[of_model & fresh].sum() / max(cloud.time - before, 1e-300)
             lines.append([cloud.time, index, *n, weight[of_model & counted].sum(), rate])
-        memory["written"][0] = len(crossings)
+        memory["written"][0] = p.size
         time, index, along, against, total, rate = append(memory, "history", lines).T
         write_table(
             folder / "collector.csv",

@@ -10,17 +10,21 @@ from typing import Annotated, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.viscosity import shear_rate
+from foamprb.cloud.measures import shapes
+from foamprb.cloud.paths import Steps, step, tensor_of
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
     Memory,
     ObservedCloud,
+    PathFunction,
     Rows,
-    SampledFunction,
-    SampleInterval,
     names_of,
     per_particle,
+    taylor_at_end,
 )
+from foamprb.compile.link import compiled
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.results.tables import Column, rows_of, write_rows, write_table
@@ -32,12 +36,12 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class ParticleHistogram(SampledFunction):
+class ParticleHistogram(PathFunction):
     """Exposure of each particle along its path, ``exposure.csv``, and its distributions, ``<field>.csv``.
 
     ``residenceTime``, s; ``maxDeformation`` and ``meanDeformation``, Taylor's D at its largest and averaged
-    over time; ``shearExposure``, ∫γ̇ dt. The integrals are trapezoidal sums and the largest value that of the
-    samples, ``sampleInterval`` steps apart, and of the start and the end of each particle.
+    over time; ``shearExposure``, ∫γ̇ dt. The integrals are trapezoidal sums over the time steps of a particle,
+    and the largest value is that at their ends.
     """
 
     fields: Annotated[
@@ -48,22 +52,21 @@ class ParticleHistogram(SampledFunction):
         ),
     ] = ("residenceTime", "maxDeformation", "meanDeformation", "shearExposure")
     nBins: Annotated[int, AtLeastOne, Meaning("bins between the smallest and the largest value")] = 50
-    sampleInterval: SampleInterval = 10
 
     arrays: ClassVar = {
-        **SampledFunction.arrays,
-        **dict.fromkeys(("D", "shearRate", "maxD", "sumD", "sumShearRate"), per_particle),
+        **PathFunction.arrays,
+        **dict.fromkeys(("D", "maxD", "sumD", "sumShearRate"), per_particle),
     }
+
+    @property
+    def needs(self) -> frozenset[str]:
+        """See :class:`PathFunction`."""
+        return frozenset({"F1", "Q1", "l0", "l1"})
 
     def __post_init__(self) -> None:
         for name in self.fields:
             if name not in _EXPOSURES:
                 raise InputError(f"has the field {name}. {suggestion(name, _EXPOSURES)[:-1]}")
-
-    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return Taylor's D and the shear rate."""
-        D, rate = cloud.measure(rows, "taylorDeformation", "shearRate")
-        return {"D": D, "shearRate": rate}
 
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return integrals of zero.
@@ -75,19 +78,19 @@ class ParticleHistogram(SampledFunction):
         """
         if taken := {"lower", "upper"} & set(cloud.names["injector"]):
             raise InputError(f"no injection model may be called {min(taken)}, as a column of the tables is.")
-        n = cloud.particles.size
-        (D,) = cloud.measure(np.arange(n), "taylorDeformation")
-        return {"maxD": D, "sumD": np.zeros(n), "sumShearRate": np.zeros(n)}
+        D = shapes(cloud.particles)[1]
+        return {"D": D, "maxD": D.copy(), "sumD": np.zeros(len(D)), "sumShearRate": np.zeros(len(D))}
 
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:  # noqa: ARG002
-        """Add the time since the last sample to the integrals."""
-        h = now["t"] - memory["t"][rows]
-        D, rate = memory["D"][rows], memory["shearRate"][rows]
-        # The flow is unknown at a particle that the mesh has lost.
-        now["shearRate"] = np.where(np.isfinite(now["shearRate"]), now["shearRate"], rate)
-        memory["sumD"][rows] += 0.5 * h * (D + now["D"])
-        memory["sumShearRate"][rows] += 0.5 * h * (rate + now["shearRate"])
-        memory["maxD"][rows] = np.maximum(memory["maxD"][rows], now["D"])
+    def add(
+        self,
+        memory: Memory,
+        cloud: ObservedCloud,  # noqa: ARG002
+        steps: Steps,
+        fresh: NDArray[np.bool_],
+    ) -> None:
+        """Add to the integrals."""
+        sums = memory["D"], memory["maxD"], memory["sumD"], memory["sumShearRate"]
+        compiled(_expose)(steps.tables, fresh, *sums)
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:  # noqa: ARG002
         """Write the tables of all particles that were released; the distributions leave out the failed."""
@@ -101,6 +104,24 @@ class ParticleHistogram(SampledFunction):
             table: dict[str, Column] = {"lower": edges[:-1], "upper": edges[1:]}
             table |= dict(zip(injectors, counts, strict=True))
             write_table(folder / f"{name}.csv", table)
+
+
+def _expose(
+    tables: Floats, fresh: NDArray[np.bool_], D: Floats, maxD: Floats, sumD: Floats, sumShearRate: Floats
+) -> None:
+    """Add the fresh ones of some steps to the integrals of their particles."""
+    k = -1
+    for table in tables:
+        for i in range(table.shape[1]):
+            k += 1
+            if not fresh[k]:
+                continue
+            row, half = int(table[step.row, i]), 0.5 * (table[step.t1, i] - table[step.t0, i])
+            rates = shear_rate(tensor_of(table, step.l0, i)) + shear_rate(tensor_of(table, step.l1, i))
+            after = taylor_at_end(table, i)
+            sumD[row] += half * (D[row] + after)
+            sumShearRate[row] += half * rates
+            D[row], maxD[row] = after, max(maxD[row], after)
 
 
 def _exposures_of(p: Particles, memory: Memory, injectors: Sequence[str]) -> TableRows:

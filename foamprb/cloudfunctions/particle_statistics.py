@@ -10,22 +10,21 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.measures import as_slice, shapes
+from foamprb.cloud.measures import FlowSamples, shapes
+from foamprb.cloud.paths import Steps, step
 from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.viscosity import viscosity_of
 from foamprb.cloudfunctions.base import (
     Memory,
     ObservedCloud,
-    Rows,
-    SampledFunction,
-    SampleInterval,
-    StepObserver,
-    appearing,
-    append,
+    PathFunction,
     per_cell,
-    per_event,
     per_particle,
-    sums_of_cells,
+    table,
+    taylor_at_end,
 )
+from foamprb.cloudfunctions.cells import no_sums, parts_in_cells, values_of
+from foamprb.compile.link import compiled
 from foamprb.dictionary.constraints import Meaning
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshSizes
@@ -46,71 +45,53 @@ _DIMENSIONS: dict[str, tuple[int, ...]] = {
 
 
 @dataclass(frozen=True)
-class ParticleStatistics(SampledFunction, StepObserver):
+class ParticleStatistics(PathFunction):
     """Fields on the mesh, in OpenFOAM's format, in a folder for each write time.
 
     ``concentration``, mean number of particles per volume since the start, 1/m³; ``residenceTime``, the time
     that all of them have spent in a cell, s; ``meanD``, the mean of Taylor's D over that time; and on the
-    boundary ``deposition``, particles stuck per area of a face, 1/m². Half of the time between two samples
-    counts for the cell at its beginning, and half for the cell at its end. With ``sigmaParticles`` also
+    boundary ``deposition``, particles stuck per area of a face, 1/m². The time of a step counts for the cells
+    that it goes through, from face to face. With ``sigmaParticles`` also
     ``volumeFraction`` and ``sigmaParticles``, means since the start of the particles' volume and of the sum
     of their stresslets, per volume of the cell.
     """
 
-    sampleInterval: SampleInterval = 1
     sigmaParticles: Annotated[bool, Meaning("whether to write the particles' stress and volume, too")] = False
 
-    arrays: ClassVar = {
-        **SampledFunction.arrays,
-        **dict.fromkeys(("cell", "D", "S"), per_particle),
-        "passed": per_event,
-        "sums": per_cell,
-    }
-
-    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return cells, −1 outside and before the release, and Taylor's D."""
-        p, cell = cloud.particles, np.full(len(rows), -1, dtype=np.int64)
-        inside = np.flatnonzero((p.host[rows] >= 0) & (p.status[rows] != Status.PENDING))
-        if len(inside):
-            cell[inside] = _cell_of(cloud, p.host[rows[inside]])
-        if not self.sigmaParticles:
-            return {"cell": cell, "D": shapes(p.take(as_slice(rows)))[1]}
-        D, J, S = cloud.measure(rows, "taylorDeformation", "J", "stresslet")
-        # The volume comes first among the seven.
-        return {"cell": cell, "D": D, "S": np.column_stack([4.0 / 3.0 * math.pi * p.R[rows] ** 3 * J, S])}
+    arrays: ClassVar = {**PathFunction.arrays, "D": per_particle, "sums": per_cell, "scale": table}
 
     def initial(self, cloud: ObservedCloud) -> Memory:
-        """Return sums of zero; raise InputError if the flow has no mesh."""
-        n, columns = _flow(cloud).mesh.n_cells, 9 if self.sigmaParticles else 2
-        return {"sums": np.zeros((n, columns)), "passed": np.empty((0, 3 + columns))}
+        """Return sums of zero, and their largest terms; raise InputError if the flow has no mesh."""
+        dt, scale = cloud.cloud.tracker.dt, np.ones(9 if self.sigmaParticles else 2)
+        if self.sigmaParticles:
+            R, stress = np.max([(1e-30, 1e-30), *cloud.cloud.map_ranks(_largest)], axis=0)
+            scale[2], scale[3:] = 4.0 * R**3, 4.0 * R**3 * stress
+        sums = no_sums(_flow(cloud).mesh.n_cells, len(scale))
+        return {"D": shapes(cloud.particles)[1], "sums": sums, "scale": dt * scale}
 
-    def before_steps(self, memory: Memory, cloud: ObservedCloud, until: float) -> None:
-        """Store the cells of the particles that appear, where their tetrahedra are known."""
-        rows = appearing(cloud, until)
-        memory["cell"][rows] = _cell_of(cloud, cloud.particles.host[rows])
+    @property
+    def needs(self) -> frozenset[str]:
+        """See :class:`PathFunction`."""
+        return frozenset({"F1", "Q1", *(("F0", "Q0", "A0", "l0", "l1") if self.sigmaParticles else ())})
 
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
-        """Store half the time since the last sample, and its products, for the cells at both ends."""
-        half = 0.5 * (now["t"] - memory["t"][rows])
-        # A particle that the mesh has lost counts in its last cell.
-        now["cell"] = np.where(now["cell"] >= 0, now["cell"], memory["cell"][rows])
-        for end, values in enumerate(({name: memory[name][rows] for name in now}, now)):
-            inside = np.flatnonzero(values["cell"] >= 0)
-            number, weight = cloud.particles.number[rows[inside]], half[inside]
-            quantities = [np.ones(len(inside)), *(values[name][inside] for name in ("D", "S") if name in now)]
-            added = weight[:, None] * np.column_stack(quantities)
-            ends = np.full(len(inside), end)
-            append(memory, "passed", np.column_stack([number, ends, values["cell"][inside], added]))
+    def add(self, memory: Memory, cloud: ObservedCloud, steps: Steps, fresh: NDArray[np.bool_]) -> None:
+        """Add the time in each cell, and its products."""
+        assert cloud.add_to_cells is not None
+        ends = np.empty((2, len(memory["scale"]) - 1, steps.n))
+        compiled(_deform)(steps.tables, fresh, memory["D"], ends[0, 0], ends[1, 0])
+        if self.sigmaParticles:
+            ends[:, 1:, fresh] = _stress_at_ends(cloud, steps.take(fresh))
+        arrays: Any = cloud.cloud.flow.arrays
+        mesh = getattr(arrays, "mesh", arrays)
+        for cells, integrals in parts_in_cells(mesh, steps, fresh, ends[0], ends[1]):
+            cloud.add_to_cells(cells, integrals, memory["scale"])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
         sizes = _flow(cloud).mesh_sizes()
         n, time = len(sizes.volumes), max(cloud.time - cloud.cloud.start, 1e-300)
-        beside = np.empty((len(sizes.owner), memory["sums"].shape[1]))
-        for part, sums in sums_of_cells(cloud, "sums", n):
-            faces = np.flatnonzero((sizes.owner >= part.start) & (sizes.owner < part.stop))
-            beside[faces] = sums[sizes.owner[faces] - part.start]
-        on_faces = _fields(beside, sizes.volumes[sizes.owner], time)
+        in_cells = _fields(values_of(memory["sums"], memory["scale"]), sizes.volumes, time)
+        on_faces = {name: values[sizes.owner] for name, values in in_cells.items()}
         on_faces["deposition"] = _stuck_on_faces(cloud, sizes) / sizes.areas
         folder.mkdir(exist_ok=True)
         for name, values in on_faces.items():
@@ -120,11 +101,8 @@ class ParticleStatistics(SampledFunction, StepObserver):
                 else PatchValues(patch.type)
                 for k, patch in enumerate(cloud.cloud.flow.patches)
             }
-            cells = (
-                _fields(sums, sizes.volumes[part], time)[name]
-                for part, sums in sums_of_cells(cloud, "sums", n)
-            )
-            write_field(folder / f"{cloud.time:.12g}" / name, _DIMENSIONS[name], cells, n, patches)
+            path = folder / f"{cloud.time:.12g}" / name
+            write_field(path, _DIMENSIONS[name], [in_cells[name]], n, patches)
 
 
 def _fields(sums: Floats, volumes: Floats, time: float) -> dict[str, Floats]:
@@ -151,10 +129,41 @@ def _flow(cloud: ObservedCloud) -> Any:
     return cloud.cloud.flow
 
 
-def _cell_of(cloud: ObservedCloud, hosts: NDArray[np.int32]) -> NDArray[np.int64]:
-    flow: Any = cloud.cloud.flow
-    cells: NDArray[np.int64] = flow.cell_of(hosts)
-    return cells
+def _largest(p: Particles) -> tuple[float, float]:
+    """Return the largest radius, m, and the largest shear modulus, Pa; 0 without particles."""
+    return float(p.R.max(initial=0.0)), float(p.mu.max(initial=0.0))
+
+
+def _deform(tables: Floats, fresh: NDArray[np.bool_], D: Floats, first: Floats, last: Floats) -> None:
+    """Put Taylor's D at both ends of fresh steps into arrays, (n,), and update that of their particles."""
+    k = 0
+    for steps in tables:
+        for i in range(steps.shape[1]):
+            if fresh[k]:
+                row = int(steps[step.row, i])
+                first[k] = D[row]
+                D[row] = last[k] = taylor_at_end(steps, i)
+            k += 1
+
+
+def _stress_at_ends(cloud: ObservedCloud, steps: Steps) -> Floats:
+    """Return volume (m³) and stresslet (N m, xx yy zz xy yz xz) at both ends of steps, (2, 7, n).
+
+    dF/dt at the end is that of the parabola through both shapes and dF/dt at the start.
+    """
+    F0, F1 = steps.both("F")
+    h, A0 = np.subtract(*steps.t[::-1])[:, None], steps.rate
+    A1 = 2.0 * (F1 - F0) / h - A0
+    values = []
+    for end, (F, A) in enumerate(((F0, A0), (F1, A1))):
+        p = cloud.particles.take(steps.row)
+        p = p._replace(F=np.ascontiguousarray(F), A=np.ascontiguousarray(A), Q=steps.both("Q")[end].copy())
+        l = steps.both("l")[end]
+        mu = viscosity_of(cloud.cloud.medium.mu, cloud.cloud.flow, p.x, steps.hosts[end], l, steps.t[end])
+        fluid = FlowSamples(np.full((steps.n, 3), np.nan), l.copy(), np.broadcast_to(mu, steps.n))
+        J, S = cloud.of(p).measure_in(fluid, "J", "stresslet")
+        values.append(np.concatenate([(4.0 / 3.0 * math.pi * p.R**3 * J)[None], S.T]))
+    return np.stack(values)
 
 
 def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:

@@ -2,42 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.measures import MEASURES
+from foamprb.body.viscosity import shear_rate
+from foamprb.cloud.measures import MEASURES, fields_at, shapes
+from foamprb.cloud.paths import Steps, step
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
-    CloudFunction,
-    ContactObserver,
     Memory,
     ObservedCloud,
+    PathFunction,
     Rows,
-    fields_at_release,
-    fields_of,
-    has_ended,
-    map_where_they_move,
-    passages,
-    table,
+    per_event,
+    per_particle,
 )
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
-from foamprb.flow.fields import FieldValues
+from foamprb.flow.fields import FieldValues, columns_of, field_of
 
 __all__ = ["ParticleTracks"]
 
+Floats = NDArray[np.float64]
+
 _TRACKED = ("semiAxes", "taylorDeformation", "shearRate")
 # The sampled fields follow.
-_POINT = ("x", "y", "z", "t", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate", "begins")
+_POINT = ("id", "t", "x", "y", "z", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate", "begins")
+_ROUND_OFF = 1e-6
 
 
 @dataclass(frozen=True)
-class ParticleTracks(CloudFunction, ContactObserver):
+class ParticleTracks(PathFunction):
     """Paths of particles, with velocity, semi-axes, D and shear rate at their points: ``tracks.vtp``.
 
     The fields of ``fieldSampling`` are added.
@@ -54,90 +53,84 @@ class ParticleTracks(CloudFunction, ContactObserver):
         int, AtLeastOne, Meaning("largest number of paths, evenly spread over the particles")
     ] = 1000
 
-    arrays: ClassVar = dict.fromkeys(("row", "host", "closed", "count", "points"), table)
+    arrays: ClassVar = {**PathFunction.arrays, "begun": per_particle, "points": per_event}
+
+    def initial(self, cloud: ObservedCloud) -> Memory:
+        """Return paths without points."""
+        width = sum(c.components for c in columns_of(cloud.cloud.flow) if c.name == field_of(c.name))
+        points = np.empty((0, len(_POINT) + width))
+        return {"begun": np.zeros(cloud.particles.size, dtype=bool), "points": points}
+
+    def watches(self, numbers: Rows, n: int) -> NDArray[np.bool_]:
+        """Return which particles have a path."""
+        return np.isin(numbers, _tracked(n, self.maxTracks))
 
     @property
-    def interval(self) -> int:
-        """Steps between two points."""
-        return self.trackInterval
+    def needs(self) -> frozenset[str]:
+        """See :class:`PathFunction`."""
+        return frozenset({"v0", "v1", "F0", "F1", "Q0", "A0", "l0", "l1"})
 
-    def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return paths with one point each, the place of release."""
-        n = cloud.cloud.size
-        tracks = min(n, self.maxTracks)
-        rows = np.arange(tracks) * n // max(tracks, 1)
-        tracked = cloud.of(rows)
-        points = _points(tracked, np.arange(tracks), fields_of(tracked, np.arange(tracks)))
-        memory = {
-            "row": rows,
-            "host": tracked.particles.host.copy(),
-            "closed": np.zeros(tracks, dtype=bool),
-            "count": np.zeros(tracks, dtype=np.int64),
-            "points": np.zeros((tracks, min(self.maxSamples, 16), points.shape[1])),
-        }
-        self._append(memory, np.arange(tracks), points)
-        return memory
+    def add(self, memory: Memory, cloud: ObservedCloud, steps: Steps, fresh: NDArray[np.bool_]) -> Floats:
+        """Return the points of the steps of these particles."""
+        # The other lanes of a block are recorded, too.
+        steps = steps.take(fresh & self.watches(steps.number, cloud.cloud.size))
+        first = np.zeros(steps.n, dtype=bool)
+        first[np.unique(steps.row, return_index=True)[1]] = True
+        first &= ~memory["begun"][steps.row]
+        memory["begun"][steps.row] = True
+        passed, last = steps.of(step.passed) > 0.0, steps.ended | (steps.hosts[1] < 0)
+        (t0, t1), tracker = steps.t, cloud.cloud.tracker
+        begun, done = (self._number(t, tracker) for t in (t0, t1))
+        count = done - begun
+        inner = np.repeat(np.arange(steps.n), count)
+        within = np.arange(len(inner)) - np.repeat(np.cumsum(count) - count, count)
+        t = tracker.start + (begun[inner] + 1 + within) * (self.trackInterval * tracker.dt)
+        at = np.minimum((t - t0[inner]) / (t1 - t0)[inner], 1.0)
+        last &= (done == begun) | (t1 > tracker.start + done * (self.trackInterval * tracker.dt))
+        which = np.concatenate([np.flatnonzero(first | passed), inner, np.flatnonzero(last)])
+        share = np.concatenate([np.zeros(np.count_nonzero(first | passed)), at, np.ones(last.sum())])
+        order = np.lexsort((share, which))
+        which, share = which[order], share[order]
+        begins = passed[which] & (share == 0.0)
+        return _points(cloud, steps.take(which), share, begins)
 
-    def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
-        """Add the points before and after each passage of a coupled patch."""
-        tracked = rows[np.isin(rows[:, 0], memory["row"])]
-        for passage in passages(cloud, tracked):
-            for met, begins in zip(passage, (0.0, 1.0), strict=True):
-                p = cloud.of(met.number).particles._replace(F=met.F)
-                axes, D = cloud.of(p).measure(np.arange(p.size), *_TRACKED[:2])
-                tracks = np.searchsorted(memory["row"], met.number)
-                # The flow may have changed since: shear rate and fields are those of the point before.
-                last = memory["points"][tracks, memory["count"][tracks] - 1]
-                at_start = np.full(p.size, begins)
-                points = [met.x, met.t, met.v, axes, D, last[:, 11], at_start, last[:, len(_POINT) :]]
-                self._append(memory, tracks, np.column_stack(points))
+    def _number(self, t: Floats, tracker: Any) -> NDArray[np.int64]:
+        """Return the number of the last point at times t, s, to round-off."""
+        steps = (t - tracker.start) / tracker.dt
+        return np.asarray(np.floor((steps + _ROUND_OFF) / self.trackInterval), dtype=np.int64)
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Add a point to the path of every particle that has moved since."""
-        open_ = memory["row"][~memory["closed"]]
-        parts = map_where_they_move(cloud, open_, _released)
-        number, ended, points = map(np.concatenate, zip(*parts, strict=True))
-        tracks = np.searchsorted(memory["row"], number)
-        memory["closed"][tracks] = ended
-        last = memory["points"][tracks, memory["count"][tracks] - 1, 3]
-        moved = np.flatnonzero(points[:, 3] > last)
-        tracks, points, ended = tracks[moved], points[moved], np.flatnonzero(ended[moved])
-        first = tracks[memory["count"][tracks] == 1]
-        if points.shape[1] > len(_POINT) and len(first):
-            observed = cloud.of(memory["row"][first])
-            fields = fields_at_release(observed, np.arange(len(first)), memory["host"][first])
-            memory["points"][first, 0, len(_POINT) :] = _values(fields, len(first))
-        if points.shape[1] > len(_POINT) and len(ended):
-            observed = cloud.of(memory["row"][tracks[ended]])
-            points[ended, len(_POINT) :] = _values(fields_of(observed, np.arange(len(ended))), len(ended))
-        self._append(memory, tracks, points)
+    def _up_to_now(self, memory: Memory, cloud: ObservedCloud) -> Floats:
+        """Return all points, path after path, with those of the present time of the particles that move.
 
-    def _append(self, memory: Memory, tracks: Rows, points: NDArray[np.float64]) -> None:
-        fits = memory["count"][tracks] < self.maxSamples
-        tracks, points = tracks[fits], points[fits]
-        at = memory["count"][tracks]
-        room = memory["points"].shape[1]
-        if len(at) and at.max() >= room:
-            more = np.zeros_like(memory["points"][:, : self.maxSamples - room])
-            memory["points"] = np.concatenate([memory["points"], more], axis=1)
-        memory["points"][tracks, at] = points
-        memory["count"][tracks] += 1
+        A path with one point is none.
+        """
+        p, points = cloud.particles, memory["points"]
+        latest = np.full(p.size, -np.inf)
+        np.maximum.at(latest, np.searchsorted(p.number, points[:, 0].astype(np.int64)), points[:, 1])
+        rows = np.flatnonzero((p.status == Status.ACTIVE) & np.isfinite(latest) & (latest < p.t))
+        fields = fields_at(cloud.cloud.flow, p.x[rows], p.host[rows], cloud.time)
+        point = [p.number[rows], p.t[rows], p.x[rows], p.v[rows], *cloud.measure(rows, *_TRACKED)]
+        now = np.column_stack([*point, np.zeros(len(rows)), *(f.values for f in fields.values())])
+        points = np.concatenate([points, now])
+        points = points[np.lexsort((points[:, 1], points[:, 0]))]
+        order = np.arange(len(points)) - np.searchsorted(points[:, 0], points[:, 0])
+        memory["points"] = points = points[order < self.maxSamples]
+        _, path, count = np.unique(points[:, 0], return_inverse=True, return_counts=True)
+        return np.asarray(points[count[path] > 1])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the paths of the particles that have moved."""
         from foamprb.results.vtk import Tracks, write_tracks
 
-        cloud = cloud.of(memory["row"])
+        numbers = _tracked(cloud.cloud.size, self.maxTracks)
+        cloud = cloud.of(numbers)
         p = cloud.particles
-        tracks = np.flatnonzero((memory["count"] > 1) & (p.status != Status.PENDING))
-        count = memory["count"][tracks]
-        filled = np.arange(memory["points"].shape[1]) < count[:, None]
-        points = memory["points"][tracks][filled]
-        first = np.cumsum(count) - count
-        start = np.union1d(first, np.flatnonzero(points[:, 12])).astype(np.int64)
-        rows = tracks[np.searchsorted(first, start, side="right") - 1]
-        fields = fields_of(cloud, rows[:0])
-        ends = len(_POINT) + np.cumsum([f.values.shape[1] for f in fields.values()], dtype=int)
+        points = self._up_to_now(memory, cloud)
+        fields = fields_at(cloud.cloud.flow, p.x[:0], p.host[:0], cloud.time)
+        start = np.flatnonzero(np.diff(points[:, 0], prepend=-1.0) + points[:, 13]).astype(np.int64)
+        rows = np.searchsorted(numbers, points[start, 0])
+        points = points[:, 1:]
+        ends = len(_POINT) - 1 + np.cumsum([f.values.shape[1] for f in fields.values()], dtype=int)
         values = {
             name: FieldValues(points[:, end - f.values.shape[1] : end], f.unit).array
             for (name, f), end in zip(fields.items(), ends, strict=True)
@@ -145,11 +138,11 @@ class ParticleTracks(CloudFunction, ContactObserver):
         write_tracks(
             folder / "tracks.vtp",
             Tracks(
-                points[:, :3].copy(),
+                points[:, 1:4].copy(),
                 np.append(start, len(points)),
-                {"time": points[:, 3], "U": points[:, 4:7], "semiAxes": points[:, 7:10],
+                {"time": points[:, 0], "U": points[:, 4:7], "semiAxes": points[:, 7:10],
                  "taylorDeformation": points[:, 10], "shearRate": points[:, 11], **values},
-                {"origId": memory["row"][rows], "d": 2.0 * p.R[rows], "Ca": p.Ca[rows],
+                {"origId": numbers[rows], "d": 2.0 * p.R[rows], "Ca": p.Ca[rows],
                  "injector": p.injector[rows], "status": p.status[rows], "patch": p.patch[rows]},
                 {"time": "s", "d": "m", "Ca": "1"} | {n: MEASURES[n].unit for n in ("U", *_TRACKED)}
                 | {name: f.unit for name, f in fields.items()},
@@ -158,24 +151,29 @@ class ParticleTracks(CloudFunction, ContactObserver):
         )  # fmt: skip
 
 
-def _released(cloud: ObservedCloud) -> tuple[Rows, NDArray[np.bool_], NDArray[np.float64]]:
-    """Return the numbers of released particles, whether they have ended, and their points of paths.
-
-    The fields are unknown where they have ended: the flow of that time may not be loaded.
-    """
-    p = cloud.particles
-    rows, ended = np.flatnonzero(p.status != Status.PENDING), has_ended(cloud, slice(None))
-    moving = cloud.of(p._replace(host=np.where(ended, -1, p.host).astype(p.host.dtype)))
-    return p.number[rows], ended[rows], _points(cloud, rows, fields_of(moving, rows))
+def _tracked(n: int, most: int) -> Rows:
+    """Return the numbers of the particles of n that have a path."""
+    tracks = min(n, most)
+    return np.arange(tracks) * n // max(tracks, 1)
 
 
-def _points(cloud: ObservedCloud, rows: Rows, fields: Mapping[str, FieldValues]) -> NDArray[np.float64]:
-    """Return points of paths of particles."""
-    p = cloud.particles
-    point = [p.x[rows], p.t[rows], p.v[rows], *cloud.measure(rows, *_TRACKED), np.zeros(len(rows))]
-    return np.column_stack([*point, _values(fields, len(rows))])
+def _points(cloud: ObservedCloud, steps: Steps, share: Floats, begins: NDArray[np.bool_]) -> Floats:
+    """Return points of paths, each after a share of its step; ``begins`` marks those of a further path."""
+    (t0, t1), (l0, l1), (x0, x1) = steps.t, steps.both("l"), steps.x
+    x, v, F = steps.between(share)
+    p = cloud.particles.take(steps.row)._replace(F=F, Q=np.ascontiguousarray(steps.both("Q")[0]))
+    flow, s = cloud.cloud.flow, share[:, None]
+    first, last = (
+        fields_at(flow, place, hosts, t)
+        for place, hosts, t in zip((x0, x1), steps.hosts, (t0, t1), strict=True)
+    )
+    fields = [_between(first[name].values, last[name].values, s) for name in first]
+    axes, D = shapes(p)
+    rate = shear_rate(tuple(_between(l0, l1, s).T))
+    point = [p.number, t0 + share * (t1 - t0), x, v]
+    return np.column_stack([*point, axes, D, rate, begins, *fields])
 
 
-def _values(fields: Mapping[str, FieldValues], n: int) -> NDArray[np.float64]:
-    """Return the values of fields at n points side by side."""
-    return np.concatenate([np.empty((n, 0)), *(f.values for f in fields.values())], axis=1)
+def _between(a: Floats, b: Floats, s: Floats) -> Floats:
+    """Return values between those at both ends of steps, or the one that is known."""
+    return np.where(np.isnan(b), a, np.where(np.isnan(a), b, (1.0 - s) * a + s * b))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -76,8 +76,7 @@ class CloudFunctions:
         self.functions = dict(functions)
         self.cloud = cloud
         self._memory: dict[str, Memory] = {}
-        """Data of the functions; ranks hold the rows of arrays per particle and per cell."""
-        self._sums: dict[str, tuple[int, NDArray[Any]]] = {}
+        """Data of the functions; ranks hold the rows of arrays per particle."""
         for name, function in self.functions.items():
             try:
                 self._begin(name, function)
@@ -85,10 +84,11 @@ class CloudFunctions:
                     raise TypeError(f"{type(function).__name__}.arrays lacks {', '.join(undeclared)}")
             except InputError as error:
                 raise InputError(f"cloudFunctions/{name}: {error}") from error
-        names, base = self.travelling, cloud.cloud
-        functions = {name: self.functions[name] for name in names}
-        arguments = self._sums, base.interactions, base.medium, cloud.names
-        base.comm.call(Sampling.install, Sampling(functions, self._no_events(names), *arguments))
+        base, away = cloud.cloud, {name: self.functions[name] for name in self.travelling}
+        # The sums of all cells stay here.
+        initial = {name: self._without_cells(name) for name in away}
+        arguments = base.interactions, base.medium, cloud.names
+        base.comm.call(Sampling.install, Sampling(away, initial, *arguments))
 
     def _begin(self, name: str, function: CloudFunction) -> None:
         """Let a function return its initial data."""
@@ -96,10 +96,7 @@ class CloudFunctions:
         if name not in self.travelling:
             self._memory[name] = function.begin(cloud)
             return
-        self._memory[name] = memory = function.begin(cloud.of(empty(0)))
-        for sums in names_of_kind(function, per_cell):
-            n, memory[sums] = len(memory[sums]), memory[sums][:0].copy()
-            self._sums[f"{name}/{sums}"] = n, memory[sums]
+        self._memory[name] = function.begin(cloud.of(empty(0)))
 
         def first(p: Particles) -> Memory:
             rows = rows_of_particles(function, function.begin(cloud.of(p)))
@@ -111,54 +108,35 @@ class CloudFunctions:
         """Return the cloud as a function observes it."""
         return replace(self.cloud, _name=name)
 
-    def next_sample(self, last: int) -> int:
-        """Return the step of the next sample, at most ``last``."""
-        step = self.cloud.cloud.step
-        return min([last, *((step // n + 1) * n for f in self.functions.values() if (n := f.interval) > 0)])
-
-    @property
-    def due(self) -> list[str]:
-        """Names of the functions that sample at the present step."""
-        step = self.cloud.cloud.step
-        return [name for name, f in self.functions.items() if f.interval and step % f.interval == 0]
+    def _without_cells(self, name: str) -> Memory:
+        sums, memory = names_of_kind(self.functions[name], per_cell), self._memory[name]
+        return {key: array[:0] if key in sums else array for key, array in memory.items()}
 
     @property
     def travelling(self) -> list[str]:
         """Names of the functions whose data go with the particles."""
         return [name for name, function in self.functions.items() if names_of_kind(function, per_particle)]
 
-    def sample(self, names: Collection[str]) -> None:
-        """Let some functions record a sample."""
-        self._record_rebounds()
-        cloud, away = self.cloud.cloud, self.travelling
-        if names:
-            cloud.publish()
-            cloud.comm.call(Sampling.sample, [name for name in names if name in away], cloud.time)
-        for name in names:
-            if name not in away:
-                self.functions[name].sample(self._memory[name], self._seen_by(name))
-
     def _gather(self) -> None:
-        """Take the events of all ranks, in the order of their times."""
+        """Take the events of all ranks, in the order of their times, and their sums of cells."""
         self._record_rebounds()
-        events = self.cloud.cloud.comm.call(Sampling.take_events)
+        comm = self.cloud.cloud.comm
+        events = comm.call(Sampling.take_events)
         for name in events[0]:
+            table = events_of(self.functions[name])
             new = np.concatenate([tables[name] for tables in events])
-            append(self._memory[name], events_of(self.functions[name]), in_time(new))
+            self._memory[name][table] = in_time(append(self._memory[name], table, new))
+        for rank in comm.call(Sampling.take_sums):
+            for name, parts in rank.items():
+                total = self._memory[name][names_of_kind(self.functions[name], per_cell)[0]]
+                for cells, sums in parts:
+                    total[slice(None) if cells is None else cells] += sums
 
     def write(self, folder: Path) -> None:
         """Let every function write into a folder of its name."""
         self._gather()
         for name, function in self.functions.items():
-            if events := events_of(self.functions[name]):
-                # Events of rebounds and events of samples were recorded one after the other.
-                self._memory[name][events] = in_time(self._memory[name][events])
             function.write(self._memory[name], self._seen_by(name), folder / name)
-
-    def _no_events(self, names: Iterable[str]) -> Memory:
-        """Return empty tables of the events of some functions, by their names."""
-        tables = {name: events_of(self.functions[name]) for name in names}
-        return {name: self._memory[name][table][:0] for name, table in tables.items() if table}
 
     def with_fates(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
         """Apply a function to blocks of particles, and the columns that are added to ``fates`` for these.
@@ -208,7 +186,7 @@ class CloudFunctions:
             raise InputError(f"cloudFunctions: {changed} was not observed from the start, or no longer is.")
         for name, memory in self._memory.items():
             kinds = self.functions[name].arrays
-            tables = [key for key in memory if kinds[key] not in (per_particle, per_cell)]
+            tables = [key for key in memory if kinds[key] is not per_particle]
             memory.update({key: read(f"{name}/{key}") for key in tables})
 
 

@@ -1,9 +1,12 @@
-"""Cloud functions on the ranks that hold the particles: each rank samples its own."""
+"""Cloud functions on the ranks that hold the particles: each rank observes the steps of its own."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import Any, TypeAlias
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from threading import Lock
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,35 +14,45 @@ from numpy.typing import NDArray
 from foamprb.cloud.block import Medium
 from foamprb.cloud.communicator import Rank
 from foamprb.cloud.patches import Interaction
+from foamprb.cloud.paths import Steps, step
 from foamprb.cloud.state import Particles
+from foamprb.cloud.tracker import Observers
 from foamprb.cloudfunctions.base import (
     CloudFunction,
     CloudShare,
     ContactObserver,
     Memory,
     ObservedCloud,
-    StepObserver,
-    add_up,
+    PathFunction,
     events_of,
-    in_time,
     memory_of,
+    names_of_kind,
+    per_cell,
+    per_particle,
 )
+from foamprb.cloudfunctions.cells import add_up, no_sums
 
 Observe: TypeAlias = Callable[[Any, Memory, ObservedCloud], None]
 """Lets a function observe particles: its data of them changes."""
 
 
+class CellSums(NamedTuple):
+    """Sums of cells on a rank."""
+
+    cells: NDArray[np.int64] | None
+    """Numbers of the cells in the whole mesh; None for their indices."""
+    sums: NDArray[np.int64]
+
+
 class Sampling:
-    """Functions that sample the particles of a rank, with their events and sums of cells.
+    """Functions that observe the particles of a rank, with their events and sums of cells.
 
     Parameters
     ----------
     functions
         The functions, by their names.
-    events
-        Empty tables of events, by the names of their functions.
-    sums
-        Sums without rows, by ``function/array``, and the number of cells.
+    memory
+        Their initial data, without particles.
     interactions, medium
         See :class:`foamprb.cloud.cloud.Cloud`.
     names
@@ -49,91 +62,123 @@ class Sampling:
     def __init__(
         self,
         functions: Mapping[str, CloudFunction],
-        events: Memory,
-        sums: Mapping[str, tuple[int, NDArray[Any]]],
+        memory: Mapping[str, Memory],
         interactions: Sequence[Interaction],
         medium: Medium,
         names: Mapping[str, Sequence[str]],
     ) -> None:
-        self.functions, self._no_events, self._no_sums = functions, events, sums
+        self.functions, self._initial = functions, memory
         self._interactions, self._medium, self._names = tuple(interactions), medium, names
-        self._events: Memory = {}
-        self.sums: dict[str, tuple[NDArray[np.int64], NDArray[np.float64]]] = {}
-        """The first cell of each rank, and the sums of the cells of this one, by ``function/array``."""
+        self._events: dict[str, list[NDArray[np.float64]]] = {name: [] for name in functions}
+        self._sums: dict[str, list[CellSums]] = {}
 
     @staticmethod
     def install(rank: Rank, sampling: Sampling) -> None:
-        """Sample the particles of a rank from now on."""
-        firsts = rank.firsts
-        for name, (n, array) in sampling._no_sums.items():
-            # A rank without a part of a checkpoint has none.
-            first = np.where(firsts == firsts[-1], n, firsts * n // max(firsts[-1], 1))
-            first[0] = 0
-            n_cells = int(first[rank.number + 1] - first[rank.number])
-            sampling.sums[name] = first, np.zeros((n_cells, *array.shape[1:]))
+        """Observe the particles of a rank from now on."""
         rank.sampling = sampling
 
     def cloud(self, rank: Rank, p: Particles, time: float) -> ObservedCloud:
         """Return the cloud with some particles of a rank, as functions observe it at a time, s."""
-        share: Any = CloudShare(self._interactions, rank.seen, self._medium, rank.tracker, time)
+        n = int(rank.firsts[-1])
+        share: Any = CloudShare(self._interactions, rank.seen, self._medium, rank.tracker, time, n)
         return ObservedCloud(share, self._names, _seen=p)
 
-    def observe(self, rank: Rank, names: Iterable[str], time: float, observe: Observe) -> None:
-        """Let some functions observe the particles of a rank at a time, s."""
-        cloud = self.cloud(rank, rank.particles, time)
-        for name in names:
-            function, memory = self.functions[name], memory_of(rank.share.memory, name)
-            table = events_of(function)
-            if table:
-                memory[table] = self._events.get(name, self._no_events[name])
-            observe(function, memory, cloud)
-            if table:
-                self._events[name] = memory[table]
+    def observers(self, rank: Rank, until: float) -> Observers | None:
+        """Return the functions that observe the steps of a call of the loop, None for none.
 
-    def before_steps(self, rank: Rank, start: float, until: float) -> None:
-        """Let the functions observe the particles before a call of the loop, while its flow is loaded."""
-        observers = self._of_kind(StepObserver)
-        self.observe(rank, observers, start, lambda f, memory, cloud: f.before_steps(memory, cloud, until))
+        ``until`` is the time of its end, s.
+        """
+        following = {name: f for name, f in self.functions.items() if isinstance(f, PathFunction)}
+        if not following:
+            return None
+        cloud, numbers = self.cloud(rank, rank.particles, until), rank.particles.number
+        masks = [function.watches(numbers, cloud.cloud.size) for function in following.values()]
+        some = [mask for mask in masks if mask is not None]
+        watched = np.logical_or.reduce(some) if len(some) == len(masks) else np.empty(0, dtype=np.bool_)
+        needs = frozenset[str]().union(*(function.needs for function in following.values()))
+        each = []
+        for name, function in following.items():
+            adding = partial(self._add_to_cells, self._sums_of(rank, name, function), Lock())
+            initial = {k: v for k, v in self._initial[name].items() if function.arrays[k] is not per_particle}
+            memory = {**initial, **memory_of(rank.share.memory, name)}
+            each.append((name, function, memory, replace(cloud, _name=name, add_to_cells=adding)))
 
-    def after_steps(self, rank: Rank, until: float) -> None:
-        """Let the functions observe the particles after a call of the loop."""
-        observers = self._of_kind(StepObserver)
-        self.observe(rank, observers, until, lambda f, memory, cloud: f.after_steps(memory, cloud))
+        def observe(steps: Steps) -> None:
+            if "l1" in needs:
+                steps = _with_fluid(steps, rank.seen, rank.tracker.integrator.recorded.end_l < 0)
+            for name, function, memory, seen in each:
+                events = function.follow(memory, seen, steps)
+                if events is not None and len(events):
+                    self._events[name].append(events)
+
+        return Observers(watched, needs, observe)
+
+    def _sums_of(self, rank: Rank, name: str, function: CloudFunction) -> NDArray[np.int64]:
+        """Return the sums of the cells of a rank that a function adds to; none without such an array."""
+        if not names_of_kind(function, per_cell):
+            return no_sums(0, 0)
+        mesh = getattr(rank.flow, "mesh", rank.flow)
+        columns = self._initial[name][names_of_kind(function, per_cell)[0]].shape[1] // 2
+        parts = self._sums.setdefault(name, [])
+        # A node may take other cells between two writings.
+        if not parts or not _equal(parts[-1].cells, rank.cells):
+            parts.append(CellSums(rank.cells, no_sums(len(mesh.cell_start) - 1, columns)))
+        return parts[-1].sums
 
     @staticmethod
-    def sample(rank: Rank, names: Collection[str], time: float) -> None:
-        """Let some functions sample the particles of a rank."""
-        rank.sampling.observe(rank, names, time, lambda f, memory, cloud: f.sample(memory, cloud))
-        rank.sampling.add_up(rank, names)
+    def _add_to_cells(
+        sums: NDArray[np.int64],
+        lock: Any,
+        cells: NDArray[np.int64],
+        values: NDArray[np.float64],
+        scale: NDArray[np.float64],
+    ) -> None:
+        with lock:
+            add_up(sums, cells, values, scale)
 
     @staticmethod
     def record(rank: Rank, rows: NDArray[np.float64], time: float) -> None:
-        """Let the functions record rebounds and passages of the particles of a rank."""
+        """Let the functions whose data go with the particles record rebounds of a rank's particles."""
         here, at = rank.find(rows[:, 0].astype(np.int64))
         local = np.column_stack([at, rows[here, 1:]])
-        observers = rank.sampling._of_kind(ContactObserver)
-        rank.sampling.observe(
-            rank, observers, time, lambda f, memory, cloud: f.record_rebounds(memory, cloud, local)
-        )
+        sampling: Sampling = rank.sampling
+        cloud = sampling.cloud(rank, rank.particles, time)
+        for name, function in sampling.functions.items():
+            if isinstance(function, ContactObserver):
+                function.record_rebounds(memory_of(rank.share.memory, name), cloud, local)
 
     @staticmethod
     def take_events(rank: Rank) -> Memory:
         """Return the events that the functions have recorded on a rank since the last call."""
         sampling: Sampling = rank.sampling
-        events, sampling._events = {**sampling._no_events, **sampling._events}, {}
-        return events
+        events, sampling._events = sampling._events, {name: [] for name in sampling.functions}
+        return {
+            name: np.concatenate([sampling._initial[name][table][:0], *events[name]])
+            for name, function in sampling.functions.items()
+            if (table := events_of(function))
+        }
 
-    def add_up(self, rank: Rank, names: Collection[str]) -> None:
-        """Add the events of some functions to the sums of cells, each on the rank that has these."""
-        for path, (first, sums) in self.sums.items():
-            name = path.split("/")[0]
-            if name not in names:
-                continue
-            events = self._events[name]
-            received = rank.sent(np.searchsorted(first[1:], events[:, 2], side="right"), events)
-            received[:, 2] -= first[rank.number]
-            add_up(sums, in_time(received))
-            self._events[name] = events[:0].copy()
+    @staticmethod
+    def take_sums(rank: Rank) -> Mapping[str, list[CellSums]]:
+        """Return the sums of cells on a rank since the last call, by the names of the functions."""
+        sampling: Sampling = rank.sampling
+        sums, sampling._sums = sampling._sums, {}
+        return sums
 
-    def _of_kind(self, kind: type) -> list[str]:
-        return [name for name, function in self.functions.items() if isinstance(function, kind)]
+
+def _equal(cells: NDArray[np.int64] | None, others: NDArray[np.int64] | None) -> bool:
+    return cells is others or (cells is not None and others is not None and np.array_equal(cells, others))
+
+
+def _with_fluid(steps: Steps, flow: Any, everywhere: bool) -> Steps:
+    """Return steps with the fluid's gradient where they ended, if that is not where they led.
+
+    With ``everywhere``, where every step ended.
+    """
+    (t0, t1), hosts = steps.t, steps.of(step.host1)
+    rows = np.flatnonzero((everywhere | steps.ended) & (t1 > t0) & (hosts >= 0))
+    if len(rows):
+        l = flow.sample(steps.take(rows).x[1], hosts[rows], t1[rows])[1].reshape(-1, 9)
+        m, k = np.divmod(rows, steps.tables.shape[2])
+        steps.tables[m, step.l1 : step.l1 + 9, k] = l
+    return steps

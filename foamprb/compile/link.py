@@ -35,7 +35,17 @@ from foamprb.compile.trace import TRACED, branch
 if TYPE_CHECKING:
     from foamprb.compile.internals import Role
 
-__all__ = ["allocating", "bound", "is_compiled", "key_of", "link", "linked", "read_by", "traced"]
+__all__ = [
+    "allocating",
+    "bound",
+    "compiled",
+    "is_compiled",
+    "key_of",
+    "link",
+    "linked",
+    "read_by",
+    "traced",
+]
 
 log = logging.getLogger("foamprb")
 
@@ -102,6 +112,12 @@ def link(
         names = ", ".join(sorted(unread))
         raise NameError(f"{entry.__qualname__} is bound to {names}, a name that no linked function reads")
     return _link(entry, _Linkage(bindings, frozenset(separate)), "entry").dispatcher
+
+
+@cache
+def compiled(entry: Callable[..., Any]) -> Any:
+    """Return :func:`link` of a function without bindings, once per process."""
+    return link(entry)
 
 
 def read_by(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> dict[str, Any]:

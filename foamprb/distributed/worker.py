@@ -182,7 +182,7 @@ class Worker(Rank):
         return Route(self._MPI, self.comm, rank_of)
 
     def sent(self, to: NDArray[np.int64], array: NDArray[Any]) -> NDArray[Any]:
-        """See :meth:`Rank.sent`."""
+        """Send each row of an array to a rank; return the rows that arrive. All ranks call it together."""
         with self.collective():
             return self._route(to).send(array)
 
@@ -412,7 +412,7 @@ class Worker(Rank):
         return unpack(arrived[np.argsort(arrived["number"])]).apply(function, of, *arguments)
 
     def write_part(self, file: Path, time: float) -> tuple[int, str] | None:
-        """Write particles of consecutive numbers, and sums of cells, to part of a checkpoint at a time, s.
+        """Write particles of consecutive numbers to part of a checkpoint at a time, s.
 
         Returns
         -------
@@ -436,7 +436,7 @@ class Worker(Rank):
                 pass
 
     def _arrays_in_order(self) -> Iterator[tuple[str, NDArray[Any]]]:
-        """Yield the arrays of the particles that this process writes, and sums, by names in a checkpoint.
+        """Yield the arrays of the particles that this process writes, by names in a checkpoint.
 
         One variable after the other, of which memory holds two more copies.
         """
@@ -450,8 +450,6 @@ class Worker(Rank):
                 with self.collective():
                     arrived = route.send(array)
                 yield f"{kind}{name}", arrived[order]
-        sums = {} if self.sampling is None else self.sampling.sums
-        yield from ((f"{FUNCTIONS}{name}", array) for name, (_, array) in sums.items())
 
     def write_piece(self, folder: Path, time: float, contents: Contents) -> Piece | None:
         """Write the particles; return the file and its arrays.

@@ -40,11 +40,11 @@ class LoadedFlow(NamedTuple):
         cells: NDArray[np.int64] = mesh.tets[hosts, 0].astype(np.int64) - mesh.n_points
         return cells if self.cells is None else self.cells[cells]
 
-    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        """See :meth:`foamprb.flow.base.Flow.sample`."""
+    def sample(self, points: Floats, hosts: Ints, t: float | Floats) -> tuple[Floats, Floats]:
+        """See :meth:`foamprb.flow.base.Flow.sample`; the times t, s, are one for all or (n,)."""
         return sample_with(self.kernels["sample"], self.arrays, points, hosts, t)
 
-    def viscosity(self, points: Floats, hosts: Ints, t: float) -> Floats:
+    def viscosity(self, points: Floats, hosts: Ints, t: float | Floats) -> Floats:
         """See :func:`foamprb.flow.sampling.viscosity_with`."""
         return viscosity_with(self.kernels["viscosity"], self.arrays, points, hosts, t)
 

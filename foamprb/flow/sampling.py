@@ -19,13 +19,16 @@ def sample(flow: Any, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, V
 
 
 def sample_with(
-    kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float
+    kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float | Floats
 ) -> tuple[Floats, Floats]:
-    """Return velocities and gradients as :meth:`Flow.sample`, by a kernel ``sample`` and its arrays."""
+    """Return velocities and gradients as :meth:`Flow.sample`, by a kernel ``sample`` and its arrays.
+
+    The times t, s, are one for all or (n,).
+    """
     points = np.ascontiguousarray(points, dtype=np.float64)
     velocities, gradients = np.empty((len(points), 3)), np.empty((len(points), 9))
     hosts = np.ascontiguousarray(hosts, dtype=np.int32)
-    _sampler(kernel)(arrays, points, hosts, t, velocities, gradients)
+    _sampler(kernel)(arrays, points, hosts, _times(t, len(points)), velocities, gradients)
     return velocities, gradients.reshape(-1, 3, 3)
 
 
@@ -40,17 +43,23 @@ def viscosity(flow: Any, host: int, x: Vector, t: float) -> tuple[float, Vector]
     raise NotImplementedError
 
 
-def viscosity_with(kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float) -> Floats:
+def viscosity_with(
+    kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float | Floats
+) -> Floats:
     """Return the field of the viscosity at points (n, 3) in hosts (n,), by a kernel and its arrays, (n,)."""
     points, found = np.ascontiguousarray(points, dtype=np.float64), np.empty(len(points))
     hosts = np.ascontiguousarray(hosts, dtype=np.int32)
-    link(_viscosity_all, {"viscosity": kernel})(arrays, points, hosts, t, found)
+    link(_viscosity_all, {"viscosity": kernel})(arrays, points, hosts, _times(t, len(points)), found)
     return found
 
 
-def _viscosity_all(flow: Any, points: Floats, hosts: Ints, t: float, found: Floats) -> None:
+def _times(t: float | Floats, n: int) -> Floats:
+    return np.ascontiguousarray(np.broadcast_to(np.asarray(t, dtype=np.float64), n))
+
+
+def _viscosity_all(flow: Any, points: Floats, hosts: Ints, t: Floats, found: Floats) -> None:
     for i in range(points.shape[0]):
-        found[i], _ = viscosity(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
+        found[i], _ = viscosity(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t[i])
 
 
 def with_velocity(faces: PatchFaces, flow: Sampled, t: float) -> PatchFaces:
@@ -60,11 +69,11 @@ def with_velocity(faces: PatchFaces, flow: Sampled, t: float) -> PatchFaces:
 
 
 def _sample_all(
-    flow: Any, points: Floats, hosts: Ints, t: float, velocities: Floats, gradients: Floats
+    flow: Any, points: Floats, hosts: Ints, t: Floats, velocities: Floats, gradients: Floats
 ) -> None:
-    """Put u (n, 3) and ∇u (n, 9) at the points (n, 3) in their hosts (n,) at time t into their arrays."""
+    """Put u (n, 3) and ∇u (n, 9) at the points (n, 3) in their hosts (n,) at times t (n,) into arrays."""
     for i in range(points.shape[0]):
-        u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
+        u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t[i])
         for k in range(3):
             velocities[i, k] = u[k]
         for k in range(9):

@@ -35,6 +35,8 @@ from foamprb.flow.mesh.locator import locate, seek
 REACHED = -1
 FAILED = -2
 NO_TRIANGLE = _NO_TET = -1
+WITHIN = 4
+"""Result of :func:`way_out` in place of a face."""
 
 _MOST_CROSSINGS = 20_000
 # Crossings without progress (around an edge or a vertex) after which the start is moved.
@@ -491,25 +493,9 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
             start = between(x0, m, nudge)
         tet, came_from, progress, stalls, entered = host, -1, 0.0, 0, 0
         for _ in range(_MOST_CROSSINGS):
-            origin, c1, c2, c3, volume = frame(flow, tet)
-            end = weights(origin, c1, c2, c3, volume, x1)
-            slack = -TOLERANCE * volume
-            if min(end[0], end[1], end[2], end[3]) >= slack:
+            face, fraction = way_out(flow, tet, came_from, start, x1)
+            if face == WITHIN:
                 return tet, 1.0, REACHED, NO_TRIANGLE, entered
-            begin = weights(origin, c1, c2, c3, volume, start)
-            face, fraction, first = -1, 0.0, np.inf
-            for k in range(4):
-                w0, w1 = begin[k], end[k]
-                if w0 <= w1 or w1 >= slack:
-                    continue
-                other = neighbours[tet, k]
-                if other >= 0 and other == came_from:
-                    continue
-                s = w0 / (w0 - w1)
-                # At the rim of a wall the path inside is preferred.
-                rank = s + (0.0 if other >= 0 else TOLERANCE)
-                if rank < first:
-                    face, fraction, first = k, s, rank
             if face < 0:
                 break
             other = neighbours[tet, face]
@@ -529,6 +515,34 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
             if not is_sound(flow, tet):
                 return uncounted(flow, find_thread(flow, host, x0, x1))
     return uncounted(flow, find_thread(flow, host, x0, x1))
+
+
+def way_out(flow: MeshArrays, tet: int, came_from: int, x0: Vector, x1: Vector) -> tuple[int, float]:
+    """Return the face by which the segment from x0 to x1 leaves a tetrahedron, and the fraction there.
+
+    The face is :data:`WITHIN` if x1 lies inside, and −1 if none is found. ``came_from`` is the tetrahedron
+    before, −1 for none: the path does not turn back.
+    """
+    origin, c1, c2, c3, volume = frame(flow, tet)
+    end = weights(origin, c1, c2, c3, volume, x1)
+    slack = -TOLERANCE * volume
+    if min(end[0], end[1], end[2], end[3]) >= slack:
+        return WITHIN, 1.0
+    begin = weights(origin, c1, c2, c3, volume, x0)
+    face, fraction, first = -1, 0.0, np.inf
+    for k in range(4):
+        w0, w1 = begin[k], end[k]
+        if w0 <= w1 or w1 >= slack:
+            continue
+        other = flow.neighbours[tet, k]
+        if other >= 0 and other == came_from:
+            continue
+        s = w0 / (w0 - w1)
+        # At the rim of a wall the path inside is preferred.
+        rank = s + (0.0 if other >= 0 else TOLERANCE)
+        if rank < first:
+            face, fraction, first = k, s, rank
+    return face, fraction
 
 
 def uncounted(flow: MeshArrays, path: tuple[int, float, int, int]) -> tuple[int, float, int, int, int]:

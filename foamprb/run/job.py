@@ -33,7 +33,7 @@ from foamprb.cloud.patches import CYCLIC
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
 from foamprb.cloud.viscosity import viscosity_at_rate
-from foamprb.cloudfunctions.base import ContactObserver, ObservedCloud
+from foamprb.cloudfunctions.base import ObservedCloud
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
@@ -394,8 +394,7 @@ def assemble(
     solution = settings.solution
     models = _models(settings, solution.integrationSchemes.shape, bool(getattr(flow, "rotating", ())))
     by_name = {patch.name: i for patch, i in zip(flow.patches, interactions, strict=True)}
-    observers = (f for f in settings.functions.values() if isinstance(f, ContactObserver))
-    models = replace(models, rebounds=any(f.needs_rebounds(by_name) for f in observers))
+    models = replace(models, rebounds=any(f.needs_rebounds(by_name) for f in settings.functions.values()))
     try:
         cloud = Cloud(
             particles,

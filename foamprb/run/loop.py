@@ -153,12 +153,10 @@ def _advance_to_write(
         results.check()
         if stop() or (following is not None and not following.wait(cloud, stop)):
             return False
-        until = results.next_observation(job.next_write(first))
+        until = job.next_write(first)
         computed = until if following is None else min(until, cloud.steps_until(following.flow.span[1]))
         if computed > cloud.step:
             schedule.advance(computed, stop)
-        if cloud.step == until:
-            results.observe()
         show(cloud.time)
     cloud.step = job.next_write(first)
     return True

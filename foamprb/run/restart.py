@@ -255,8 +255,6 @@ def _restore_rank(rank: Rank, file: Path) -> None:
         stored.read_into(array, f"{PARTICLES}{name}", first)
     for name, array in rank.share.memory.items():
         stored.read_into(array, f"{FUNCTIONS}{name}", first)
-    for name, (firsts, sums) in rank.sampling.sums.items():
-        stored.read_into(sums, f"{FUNCTIONS}{name}", int(firsts[rank.number]))
 
 
 def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tuple[SnapshotFile, ...]:

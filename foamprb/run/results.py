@@ -167,14 +167,6 @@ class Results:
         """Raise OSError if the thread could not write a file."""
         self._writer.check()
 
-    def next_observation(self, last: int) -> int:
-        """Return the step, at most ``last``, at which a cloud function samples next."""
-        return self._job.functions.next_sample(last)
-
-    def observe(self) -> None:
-        """Let the cloud functions observe the cloud that sample at this step."""
-        self._job.functions.sample(self._job.functions.due)
-
     def write(self) -> None:
         """Write the files of a write time: snapshot, tables of the cloud functions, checkpoint.
 
@@ -185,7 +177,6 @@ class Results:
         OSError
             If a file cannot be written, now or at the time before.
         """
-        self._job.functions.sample(list(self._job.functions.functions))
         cloud = self._ready()
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
         tables = self._write_functions()

@@ -15,8 +15,8 @@ from foamprb.cloud.lanes import (
     ENDED,
     READY,
     WAITING,
+    begin_lanes,
     drop_unfinished,
-    empty_lanes,
     set_aside,
     swap_lanes,
     take_back,
@@ -67,8 +67,8 @@ def scratch():
     """With numbers of no meaning in all lanes, each of them another."""
     kept = INTEGRATORS["rosenbrock"].layout
     s = new_scratch(kept.rows, room=20, lasting=(kept.lasting, kept.fresh))
+    begin_lanes(s, 1.0)
     s.block[:] = np.arange(len(s.block))
-    empty_lanes(s)
     for n, name in enumerate(LABELS):
         getattr(s, name)[:] = 100 * n + np.arange(LANES)
     return s

@@ -15,24 +15,6 @@ from foamprb.cloudfunctions.registry import FUNCTIONS, CloudFunctions
 from foamprb.errors import InputError
 
 
-def test_samples_come_at_multiples_and_no_later_than_asked():
-    cloud = pipe_cloud(2)
-    functions = CloudFunctions(
-        {
-            "a": ParticleHistogram(sampleInterval=6),
-            "b": ParticleTracks(4, 10),
-            "c": PatchPostProcessing(()),
-        },
-        observed(cloud),
-    )
-    steps = []
-    while cloud.step < 20:
-        cloud.step = functions.next_sample(20)
-        steps.append(cloud.step)
-    assert steps == [4, 6, 8, 12, 16, 18, 20]
-    assert CloudFunctions({}, observed(cloud)).next_sample(100) == 100
-
-
 def test_a_mistake_names_the_function():
     with pytest.raises(InputError, match=r"cloudFunctions/who: patch wal is not in the mesh\. Did"):
         CloudFunctions({"who": PatchPostProcessing(("wal",))}, observed(pipe_cloud(2)))

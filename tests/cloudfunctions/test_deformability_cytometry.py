@@ -43,7 +43,7 @@ def test_particles_are_seen_where_and_when_they_cross(tmp_path):
     p, start = cloud.particles, cloud.particles.x[:, 0].copy()
     r = np.hypot(p.x[:, 1], p.x[:, 2])
     speed = 2.0 * MEAN * (1.0 - (r / RADIUS) ** 2)
-    plane = DeformabilityCytometry(origin=(0.01, 0, 0), normal=(2, 0, 0), view=(0, 0, 1), sampleInterval=5)
+    plane = DeformabilityCytometry(origin=(0.01, 0, 0), normal=(2, 0, 0), view=(0, 0, 1))
     observe(cloud, plane, tmp_path)
     rows = table(tmp_path / "f/cytometry.csv")
     ids = column(rows, "id").astype(int)

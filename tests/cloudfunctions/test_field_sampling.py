@@ -145,7 +145,7 @@ def test_values_are_linear_between_the_times_of_a_transient_flow(tmp_path):
         put_linear(case / time, mesh, at=np.array([0.01, 0.0, 0.0]), begin=4.0 * float(time))
     functions = """cloudFunctions
     {
-        sample { type fieldSampling; fields (T); sampleInterval 3; }
+        sample { type fieldSampling; fields (T); }
         tracks { type particleTracks; trackInterval 4; maxSamples 100; }
     }
     solution"""
@@ -161,7 +161,8 @@ def test_values_are_linear_between_the_times_of_a_transient_flow(tmp_path):
     tracks = pyvista.read(output / "tracks/tracks.vtp")
     expected = 4.0 * tracks.point_data["time"] + 0.01 * tracks.points[:, 0]
     assert tracks.point_data["time"].min() == pytest.approx(0.3)
-    np.testing.assert_allclose(tracks.point_data["T"], expected, rtol=1e-10)
+    # Within a step the field is linear in time.
+    np.testing.assert_allclose(tracks.point_data["T"], expected, rtol=1e-7)
     clouds = [pyvista.read(file) for file in sorted(output.glob("softCloud_*.vtp"))]
     assert clouds[0].n_points == 0
     assert "T" in clouds[0].point_data

@@ -6,12 +6,26 @@ import math
 
 import numpy as np
 import pytest
-from observing import MEAN, RADIUS, WATER, column, go_on, observe, observed, pipe_cloud, restore, table
+from observing import (
+    MEAN,
+    RADIUS,
+    WATER,
+    column,
+    go_on,
+    made_steps,
+    observe,
+    observed,
+    pipe_cloud,
+    restore,
+    see,
+    table,
+)
 from scipy.integrate import quad, solve_ivp
 
 from foamprb import analytic
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Cyclic, Stick
+from foamprb.cloud.paths import step
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.cloud.viscosity import PowerLaw as PowerLawFluid
@@ -33,7 +47,7 @@ def test_a_path_of_constant_stress(name, tmp_path):
     cloud = pipe_cloud(medium=WATER)
     p = cloud.particles
     r = np.hypot(p.x[:, 1], p.x[:, 2])
-    observe(cloud, Haemolysis(constants=name, sampleInterval=7), tmp_path)
+    observe(cloud, Haemolysis(constants=name), tmp_path)
     rows = table(tmp_path / "f/haemolysis.csv")
     A, alpha, beta = POWER_LAWS[name][:3]
     tau = WATER.mu * 4.0 * MEAN * r / RADIUS**2
@@ -52,16 +66,18 @@ def test_the_constants_are_those_of_the_papers():
     assert max(found, key=lambda name: found[name]) == "Giersiepen"
 
 
-def test_samples_of_a_changing_stress_converge_with_second_order(tmp_path):
-    """A body that settles from slow to fast shear: against a sample every step."""
-    index = {}
-    for interval in (1, 4, 8, 16):
-        observe(pipe_cloud(), Haemolysis(constants="Zhang", sampleInterval=interval), tmp_path, writes=(96,))
-        index[interval] = column(table(tmp_path / "f/haemolysis.csv"), "haemolysis")
-    moved = index[1] > 0.0
-    error = {n: np.abs(index[n] / index[1] - 1.0)[moved].max() for n in (4, 8, 16)}
-    assert error[16] < 0.05
-    assert error[4] < 0.4 * error[8] < 0.16 * error[16] * 2.5
+def test_steps_of_a_changing_stress_converge_with_second_order(tmp_path):
+    """A stress that grows as 1 + t², against the integral."""
+    errors, exponent = [], POWER_LAWS["Zhang"].alpha / POWER_LAWS["Zhang"].beta
+    exact = quad(lambda s: (WATER.mu * 1e4 * (1.0 + s * s)) ** exponent, 0.0, 1.0)[0]
+    for n in (10, 20, 40):
+        cloud, t = pipe_cloud(n=1, medium=WATER), np.linspace(0.0, 1.0, n + 1)
+        cloud.particles.t[:] = 0.0
+        functions = CloudFunctions({"f": Haemolysis(constants="Zhang")}, observed(cloud))
+        see(cloud, made_steps(t, l=simple_shear(1e4 * (1.0 + t * t))))
+        errors.append(abs(functions.state()["f/dose"][0] / exact - 1.0))
+    assert errors[0] < 0.02
+    np.testing.assert_allclose(np.array(errors[:-1]) / errors[1:], 4.0, rtol=0.02)
 
 
 @pytest.mark.parametrize("rate", [300.0, 5000.0, 42000.0])
@@ -112,21 +128,23 @@ def test_a_path_of_changing_stress(name, tmp_path):
 BLOOD = 3.5e-3
 
 
+def simple_shear(rate):
+    """Gradients of simple shear, (n, 9)."""
+    l = np.zeros((len(rate), 9))
+    l[:, 1] = rate
+    return l
+
+
 def exposed(function, periods, samples=50):
     """Per cent released by a cell at rest that goes through periods (γ̇, duration) of simple shear."""
-    cloud = observed(pipe_cloud(n=1))
-    memory = {**function.initial(cloud), "t": np.zeros(1)}
+    cloud, start = pipe_cloud(n=1), 0.0
+    cloud.particles.t[:] = 0.0
+    functions = CloudFunctions({"f": function}, observed(cloud))
     for rate, duration in periods:
-        l = np.zeros((1, 9))
-        l[0, 1] = rate
-        fluid = {"fluid": np.array([rate]), "mu": np.array([function.mu])}
-        fluid |= {"l": l} if function.stress == "morphology" else {}
-        memory |= fluid
-        for _ in range(samples):
-            now = {"t": memory["t"] + duration / samples, **fluid}
-            function.add(memory, cloud, np.zeros(1, dtype=np.int64), now)
-            memory |= now
-    return float(index_of_haemolysis(function.law, memory["dose"])[0])
+        t = start + np.linspace(0.0, duration, samples + 1)
+        see(cloud, made_steps(t, l=simple_shear(np.full(samples + 1, rate))))
+        start += duration
+    return float(index_of_haemolysis(function.law, functions.state()["f/dose"])[0])
 
 
 @pytest.mark.parametrize(("stress", "expected"), [("morphology", 1.71148e-5), ("KelvinVoigt", 1.71072e-5)])
@@ -150,34 +168,42 @@ def test_pores_are_of_the_order_of_the_power_law_of_the_same_experiments():
 
 
 def test_a_cell_turns_with_the_particle_at_a_coupled_patch():
-    """Its shape and the last gradient, by the turn that F makes."""
-    cloud = observed(pipe_cloud(n=2, walls=(Stick(), Cyclic(), Cyclic())))
-    function = Haemolysis(constants="Song", stress="morphology")
-    assert function.needs_rebounds({"inlet": Cyclic()})
-    assert not function.needs_rebounds({"inlet": Stick()})
-    S = np.diag([2.0, 1.0, 0.5])
-    memory = {"cell": np.tile(S.ravel(), (2, 1)), "l": np.tile(np.arange(9.0), (2, 1))}
+    """By the turn that F makes between the parts of a step before and after the patch."""
+    assert Haemolysis(constants="Song").needs_rebounds({"inlet": Cyclic()})
+    assert not Haemolysis(constants="Song").needs_rebounds({"inlet": Stick()})
     turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    F = np.eye(3) + 0.1 * np.arange(9.0).reshape(3, 3)
-    rows = np.zeros((2, 21))
-    rows[:, 0], rows[:, 1] = 1.0, 1.0
-    rows[0, 12:], rows[1, 12:] = F.ravel(), (turn @ F).ravel()
-    function.record_rebounds(memory, cloud, rows)
-    np.testing.assert_allclose(memory["cell"][1].reshape(3, 3), np.diag([1.0, 2.0, 0.5]), atol=1e-12)
-    l = np.arange(9.0).reshape(3, 3)
-    np.testing.assert_allclose(memory["l"][1].reshape(3, 3), turn @ l @ turn.T, atol=1e-12)
-    np.testing.assert_array_equal(memory["cell"][0], S.ravel())
+    shapes = []
+    for passes in (False, True):
+        cloud = pipe_cloud(n=1)
+        cloud.particles.t[:] = 0.0
+        function = Haemolysis(constants="Song", stress="morphology")
+        functions = CloudFunctions({"f": function}, observed(cloud))
+        l = simple_shear(np.full(3, 5000.0))
+        steps = made_steps([0.0, 0.1, 0.2], l=l)
+        if passes:
+            after = (turn @ l[0].reshape(3, 3) @ turn.T).ravel()
+            table = steps.tables[0, :, 1]
+            table[step.passed] = 1.0
+            for first in (step.l0, step.l1):
+                table[first : first + 9] = after
+            for first in (step.F0, step.F1):
+                table[first : first + 9] = turn.ravel()
+        see(cloud, steps)
+        shapes.append(functions.state()["f/cell"].reshape(3, 3))
+    assert abs(shapes[0][0, 1]) > 0.1
+    np.testing.assert_allclose(shapes[1], turn @ shapes[0] @ turn.T, atol=1e-12)
 
 
 def test_the_viscosity_is_that_at_the_particle_or_of_whole_blood():
-    cloud = pipe_cloud(n=4, medium=WATER)
-    cloud.medium = cloud.medium._replace(mu=PowerLawFluid(k=0.5, n=0.6))
-    rows = np.arange(4)
-    (gamma,) = observed(cloud).measure(rows, "shearRate")
-    found = Haemolysis(constants="Song", stress="KelvinVoigt").observe(observed(cloud), rows)
-    np.testing.assert_allclose(found["mu"], 0.5 * gamma**-0.4, rtol=1e-12)
-    found = Haemolysis(constants="Song", stress="KelvinVoigt", mu=BLOOD).observe(observed(cloud), rows)
-    np.testing.assert_array_equal(found["mu"], BLOOD)
+    t, rate, law = np.array([0.0, 1.0]), np.full(2, 1000.0), POWER_LAWS["Song"]
+    for mu, expected in ((None, 0.5 * 1000.0**-0.4), (BLOOD, BLOOD)):
+        cloud = pipe_cloud(n=1, medium=WATER)
+        cloud.particles.t[:] = 0.0
+        cloud.medium = cloud.medium._replace(mu=PowerLawFluid(k=0.5, n=0.6))
+        functions = CloudFunctions({"f": Haemolysis(constants="Song", mu=mu)}, observed(cloud))
+        see(cloud, made_steps(t, l=simple_shear(rate)))
+        dose = (expected * 1000.0) ** (law.alpha / law.beta)
+        np.testing.assert_allclose(functions.state()["f/dose"], dose, rtol=1e-12)
 
 
 def test_stresses_beyond_the_experiments_are_reported_once(tmp_path, caplog):
@@ -246,10 +272,11 @@ def test_failed_particles_are_not_in_the_means(tmp_path):
 
 def test_where_the_flow_is_unknown_the_last_stress_goes_on():
     """As of a particle that has left the mesh: its place gives no number."""
-    cloud, law = observed(pipe_cloud(n=4, medium=WATER)), Haemolysis(constants="Song")
-    p, memory = cloud.particles, law.begin(cloud)
-    rate = memory["rate"].copy()
-    p.status[:], p.t[:], p.x[0] = Status.ACTIVE, p.t + 0.5, np.nan
-    law.sample(memory, cloud)
-    np.testing.assert_array_equal(memory["rate"], rate)
-    np.testing.assert_allclose(memory["dose"], 0.5 * rate, rtol=1e-12)
+    cloud, law = pipe_cloud(n=1, medium=WATER), POWER_LAWS["Song"]
+    cloud.particles.t[:] = 0.0
+    functions = CloudFunctions({"f": Haemolysis(constants="Song")}, observed(cloud))
+    l = simple_shear(np.array([300.0, np.nan]))
+    l[1] = np.nan
+    see(cloud, made_steps(np.array([0.0, 0.5]), l=l))
+    rate = (WATER.mu * 300.0) ** (law.alpha / law.beta)
+    np.testing.assert_allclose(functions.state()["f/dose"], 0.5 * rate, rtol=1e-12)

@@ -6,12 +6,25 @@ import numpy as np
 import pytest
 import pyvista
 from mesh_shapes import cyclic_row
-from observing import MEAN, RADIUS, WATER, D, column, go_on, observe, observed, pipe_cloud, table
+from observing import (
+    MEAN,
+    RADIUS,
+    WATER,
+    D,
+    column,
+    go_on,
+    made_steps,
+    observe,
+    observed,
+    pipe_cloud,
+    see,
+    table,
+)
 
 from foamprb import analytic
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Cyclic, Rebound
-from foamprb.cloud.state import Status, spheres
+from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
@@ -33,7 +46,7 @@ def test_tracers_cross_when_their_speed_says(tmp_path, every):
     speed = 2.0 * MEAN * (1.0 - r2 / RADIUS**2)
     p.v[:] = speed[:, None] * [1.0, 0.0, 0.0]
     due = p.t0 + (0.01 - p.x0[:, 0]) / speed
-    observe(cloud, collector(sampleInterval=every), tmp_path)
+    observe(cloud, collector(), tmp_path)
     rows = table(tmp_path / "f/crossings.csv")
     k = column(rows, "id").astype(int)
     np.testing.assert_array_equal(k, np.argsort(due)[: len(k)])
@@ -61,7 +74,7 @@ def test_a_particle_without_a_velocity_crosses_where_its_path_says(tmp_path):
     speed = 2.0 * MEAN * (1.0 - (p.x[:, 1] ** 2 + p.x[:, 2] ** 2) / RADIUS**2)
     due = p.t0 + (0.01 - p.x0[:, 0]) / speed
     p.v[:] = np.nan
-    observe(cloud, collector(sampleInterval=1000), tmp_path)
+    observe(cloud, collector(), tmp_path)
     rows = table(tmp_path / "f/crossings.csv")
     k = column(rows, "id").astype(int)
     assert len(k) > 5
@@ -70,26 +83,23 @@ def test_a_particle_without_a_velocity_crosses_where_its_path_says(tmp_path):
 
 
 def orbit(folder, dt, function, turns=3.2):
-    """A particle on a given circle, seen at times dt apart; the rows of crossings.csv."""
+    """A particle on a given circle, in steps of dt; the rows of crossings.csv."""
     p = spheres([[1.0, 0.2, 0.0]], d=D, rho=1.0, mu=1.0)
     cloud = Cloud(p, analytic.rotation(1.0), WATER, (), dt)
     function_set = CloudFunctions({"f": function}, observed(cloud))
-    for step in range(round(turns * 2.0 * np.pi / dt)):
-        t = (step + 1) * dt
-        phase = t + np.arctan2(0.2, 1.0)
-        radius = np.hypot(1.0, 0.2)
-        p.status[:], p.t[:] = Status.ACTIVE, t
-        p.x[:] = radius * np.array([np.cos(phase), np.sin(phase), 0.0])
-        p.v[:] = radius * np.array([-np.sin(phase), np.cos(phase), 0.0])
-        cloud.step = step + 1
-        function_set.sample(function_set.due)
+    t = np.arange(round(turns * 2.0 * np.pi / dt) + 1) * dt
+    phase, radius = t + np.arctan2(0.2, 1.0), np.hypot(1.0, 0.2)
+    x = radius * np.stack([np.cos(phase), np.sin(phase), 0.0 * t], axis=1)
+    v = radius * np.stack([-np.sin(phase), np.cos(phase), 0.0 * t], axis=1)
+    see(cloud, made_steps(t, x, v))
+    cloud.step = len(t) - 1
     folder.mkdir(exist_ok=True)
     function_set.write(folder)
     return table(folder / "f/crossings.csv"), table(folder / "f/collector.csv")
 
 
 def circle(**options):
-    return ParticleCollector("plane", (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), sampleInterval=1, **options)
+    return ParticleCollector("plane", (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), **options)
 
 
 def test_a_curved_path_is_met_to_fourth_order(tmp_path):
@@ -115,7 +125,7 @@ def test_what_comes_back_may_be_taken_off(tmp_path):
 
 
 def test_only_a_disc_of_the_plane_counts(tmp_path):
-    disc = ParticleCollector("plane", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), radius=0.5, sampleInterval=1)
+    disc = ParticleCollector("plane", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), radius=0.5)
     rows, _ = orbit(tmp_path, 0.1, disc)
     assert (column(rows, "x") > 0.9).all()
     assert len(rows) == 3
@@ -133,7 +143,7 @@ def test_counts_may_begin_anew_at_each_writing(tmp_path):
 
 @pytest.mark.parametrize("every", [1, 7, 400])
 def test_passages_of_coupled_patches_are_no_crossings(every, tmp_path):
-    """Straight through periods of 1 m at 4 m/s: one crossing per period, for any time between samples."""
+    """Straight through periods of 1 m at 4 m/s: one crossing per period, for any interval of tracks."""
     mesh = cyclic_row(0.0, 1)
     u = np.broadcast_to([4.0, 0.0, 0.0], mesh.nodes.shape).copy()
     flow = MeshFlow(mesh, u, np.zeros((len(u), 3, 3)))
@@ -144,10 +154,8 @@ def test_passages_of_coupled_patches_are_no_crossings(every, tmp_path):
     plane = (0.5, 0.0, 0.0), (1.0, 0.0, 0.0)
     functions = CloudFunctions(
         {
-            "plane": ParticleCollector(
-                "plane", *plane, sampleInterval=every, negateParcelsOppositeNormal=True
-            ),
-            "camera": DeformabilityCytometry(*plane, (0.0, 1.0, 0.0), sampleInterval=every),
+            "plane": ParticleCollector("plane", *plane, negateParcelsOppositeNormal=True),
+            "camera": DeformabilityCytometry(*plane, (0.0, 1.0, 0.0)),
             "tracks": ParticleTracks(every, 1000),
         },
         observed(cloud),

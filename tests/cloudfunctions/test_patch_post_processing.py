@@ -52,7 +52,6 @@ def test_a_patch_with_any_name_stays_in_the_folder(tmp_path):
     functions = CloudFunctions({"f": PatchPostProcessing(names)}, seen)
     cloud.advance(700)
     (tmp_path / "a/b/c").mkdir(parents=True)
-    functions.sample(functions.functions)
     functions.write(tmp_path / "a/b/c")
     files = sorted(str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*.*"))
     expected = ["%2E%2E%2F%2E%2E%2F%2E%2E%2Fwall.csv", "%2E%2E.csv", "out%20let.csv"]

@@ -22,7 +22,7 @@ BLOCK = """cloudFunctions
     tracks { type particleTracks; trackInterval 100; maxSamples 100; }
     impacts { type patchPostProcessing; patches (wall outlet); }
     plane { type particleCollector; mode plane; origin (0.02 0 0); normal (1 0 0); }
-    spread { type particleHistogram; fields (shearExposure); nBins 5; sampleInterval 30; }
+    spread { type particleHistogram; fields (shearExposure); nBins 5; }
 }
 """
 

@@ -6,7 +6,7 @@ import dataclasses
 import pickle
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,10 +20,11 @@ from observing import WATER, observed, pipe_cloud
 from foamprb.cloud.cloud import Cloud, Stepper, regrouped
 from foamprb.cloud.communicator import Communicator, same
 from foamprb.cloud.patches import Cyclic, Escape, Rebound
+from foamprb.cloud.paths import Steps, step
 from foamprb.cloud.state import Particles, concatenate, empty, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.tracker import Models
-from foamprb.cloudfunctions.base import _sums_of, in_time, per_cell, per_event
+from foamprb.cloudfunctions.base import in_time
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.haemolysis import Haemolysis
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
@@ -45,10 +46,10 @@ from foamprb.run.restart import _agree, _restore_rank, _sums_of_particles
 
 PLANE = (0.004, 0.0, 0.0), (1.0, 0.0, 0.0)
 FUNCTIONS = {
-    "loads": ParticleHistogram(sampleInterval=5),
-    "plane": ParticleCollector("plane", *PLANE, sampleInterval=5),
-    "camera": DeformabilityCytometry(*PLANE, view=(0.0, 0.0, 1.0), sampleInterval=5),
-    "blood": Haemolysis("Ding", "morphology", sampleInterval=5),
+    "loads": ParticleHistogram(),
+    "plane": ParticleCollector("plane", *PLANE),
+    "camera": DeformabilityCytometry(*PLANE, view=(0.0, 0.0, 1.0)),
+    "blood": Haemolysis("Ding", "morphology"),
     "paths": ParticleTracks(5, 100, maxTracks=13),
     "hits": PatchPostProcessing(("wall", "outlet")),
     "stress": SuspensionStress(),
@@ -85,9 +86,15 @@ class Processes(Ranks):
         cloud.particles = empty(0)
         self.call(Worker.distribute, [list(range(self.size))])
 
-    def before_steps(self, start: float, until: float) -> None:
+    def see(self, taken: list[Steps], until: float) -> None:
+        """Give each process the steps of its particles."""
         for worker in self.workers:
-            worker.sampling.before_steps(worker, start, until)
+            observers = worker.sampling.observers(worker, until)
+            for steps in taken if observers else ():
+                here, rows = worker.find(steps.number)
+                mine = steps.take(here)
+                mine.tables[0, step.row] = rows
+                observers.observe(mine)
 
     def take(self, p: Particles) -> None:
         """Take the state of all particles as that of the particles of each process."""
@@ -104,17 +111,15 @@ class Processes(Ranks):
         thread_mpi.together(works)
 
     def joined(self) -> dict[str, np.ndarray]:
-        """Return what cloud functions store of all particles, by their numbers, and sums of all cells."""
+        """Return what cloud functions store of all particles, by their numbers."""
         order = np.argsort(np.concatenate([w.particles.number for w in self.workers]))
-        names, sums = self.workers[0].share.memory, self.workers[0].sampling.sums
-        found = {k: np.concatenate([w.share.memory[k] for w in self.workers])[order] for k in names}
-        return found | {k: np.concatenate([w.sampling.sums[k][1] for w in self.workers]) for k in sums}
+        names = self.workers[0].share.memory
+        return {k: np.concatenate([w.share.memory[k] for w in self.workers])[order] for k in names}
 
 
 @pytest.fixture(autouse=True)
 def _small_parts(monkeypatch):
     monkeypatch.setattr("foamprb.cloud.communicator.PART", 7)
-    monkeypatch.setattr("foamprb.cloudfunctions.base.CELLS", 5)
 
 
 def on_ranks(cloud: Cloud, n: int, **changes: Any) -> tuple[Cloud, Processes]:
@@ -140,10 +145,25 @@ def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, 
     afar, ranks = on_ranks(cloud, n)
     here, there = (CloudFunctions(functions, observed(c)) for c in (cloud, afar))
     ranks.prepare_steps(afar)
-    random = np.random.default_rng(1)
+    random, taken, sampling = np.random.default_rng(1), [], cloud.comm.rank.sampling
+    observers = sampling.observers
+
+    def recording(*arguments: Any) -> Any:
+        real = observers(*arguments)
+        if real is None:
+            return None
+
+        def observe(given: Steps) -> None:
+            taken.append(given.take((given.t[1] > given.t[0]) & (given.row >= 0)))
+            real.observe(given)
+
+        return real._replace(observe=observe)
+
+    sampling.observers = recording
     for k in range(30):
-        ranks.before_steps(cloud.time, cloud.start + (cloud.step + steps) * cloud.dt)
         Stepper(cloud).advance(steps)
+        ranks.see(taken, cloud.time)
+        taken.clear()
         ranks.take(cloud.particles)
         ranks.mix(random)
         afar.step = cloud.step
@@ -152,9 +172,6 @@ def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, 
             # Both take the records of the one loop.
             some.tracker.rebounds = [rows]
             (here if some is cloud else there)._record_rebounds()
-        names = list(functions) if k % 10 == 9 else here.due
-        here.sample(names)
-        there.sample(names)
         if k % 10 == 9:
             here.write(folder / "here")
             there.write(folder / "there")
@@ -201,9 +218,9 @@ def test_passages_are_recorded_by_the_rank_that_has_the_particle(tmp_path):
     """Whichever it is when the records come; the functions sample at different times."""
     plane = (0.9, 0.0, 0.0), (1.0, 0.0, 0.0)
     functions = {
-        "plane": ParticleCollector("plane", *plane, sampleInterval=20),
-        "camera": DeformabilityCytometry(*plane, view=(0.0, 0.0, 1.0), sampleInterval=40),
-        "blood": Haemolysis("Ding", "morphology", sampleInterval=100),
+        "plane": ParticleCollector("plane", *plane),
+        "camera": DeformabilityCytometry(*plane, view=(0.0, 0.0, 1.0)),
+        "blood": Haemolysis("Ding", "morphology"),
     }
     for name in ("here", "there"):
         (tmp_path / name).mkdir()
@@ -290,24 +307,11 @@ def test_faults_of_particles_elsewhere_have_the_same_message():
         assert "20" in messages[0] or "2 of 40" in messages[0]
 
 
-class Sums(ParticleHistogram):
-    """A function with sums of 11 cells."""
-
-    arrays: ClassVar[Any] = {**ParticleHistogram.arrays, "passed": per_event, "sums": per_cell}
-
-    def initial(self, cloud: Any) -> Any:
-        return {**super().initial(cloud), "passed": np.empty((0, 5)), "sums": np.zeros((11, 2))}
-
-
 @pytest.mark.parametrize("before", [1, 2, 5])
 def test_ranks_read_their_particles_from_parts_of_other_numbers(before, tmp_path):
-    functions = {**FUNCTIONS, "cells": Sums()}
     cloud = pipe_cloud()
     written, ranks = on_ranks(cloud, before)
-    CloudFunctions(functions, observed(written))
-    for worker in ranks.workers:
-        first, sums = worker.sampling.sums["cells/sums"]
-        sums[:] = np.arange(*first[worker.number : worker.number + 2])[:, None] + [0.5, 0.25]
+    CloudFunctions(FUNCTIONS, observed(written))
     ranks.prepare_steps(written)
     cloud.advance(20)
     ranks.take(cloud.particles)
@@ -325,25 +329,14 @@ def test_ranks_read_their_particles_from_parts_of_other_numbers(before, tmp_path
     write_checkpoint(file, Checkpoint(1.0, {"parts": parts}, empty_rows))
 
     for again, comm in (on_ranks(pipe_cloud(), 3), ((alone := pipe_cloud()), alone.comm)):
-        CloudFunctions(functions, observed(again))
+        CloudFunctions(FUNCTIONS, observed(again))
         comm.call(_restore_rank, file)
-        sums = comm.call(_sums_of, "cells/sums", slice(2, 9))
-        assert np.concatenate(sums)[:, 0].tolist() == (np.arange(2, 9) + 0.5).tolist()
         for found, expected in zip(again.all_particles(), cloud.particles, strict=True):
             assert found.tobytes() == expected.tobytes()
         restored = comm.joined() if comm.size > 1 else comm.arrays_here()
         assert {k: a.tobytes() for k, a in restored.items()} == {
             k: a.tobytes() for k, a in ranks.joined().items()
         }
-
-
-@pytest.mark.parametrize("particles", [0, 1, 2, 40])
-def test_processes_that_write_checkpoints_have_all_sums(particles):
-    cloud = pipe_cloud(n=particles)
-    afar, ranks = on_ranks(cloud, 3)
-    CloudFunctions({"cells": Sums()}, observed(afar))
-    of_each = [len(w.sampling.sums["cells/sums"][1]) for w in ranks.workers]
-    assert of_each == {0: [11, 0, 0], 1: [11, 0, 0], 2: [5, 6, 0], 40: [3, 4, 4]}[particles]
 
 
 def test_a_process_that_cannot_write_still_sends_what_the_others_need(tmp_path, monkeypatch):

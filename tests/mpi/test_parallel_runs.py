@@ -36,14 +36,13 @@ FUNCTIONS = """cloudFunctions
 {
     hits    { type patchPostProcessing; patches (wall); }
     paths   { type particleTracks; trackInterval 10; maxSamples 100; }
-    loads   { type particleHistogram; sampleInterval 7; }
-    plane   { type particleCollector; mode plane; origin (0.0005 0 0); normal (1 0 0); sampleInterval 5; }
-    camera  { type deformabilityCytometry; origin (0.0005 0 0); normal (1 0 0); view (0 0 1);
-              sampleInterval 5; }
-    blood   { type haemolysis; constants Ding; stress KelvinVoigt; sampleInterval 20; }
+    loads   { type particleHistogram; }
+    plane   { type particleCollector; mode plane; origin (0.0005 0 0); normal (1 0 0); }
+    camera  { type deformabilityCytometry; origin (0.0005 0 0); normal (1 0 0); view (0 0 1); }
+    blood   { type haemolysis; constants Ding; stress KelvinVoigt; }
     stress  { type suspensionStress; }
-    fields  { type fieldSampling; fields (p); sampleInterval 20; }
-    cells   { type particleStatistics; sampleInterval 50; }
+    fields  { type fieldSampling; fields (p); }
+    cells   { type particleStatistics; }
 }"""
 ENVIRONMENT = {
     **os.environ,
@@ -288,8 +287,8 @@ def test_ctrl_c_on_any_process_leaves_a_checkpoint(number, case, truth, tmp_path
 
 def test_ctrl_c_to_mpirun_ends_the_run_in_order(case):
     edit(case, r"endTime\s+\S+;", "endTime 1000;")
-    # Many samples, so that particles are on their way until SIGTERM comes.
-    edit(case, "sampleInterval [57];", "sampleInterval 1;")
+    # Many points, so that particles are on their way until SIGTERM comes.
+    edit(case, "trackInterval 10;", "trackInterval 1;")
     # From Ctrl-C on mpirun reads no more of what the processes say: who says much waits for it for ever.
     edit(case, r"writeInterval\s+\S+;", "writeInterval 0.01;")
     # So long it waits before it sends SIGTERM, and as long again before it kills.
@@ -377,7 +376,7 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
     case = halves
     monkeypatch.delitem(FORCES, "pushByField", raising=False)
     functions = """
-    fields { type fieldSampling; fields (U); sampleInterval 100; }
+    fields { type fieldSampling; fields (U); }
     sums { type particleStatistics; sigmaParticles yes; }
     paths { type particleTracks; trackInterval 100; maxSamples 10; }
     """
@@ -627,9 +626,8 @@ def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_pa
     monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
     for name, value in (("endTime", 0.015), ("writeInterval", 0.005)):
         edit(case, rf"{name}\s+\S+;", f"{name} {value};")
-    edit(case, r"sampleInterval 7;", "sampleInterval 70;")
     # decomposePar computes the pressure at the inlet anew, with other round-off.
-    edit(case, r"\(p\); sampleInterval 20;", "(U); sampleInterval 500;")
+    edit(case, r"\(p\)", "(U)")
     edit(case, r"trackInterval 10;", "trackInterval 100;")
     alone = tmp_path / "alone"
     shutil.copytree(case, alone)

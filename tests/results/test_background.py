@@ -134,9 +134,7 @@ def test_results_do_not_depend_on_when_they_are_written(case, tmp_path, monkeypa
 
 def test_checkpoints_hold_what_cloud_functions_had_observed_at_their_time(case, monkeypatch):
     """And nothing of what they observe while the checkpoint is written."""
-    edit(
-        case, r"cloudFunctions\s*\{\}", "cloudFunctions { f { type particleHistogram; sampleInterval 10; } }"
-    )
+    edit(case, r"cloudFunctions\s*\{\}", "cloudFunctions { f { type particleHistogram; } }")
     write, found = Checkpoints.write, []
     for slow in (False, True):
         job, states = prepare(case, threads=1), {}

@@ -395,7 +395,7 @@ def test_cloud_functions(read: Reader) -> None:
         "paths": ParticleTracks(trackInterval=5, maxSamples=100, maxTracks=7),
         "hits": PatchPostProcessing(patches=("wall", "out let"), maxStoredParcels=20),
         "gate": ParticleCollector("plane", (1.0, 2.0, 3.0), (0.0, 0.0, 1.0), resetOnWrite=True),
-        "spread": ParticleHistogram(fields=("shearExposure",), nBins=7, sampleInterval=10),
+        "spread": ParticleHistogram(fields=("shearExposure",), nBins=7),
     }
 
 

@@ -52,7 +52,6 @@ from foamprb.cloud.block import (
     accept_stage,
     at,
     choose,
-    idle_lanes,
     load3,
     load9,
     new_frames,
@@ -72,12 +71,13 @@ from foamprb.cloud.lanes import (
     ENDED,
     READY,
     WAITING,
+    begin_lanes,
     drop_unfinished,
-    empty_lanes,
     fill_lanes,
     leave,
     must_move,
     others,
+    pause,
     set_aside,
     swap_lanes,
     take_back,
@@ -99,6 +99,7 @@ from foamprb.cloud.motion import (
     share_before_contact,
     would_stick,
 )
+from foamprb.cloud.paths import is_full, record_ends, record_starts
 from foamprb.cloud.state import Particles
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import sample_linear as sample
@@ -408,15 +409,18 @@ def track_adaptive(
 
     Returns
     -------
-    The number of walks that needed the tree.
+    The number of walks that needed the tree; 0 once the table of steps is full, to go on with the same
+    ``scratch`` after it was emptied.
     """
     last = step + steps
     enough = tolerance if tolerance < math.inf else 0.0
     block, current = scratch.block, scratch.step
-    idle_lanes(block, dt)
-    empty_lanes(scratch)
+    begin_lanes(scratch, dt)
 
     while True:
+        if is_full(scratch):
+            pause(scratch)
+            return 0
         if scratch.counts[WAITING] >= LANES:
             swap_lanes(scratch, WAITING)
         moving = 0
@@ -478,6 +482,7 @@ def track_adaptive(
                 keep_short(flow, patches, medium, scratch, i, dt, tolerance)
         for i in range(LANES):
             approach(flow, patches, scratch, i, dt, tolerance)
+        record_starts(scratch)
         accept_stage(block, tolerance)
 
         for i in range(LANES):
@@ -514,6 +519,7 @@ def track_adaptive(
             at_end = reaches_end and (scratch.status[i] != ACTIVE or block[at.t * LANES + i] >= t_end)
             if at_end and block[during.held_until * LANES + i] >= current[i] + scratch.stride[i]:
                 end_tracking_steps(scratch, i)
+        record_ends(scratch)
     end_block(scratch)
     return walks_relocated(scratch)
 
@@ -703,5 +709,5 @@ def update_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) 
             leave(p, s, i)
 
 
-RARE = (fill_lanes, set_thirds_aside, swap_lanes, update_ends)
+RARE = (fill_lanes, set_thirds_aside, swap_lanes, update_ends, record_starts, record_ends)
 """Functions that few steps call, compiled as separate functions to keep the loop short."""

@@ -23,6 +23,7 @@ from foamprb.body.tensor import Scalar, Vector
 from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.layout import LANES, Layout
 from foamprb.cloud.motion import PatchTable
+from foamprb.cloud.paths import RecordedRows
 from foamprb.cloud.state import Particles
 
 __all__ = [
@@ -63,6 +64,8 @@ class Integrator(NamedTuple):
     """Parts of the loop that do not depend on the flow; each is compiled once for all flows."""
     layout: Layout
     """Layout of its block."""
+    recorded: RecordedRows
+    """Rows of its block that are recorded of each step."""
     rare: tuple[Callable[..., Any], ...] = ()
     """Parts of the loop that few steps need, compiled as separate functions; the longest comes first."""
     bindings: Mapping[str, Callable[..., Any] | int] = MappingProxyType({})

@@ -54,6 +54,7 @@ from foamprb.cloud.motion import (
     reach_end,
     release,
 )
+from foamprb.cloud.paths import RecordedRows, record_ends, record_starts
 from foamprb.cloud.state import Particles
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import sample_linear as sample
@@ -208,6 +209,8 @@ def track_block(
     recovered = 0
     block, status = scratch.block, scratch.status
     idle_lanes(block, dt)
+    for i in range(LANES):
+        scratch.member[i] = members[i] if i < len(members) else -1
     for i in range(len(members)):
         load_particle(p, members[i], scratch, i)
         if status[i] == ACTIVE:
@@ -246,6 +249,7 @@ def track_block(
         new_frames(block)
         new_integrals(block)
         barycentre_stage(block, medium)
+        record_starts(scratch)
         accept_stage(block, RELATIVE_TOLERANCE)
 
         for i in range(len(members)):
@@ -255,6 +259,7 @@ def track_block(
             x, v = load3(block, at.x, i), load3(block, at.v, i)
             goal = (x[0] + h * v[0], x[1] + h * v[1], x[2] + h * v[2])
             recovered += reach_end(flow, patches, scratch, i, goal, scratch.host[i], False, t_end, h)
+        record_ends(scratch)
     if interrupted(scratch):
         return 0
     for i in range(len(members)):
@@ -276,6 +281,7 @@ PAPER = Integrator(
     track=track_block,
     stages=(*BLOCK_STAGES, traction_stage, newton_stage, barycentre_stage, dense_newton),
     layout=layout(at),
+    recorded=RecordedRows(at.frame, at.l, at.A, in_frame=False),
     bindings={"bouncing": GOES_ON},
     stable_steps=1.5,
     refuses=_refuses,

@@ -102,6 +102,7 @@ from foamprb.cloud.integrators.adaptive import (
 from foamprb.cloud.integrators.base import Integrator, lifted
 from foamprb.cloud.layout import LANES, Row, layout, offsets
 from foamprb.cloud.motion import STOPS_AT_CONTACT
+from foamprb.cloud.paths import RecordedRows
 from foamprb.compile.link import traced
 
 
@@ -574,6 +575,7 @@ ROSENBROCK = Integrator(
         third_inertial,
     ),
     layout=layout(at, during, work),
+    recorded=RecordedRows(during.start_Q, during.start_l, at.A, in_frame=False, end_l=during.end_l),
     rare=RARE,
     bindings={
         **ADAPTIVE_BINDINGS,

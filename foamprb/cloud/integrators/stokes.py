@@ -84,6 +84,7 @@ from foamprb.cloud.integrators.adaptive import (
 )
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
+from foamprb.cloud.paths import RecordedRows
 from foamprb.compile.link import traced
 
 
@@ -375,6 +376,7 @@ STOKES = Integrator(
         end_inertialess,
     ),
     layout=layout(at, during, work),
+    recorded=RecordedRows(during.start_Q, during.start_l, work.l_s, in_frame=True, end_l=during.end_l),
     rare=RARE,
     bindings={
         **ADAPTIVE_BINDINGS,
