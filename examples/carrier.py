@@ -30,7 +30,7 @@ for mu in (thinning, thinning.at_rate(1.0)):  # by the local shear rate, and tha
     cloud = foamprb.Cloud(bodies, flow, medium, [], 0.05, foamprb.Models(integrator="stokes"))
     cloud.advance(100)
     particles = foamprb.context(bodies, flow, mu, cloud.time)
-    found.append(foamprb.measure(particles, ["muc"]))
+    found.append(foamprb.measure(particles, ["muc", "taylorDeformation"]))
 
 local, constant = found
 # Ca = τ/μ_s at any exponent, and D = 5/4 Ca for small deformations.

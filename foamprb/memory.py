@@ -9,10 +9,10 @@ import mmap
 import os
 import resource
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import DTypeLike, NDArray
+if TYPE_CHECKING:
+    from numpy.typing import DTypeLike, NDArray
 
 __all__ = ["OutOfMemory", "clear", "memory", "ran_out", "size_text", "sparse_zeros", "spread_over", "trim"]
 
@@ -62,6 +62,9 @@ def size_text(size: float) -> str:
 
 def sparse_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
     """Return zeros that take memory only where they are written."""
+    # Texts and declarations, which read the rest of this module, need no numpy.
+    import numpy as np
+
     size = math.prod(shape) * np.dtype(dtype).itemsize
     if size == 0:
         return np.zeros(shape, dtype)
@@ -74,6 +77,8 @@ def sparse_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
 
 def clear(rows: NDArray[Any]) -> None:
     """Set consecutive rows to zero; those of :func:`sparse_zeros` free their memory."""
+    import numpy as np
+
     base: Any = rows
     while isinstance(base, np.ndarray):
         base = base.base

@@ -357,7 +357,7 @@ def viscosity_of(
         return mu
     rate = np.asarray(shear_rate(tuple(l_f.T)))
     finite, mu_f = np.isfinite(rate), np.full(len(x), np.nan)
-    times = np.broadcast_to(t, len(x))[finite]
+    times = t[finite] if isinstance(t, np.ndarray) else t
     mu_f[finite] = mu.of(flow, x[finite], hosts[finite], rate[finite], times)
     return mu_f
 

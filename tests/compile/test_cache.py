@@ -371,7 +371,7 @@ class TestStages:
     @pytest.mark.usefixtures("folder")
     def test_a_stage_that_a_known_function_calls_is_there_for_another_entry(self, forget):
         """The function is found in the cache; its stage is called by nothing else."""
-        hits, outside = [], linking._key_of([f"{small_program.formed.__module__}.formed"])
+        hits, outside = [], linking.key_of([f"{small_program.formed.__module__}.formed"])
         for entry, result in ((small_program.calls_once, 3.0), (small_program.calls_again, 7.0)) * 2:
             f = link(entry, {"formula": doubled}, (small_program.calling, small_program.formed))
             values = np.ones(small_program.LANES)

@@ -130,12 +130,16 @@ def ours(gradient: Floats, ratio: float) -> float:
 
 def main() -> None:
     """Print the numbers."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter, add_help=False
+    )
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("-stokes", action="store_true", help="also in Stokes flow, which takes half an hour")
+    parsed = parser.parse_args()
     for name, gradient in FLOWS.items():
         numbers = ", ".join(f"{ours(gradient, ratio):.3f}" for ratio in (0.1, 1.0, 2.0, 3.0, 5.0))
         print(f"{name}, model, λ = 0.1, 1, 2, 3, 5: {numbers}")
-    if parser.parse_args().stokes:
+    if parsed.stokes:
         stokes("extension", 10, 24, 24)
         stokes("shear", 14, 24, 48)
 

@@ -8,7 +8,7 @@ from typing import Any, Literal, cast
 import numpy as np
 from scipy.integrate import quad
 
-from foamprb.cloudfunctions.base import Memory
+from foamprb.cloud.paths import COLUMNS, Steps, step
 from foamprb.cloudfunctions.haemolysis import Haemolysis, effective_shear_rate, index_of_haemolysis
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, compared
 from validation.references.morphology import shapes, taylor
@@ -21,16 +21,15 @@ Cell = Literal["fluid", "KelvinVoigt", "morphology"]
 def _released(constants: str, stress: Cell, rate: float, time: float, samples: int) -> Floats:
     """Return the per cent released in simple shear until each sample."""
     function = Haemolysis(constants=constants, stress=stress, mu=MU)
-    cloud = cast("Any", SimpleNamespace(particles=SimpleNamespace(size=1)))
-    l = rate * SHEAR.reshape(1, 9)
-    fluid: Memory = {"fluid": np.array([rate]), "mu": np.array([MU])}
-    fluid |= {"l": l} if stress == "morphology" else {}
-    memory = function.initial(cloud) | {"t": np.zeros(1)} | fluid
-    shares = []
+    fluid = SimpleNamespace(medium=SimpleNamespace(mu=MU), flow=None)
+    cloud = cast("Any", SimpleNamespace(particles=SimpleNamespace(size=1), cloud=fluid))
+    memory, shares = function.initial(cloud), []
+    tables, fresh = np.zeros((1, COLUMNS, 1)), np.ones(1, dtype=np.bool_)
+    for first in (step.l0, step.l1):
+        tables[0, first : first + 9, 0] = rate * SHEAR.ravel()
+    tables[0, step.t1] = time / samples
     for _ in range(samples):
-        now = {"t": memory["t"] + time / samples, **fluid}
-        function.add(memory, cloud, np.zeros(1, dtype=np.int64), now)
-        memory |= now
+        function.add(memory, cloud, Steps(tables, in_frame=False), fresh)
         shares.append(float(index_of_haemolysis(function.law, memory["dose"])[0]))
     return np.array(shares)
 

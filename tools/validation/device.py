@@ -16,7 +16,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import Gravity, PressureGradient
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
-from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
+from foamprb.flow.analytic import FunctionFlow, gap_free, normal_free, recover_free, walk_free
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
 from validation.references import soft
 
@@ -69,7 +69,7 @@ def sample_axis(flow: Axis, _host: int, x: Vector, _t: float) -> tuple[Vector, T
     return (u, across * x[1], across * x[2]), l, (0.0, 0.0, 0.0)
 
 
-def axis_flow(table: Axis) -> AnalyticFlow:
+def axis_flow(table: Axis) -> FunctionFlow:
     """Return the flow near the axis."""
     kernels: dict[str, Callable[..., Any]] = {
         "sample": sample_axis,
@@ -78,7 +78,7 @@ def axis_flow(table: Axis) -> AnalyticFlow:
         "normal": normal_free,
         "recover": recover_free,
     }
-    return AnalyticFlow(table, kernels)
+    return FunctionFlow(table, kernels)
 
 
 class Track(NamedTuple):

@@ -71,10 +71,13 @@ ReadPositions: TypeAlias = Callable[[Path, Mapping[str, Bounds]], tuple[Floats, 
 
 
 BYTES = sum(
-    (1 if v.fixed or v.optional else 2) * math.prod(v.shape) * np.dtype(v.dtype).itemsize
+    (0 if v.optional else 1 if v.fixed else 2) * math.prod(v.shape) * np.dtype(v.dtype).itemsize
     for v in VARIABLES.values()
 )
-"""Memory of a run for each particle: its state, and a copy of its variable part for the last write time."""
+"""Memory of a run for each particle: its state, and a copy of its variable part for the last write time.
+
+What only some models set is left out.
+"""
 
 
 class Places(NamedTuple):
