@@ -20,11 +20,9 @@ from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import taylor_deformation
 from foamprb.body.tensor import stretches_in_frame
-from foamprb.cloud import contact
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.communicator import Value
-from foamprb.cloud.contact import Rebounds
 from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, FlowSamples, as_slice, contexts
 from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.paths import Steps, step, tensor_of
@@ -54,7 +52,6 @@ __all__ = [
     "memory_of",
     "names_of",
     "names_of_kind",
-    "passages",
     "per_cell",
     "per_event",
     "per_particle",
@@ -277,11 +274,6 @@ def events_of(function: CloudFunction) -> str:
 def rows_of_particles(function: CloudFunction, memory: Memory) -> Memory:
     """Return the arrays with a row for each particle."""
     return {key: array for key, array in memory.items() if function.arrays[key] is per_particle}
-
-
-def passages(cloud: ObservedCloud, rows: NDArray[np.float64]) -> Iterator[tuple[Rebounds, Rebounds]]:
-    """Yield the passages of coupled patches among records, see :func:`foamprb.cloud.contact.passages`."""
-    return contact.passages(rows, [k for k, i in enumerate(cloud.cloud.interactions) if i.code == CYCLIC])
 
 
 def memory_of(memory: Mapping[str, NDArray[Any]], name: str) -> Memory:

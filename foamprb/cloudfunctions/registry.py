@@ -159,10 +159,8 @@ class CloudFunctions:
         rows = cloud.take_rebounds() if cloud.models.rebounds and self.functions else ()
         if len(rows) == 0:
             return
-        cloud.publish()
-        cloud.comm.call(Sampling.record, rows, cloud.time)
         for name, function in self.functions.items():
-            if isinstance(function, ContactObserver) and name not in self.travelling:
+            if isinstance(function, ContactObserver):
                 function.record_rebounds(self._memory[name], self._seen_by(name), np.asarray(rows))
 
     def restore(self, stored: Collection[str], read: Callable[[str], NDArray[Any]]) -> None:

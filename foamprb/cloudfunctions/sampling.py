@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from threading import Lock
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,6 @@ from foamprb.cloud.tracker import Observers
 from foamprb.cloudfunctions.base import (
     CloudFunction,
     CloudShare,
-    ContactObserver,
     Memory,
     ObservedCloud,
     PathFunction,
@@ -31,9 +30,6 @@ from foamprb.cloudfunctions.base import (
     per_particle,
 )
 from foamprb.cloudfunctions.cells import add_up, no_sums
-
-Observe: TypeAlias = Callable[[Any, Memory, ObservedCloud], None]
-"""Lets a function observe particles: its data of them changes."""
 
 
 class CellSums(NamedTuple):
@@ -135,17 +131,6 @@ class Sampling:
     ) -> None:
         with lock:
             add_up(sums, cells, values, scale)
-
-    @staticmethod
-    def record(rank: Rank, rows: NDArray[np.float64], time: float) -> None:
-        """Let the functions whose data go with the particles record rebounds of a rank's particles."""
-        here, at = rank.find(rows[:, 0].astype(np.int64))
-        local = np.column_stack([at, rows[here, 1:]])
-        sampling: Sampling = rank.sampling
-        cloud = sampling.cloud(rank, rank.particles, time)
-        for name, function in sampling.functions.items():
-            if isinstance(function, ContactObserver):
-                function.record_rebounds(memory_of(rank.share.memory, name), cloud, local)
 
     @staticmethod
     def take_events(rank: Rank) -> Memory:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import logging
 import os
-import pickle
 import shutil
 import tempfile
 import time
@@ -64,7 +63,7 @@ class PreparedTimes:
             except OSError as error:
                 raise InputError(f"-cache {folder}: this folder cannot be made: {error.strerror}.") from error
             geometry = (getattr(mesh, name) for name in _GEOMETRY)
-            self._key = _hash(_code(), *geometry, pickle.dumps((mesh.patches, mesh.couplings)))
+            self._key = _hash(_code(), *geometry, mesh.patches, mesh.couplings)
 
     def get(self, values: Sequence[Any], make: Callable[[], Values]) -> Values:
         """Return u, ∇u and fluxes from disk, else as they are made, and keep them there.
@@ -138,7 +137,9 @@ def _hash(*values: Any) -> str:
             digest.update(f"{value.dtype.str}{value.shape}".encode())
             digest.update(np.ascontiguousarray(value).view(np.uint8).data)
         else:
-            content = _hash(*value) if isinstance(value, tuple) else value
+            # The order of a set differs from process to process.
+            items = sorted(value) if isinstance(value, frozenset) else value
+            content = _hash(*items) if isinstance(items, tuple | list) else items
             digest.update(content if isinstance(content, bytes) else repr(content).encode())
     return digest.hexdigest()
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from collections import namedtuple
 
 import numpy as np
@@ -132,3 +134,16 @@ def test_no_folder_and_no_case_are_refused(case, source, capsys):
     )
     with pytest.raises(InputError, match="-cache keeps flows of cases only"):
         read_mesh(case, "latestTime", FlowSource(cache=source.cache, file=case / "a.vtu"))
+
+
+def test_names_of_files_do_not_depend_on_the_process():
+    """Though the order of a set of words does."""
+    script = "from foamprb.flow.read.prepared import _hash; print(_hash((frozenset(map(str, range(20))),)))"
+    names = {
+        subprocess.run(
+            [sys.executable, "-c", script], check=True, capture_output=True, text=True,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        ).stdout
+        for seed in "123"
+    }  # fmt: skip
+    assert len(names) == 1
