@@ -35,7 +35,7 @@ from foamprb.results.atomic import atomic_write
 
 log = logging.getLogger("foamprb")
 
-VERSION = 12
+VERSION = 13
 PARTICLES, FUNCTIONS = "particles/", "functions/"
 """Prefixes of array names: particle state, cloud-function data."""
 MOST_FILES = 2

@@ -164,8 +164,10 @@ def _text_of(settings: Settings) -> dict[str, Any]:
         text = settings.file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
         text = ""
-    overrides = {"overrides": dict(settings.overrides)} if settings.overrides else {}
-    return {"file": settings.file.name, "text": text, **overrides}
+    further = {"overrides": dict(settings.overrides), "libs": dict(settings.libs)}
+    return {
+        "file": settings.file.name, "text": text, **{key: value for key, value in further.items() if value}
+    }  # fmt: skip
 
 
 def _written(selected: Mapping[str, object]) -> dict[str, str]:

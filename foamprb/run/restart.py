@@ -47,7 +47,7 @@ Fingerprint: TypeAlias = dict[str, str | Sums]
 
 # Settings without effect on the physics, and settings that the cloud's own fields represent.
 _LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching", "overrides")
-_PARTICLES = "particles at the start"
+_PARTICLES, _LIBS = "particles at the start", "libs/"
 _MOST_NAMED = 6
 _RELATIVE, _OF_LARGEST = 1e-9, 1e-13
 _CHUNK = 1 << 18
@@ -55,7 +55,7 @@ _CHUNK = 1 << 18
 
 def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     """Return texts and sums of arrays, by name, that determine the paths of a cloud before its first step."""
-    texts: dict[str, Any] = {"solution/deltaT": cloud.dt}
+    texts: dict[str, Any] = {"foamprb": version("foamprb"), "solution/deltaT": cloud.dt}
     # All files of a run have the same arrays.
     texts |= {"solution/writeFields": f"({' '.join(settings.solution.writeFields)})"}
     texts |= {"solution/writePrecision": settings.solution.writePrecision}
@@ -127,7 +127,6 @@ def checkpoint_of(
         :func:`sums_around` at its time.
     """
     header = {
-        "foamprb": version("foamprb"),
         "step": cloud.step,
         "recovered": cloud.recovered,
         "reach": cloud.reach,
@@ -228,7 +227,7 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoin
     Raises
     ------
     InputError
-        If another version of foamprb, or a run with other cloud functions, wrote the checkpoint.
+        If the checkpoint has other arrays, or is that of a run with other cloud functions.
     """
     header, n = checkpoint.header, cloud.size
     layout = {
@@ -237,8 +236,8 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoin
     }
     if {name: shape for name, shape in checkpoint.layout.items() if name.startswith(PARTICLES)} != layout:
         raise InputError(
-            f"{where}: foamprb {header['foamprb']} wrote the checkpoint, with other variables than those of "
-            f"foamprb {version('foamprb')}. Start over: -overwrite, or startFrom startTime."
+            f"{where}: the checkpoint has other arrays of particles than this version of foamprb writes. "
+            "Start over: -overwrite, or startFrom startTime."
         )
     stored = [name.removeprefix(FUNCTIONS) for name in checkpoint.layout if name.startswith(FUNCTIONS)]
     functions.restore(stored, lambda name: checkpoint.read(f"{FUNCTIONS}{name}"))
@@ -372,7 +371,8 @@ def _differences(old: Mapping[str, str | Sums], new: Mapping[str, str | Sums]) -
         before, now = old.get(name, "absent"), new.get(name, "absent")
         if isinstance(before, str) and isinstance(now, str):
             if before != now:
-                changed.append(f"{name} was {before}, is {now}")
+                is_changed = name.startswith(_LIBS) and "absent" not in (before, now)
+                changed.append(f"{name} has changed" if is_changed else f"{name} was {before}, is {now}")
         elif isinstance(before, str) or isinstance(now, str) or not _agree(before, now):
             changed.append(f"{name} has changed")
     # Other settings mean other particles: that they differ needs no word then.

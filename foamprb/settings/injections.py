@@ -318,7 +318,7 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
 def _solid_entries(dictionary: Dictionary) -> dict[str, Any]:
     """Read the entries of one ``solid``, as far as it has them; of the stiffness only one."""
     third = parameters()
-    mistakes = Mistakes()
+    mistakes, values = Mistakes(), dict[str, Any]()
     with mistakes:
         solid = read_entries(Solid, dictionary, also=third)
         values = {name: getattr(solid, name) for name in names_of(Solid) if name in dictionary.entries}

@@ -55,12 +55,16 @@ def require_inside(files: Iterable[Path], case: Path) -> None:
             )
 
 
-def load_libs(files: Iterable[Path]) -> None:
+def load_libs(files: Iterable[Path]) -> list[str]:
     """Run Python files, which add solids, forces and surroundings, and compile the solids and forces.
 
     They call :func:`foamprb.add_material`, :func:`foamprb.add_force` and :func:`foamprb.add_surrounding`. An
     unchanged file is not run again; the earlier models of a changed file are removed. Models of files of
     other cases stay, but for those that have the name of a model of these files.
+
+    Returns
+    -------
+    The SHA-256 of each file.
 
     Raises
     ------
@@ -83,6 +87,7 @@ def load_libs(files: Iterable[Path]) -> None:
     finally:
         for (kind, name), model in before.items():
             _REGISTRIES[kind].setdefault(name, model)
+    return [_loaded[path][0] for path in paths]
 
 
 def _load(path: Path) -> None:

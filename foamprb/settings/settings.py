@@ -157,6 +157,8 @@ class Settings:
     region: str = ""
     overrides: Mapping[str, str] = field(default_factory=dict)
     """Texts that replace entries of the file, by path."""
+    libs: Mapping[str, str] = field(default_factory=dict)
+    """SHA-256 of each Python file of ``libs``, by its name."""
 
 
 def read_settings(
@@ -210,7 +212,7 @@ def read_settings(
     files = read_entry(root, "libs", Files) if "libs" in root.entries else ()
     if not outside_libs:
         require_inside(files, case)
-    load_libs(files)
+    libs = dict(zip((_name_of(file, case) for file in files), load_libs(files), strict=True))
     mistakes = Mistakes()
     with mistakes:
         read_entries(CloudProperties, root)
@@ -273,7 +275,14 @@ def read_settings(
         shape=models.shapeModel,
         region=region,
         overrides=texts,
+        libs=libs,
     )
+
+
+def _name_of(file: Path, case: Path) -> str:
+    """Return the name of a file as an entry gives it."""
+    constant = case / "constant"
+    return str(file.relative_to(constant) if file.is_relative_to(constant) else file)
 
 
 def _section(dictionary: Dictionary, key: str) -> Dictionary:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import hashlib
+import json
 import os
 import pickle
 import re
@@ -18,7 +20,7 @@ from foam_writer import put_linear
 from hypothesis import given
 from hypothesis import strategies as st
 from paths import ROOT
-from pipe_case import END, copy_of_pipe, edit, fates, results, short_case, stop_after
+from pipe_case import END, copy_of_pipe, edit, fates, message, results, short_case, stop_after
 
 import foamprb
 from foamprb import Cloud, InputError, Medium, Models, analytic, spheres
@@ -261,6 +263,11 @@ def test_run_with_a_users_solid_and_shape(tmp_path, capsys):
     assert len(rows) == 1
     np.testing.assert_allclose(float(rows[0]["a"]) / float(rows[0]["c"]), 2.0, rtol=1e-3)
     assert foamprb.add_material is add_material
+    record = json.loads((case / "postProcessing/softCloud/run.json").read_text())
+    assert record["settings"]["libs"] == {"rubber.py": hashlib.sha256(FUNG.encode()).hexdigest()}
+    # As each run of a study does.
+    edit(case, '"stiffening", 0.0', '"stiffening", 0.1', "constant/rubber.py")
+    assert "else: libs/rubber.py has changed. Undo" in message(case, capsys, "-resume")
 
 
 @pytest.mark.parametrize("link", [False, True])
