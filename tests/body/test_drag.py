@@ -62,7 +62,10 @@ def test_resistance_grows_with_the_body_and_lies_between_spheres(axes):
     assert (found >= 6 * np.pi * min(axes) * (1 - 1e-12)).all()
     assert (found <= 6 * np.pi * max(axes) * (1 + 1e-12)).all()
     # The longer an axis, the smaller the resistance along it.
-    assert (np.argsort(found) == np.argsort(-np.array(axes))).all() or len(set(axes)) < 3
+    axes = np.array(axes)
+    longer = axes[:, None] > axes
+    smaller = found[:, None] <= found * (1 + 1e-12)
+    assert smaller[longer].all()
 
 
 @given(stretches)

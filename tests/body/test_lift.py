@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from foamprb.body.lift import SAFFMAN, lift_coefficient, lifted_slip, mei_factor
+from foamprb.body.lift import SAFFMAN, lift_coefficient, lift_force, lifted_slip, mei_factor
 
 R, SLIP, RATE, RHO, MU = 25e-6, 1e-3, 1000.0, 1000.0, 1e-3
 AXES = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
@@ -34,6 +34,14 @@ def test_openfoam_writes_the_same_force():
     volume = 4.0 / 3.0 * math.pi * R**3
     theirs = volume * RHO * 3.0 / (2.0 * math.pi * math.sqrt(Re_w)) * SAFFMAN * mei_factor(Re, Re_w)
     assert lift_coefficient(0.1, RATE, R, RHO, MU) == pytest.approx(theirs, rel=1e-12, abs=0.0)
+
+
+def test_lift_is_perpendicular_to_vorticity_and_slip():
+    w, omega = np.array([SLIP, 2e-4, -3e-4]), np.array([100.0, 300.0, -RATE])
+    L = lift_coefficient(np.linalg.norm(w), np.linalg.norm(omega), R, RHO, MU)
+    np.testing.assert_allclose(
+        lift_force(tuple(w), tuple(omega), R, RHO, MU), L * np.cross(omega, w), rtol=1e-12
+    )
 
 
 def test_drag_balances_load_and_lift_on_an_ellipsoid():

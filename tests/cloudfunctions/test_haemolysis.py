@@ -36,6 +36,7 @@ from foamprb.cloudfunctions.haemolysis import (
     effective_shear_rate,
     index_of_haemolysis,
     pore_area,
+    relaxed,
 )
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
@@ -157,6 +158,15 @@ def test_a_cell_remembers_a_pulse(stress, expected):
     pulse = [(20500.0, 0.005), (0.0, 1.0)]
     assert exposed(function, pulse) == pytest.approx(expected, rel=2e-4)
     assert exposed(function, pulse, samples=3) == pytest.approx(expected, rel=2e-3)
+
+
+def test_the_shear_rate_of_a_cell_follows_a_ramp():
+    """dG/dt = f₁ (G_f − G) with a linear G_f, against an integrator of differential equations."""
+    start, end, h, f1 = 200.0, 1400.0, 0.3, 5.0
+    solution = solve_ivp(
+        lambda t, G: f1 * (start + (end - start) * t / h - G), (0.0, h), [50.0], rtol=1e-10, atol=1e-10
+    )
+    assert relaxed(50.0, start, end, h, f1) == pytest.approx(solution.y[0, -1], rel=1e-8)
 
 
 def test_pores_are_of_the_order_of_the_power_law_of_the_same_experiments():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -35,9 +34,14 @@ def tree(entry: object) -> object:
 @given(st.text(st.sampled_from('abc1.$:#{}()[];"/*\\ \n')) | st.text())
 def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     folder = tmp_path_factory.getbasetemp()
-    (folder / "dictionary").write_bytes(text.encode("utf-8", errors="surrogatepass"))
-    with contextlib.suppress(InputError):
-        read_dictionary(folder / "dictionary", folder)
+    file = folder / "dictionary"
+    file.write_bytes(text.encode("utf-8", errors="surrogatepass"))
+    try:
+        entries = read_dictionary(file, folder)
+    except InputError as error:
+        assert "dictionary" in str(error)  # noqa: PT017
+    else:
+        assert isinstance(tree(entries), dict)
 
 
 @pytest.mark.parametrize(

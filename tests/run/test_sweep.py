@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -133,6 +134,11 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
         "Distribution of residence time",
     ):
         assert text in page
+    for name, run in runs.items():
+        fates = run.table()
+        D = fates["D"][fates["fate"] != "pending"]
+        last = "".join(f'<td class="n">{np.quantile(D, share):.4g}</td>' for share in (0.5, 0.95))
+        assert re.search(rf"<tr><t[dh][^>]*>{name}</t[dh]>(?:(?!</tr>).)*{last}</tr>", page)
 
 
 def test_one_run_of_a_job_array(case, tmp_path, capsys):

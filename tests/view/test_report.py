@@ -194,6 +194,24 @@ def test_a_floor_stays_in_its_plane_and_its_particles_where_they_are():
     assert (found.edges[0][i], found.edges[1][j]) == pytest.approx((0.9, 0.4), abs=0.5)
 
 
+@pytest.mark.parametrize(("along", "across"), [(0, 1), (1, 0), (1, 2), (2, 1), (2, 0), (0, 2)])
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_wall_is_not_mirrored_and_its_bins_have_their_areas(along, across, turned):
+    """Coordinates grow with those of the case; density times the area of a bin is its particles."""
+    points = np.zeros((4, 3))
+    points[:, along], points[:, across] = [0.0, 3.0, 3.0, 0.0], [0.0, 0.0, 1.0, 1.0]
+    triangles = np.array([[0, 2, 1], [0, 3, 2]])
+    floor = Surface("floor", "wall", points, triangles[:, ::-1] if turned else triangles)
+    random = np.random.default_rng(3)
+    x = np.zeros((400, 3))
+    x[:, along], x[:, across] = random.uniform(0.0, 3.0, 400), random.beta(2.0, 5.0, 400)
+    wall = deposits(floor, x)
+    np.testing.assert_allclose(wall.points, x[:, [along, across]] - [1.5, 0.5], atol=0.01)
+    counts = np.histogram2d(*wall.points.T, bins=wall.edges)[0]
+    areas = np.outer(np.diff(wall.edges[0]), np.diff(wall.edges[1]))
+    np.testing.assert_allclose(wall.density * areas, counts, rtol=0.1)
+
+
 @pytest.mark.parametrize("record", ['{"warnings": 3}', '{"versions": 1}'])
 def test_an_edited_record_is_one_message(case, record):
     file = case / "postProcessing/softCloud/run.json"

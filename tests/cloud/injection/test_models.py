@@ -380,6 +380,18 @@ class TestPatch:
         assert stats.kstest(p.x[:, 0], lambda x: np.clip(x, 0.0, 1.0) ** 2).pvalue > 0.01
         assert stats.kstest(p.x[:, 1], "uniform").pvalue > 0.01
 
+    def test_a_large_face_gets_as_many_more_particles(self):
+        """In a uniform inflow through faces whose widths are 1 : 3."""
+        shape = block(2, 0.0)
+        patches = box_patches(shape)
+        for points in (shape.points, *(patch.surface.points for patch in patches)):
+            points[:, 0] = points[:, 0] ** 2
+        mesh = build_mesh(shape, patches)
+        u = np.tile([0.0, 0.0, -1.0], (len(mesh.nodes), 1))
+        flow = MeshFlow(mesh, u, np.zeros((len(u), 3, 3)))
+        p = release(PatchInjection("lid", 4000.0, 1.0), flow, rng(), no_file)
+        assert stats.kstest(p.x[:, 0], "uniform").pvalue > 0.01
+
     def test_the_first_appears_at_once_and_the_others_at_even_times(self, lid_flow):
         p = release(PatchInjection("lid", 40.0, 0.25, SOI=0.5), lid_flow, rng(), no_file)
         assert p.t0 == pytest.approx([0.5 + k / 40.0 for k in range(10)], abs=1e-15)

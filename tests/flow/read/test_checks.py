@@ -82,6 +82,8 @@ def test_a_plane_is_one_whatever_its_place_and_size(scale, away, tmp_path):
     types = ("symmetryPlane", "symmetryPlane", "wall")
     require_patch_shapes(plate(3, lean=0.3, types=types, scale=scale, away=away), tmp_path)
     require_patch_shapes(plate(1, scale=scale, away=away), tmp_path)
+    with pytest.raises(InputError, match="not planar"):
+        require_patch_shapes(plate(3, 0.1, 0.3, types, scale, away), tmp_path)
 
 
 def test_empty_patches_of_several_layers_are_refused(tmp_path):

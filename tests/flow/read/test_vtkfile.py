@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -60,12 +61,17 @@ def test_what_says_no_number_is_left_to_vtk(text, tmp_path):
     path = tmp_path / "flow.vtk"
     path.write_text(HEAD + text)
     vtkfile._require_whole(path)
+    path.write_text(HEAD + text + "POINTS 1 double\n0 0\n")
+    with pytest.raises(InputError, match="POINTS has 2 values, not 3"):
+        vtkfile._require_whole(path)
 
 
-def test_a_binary_file_is_left_to_vtk(tmp_path):
+def test_only_a_file_in_text_is_counted(tmp_path):
     path = tmp_path / "flow.vtk"
-    path.write_text(HEAD.replace("ASCII", "BINARY") + "POINTS 3 double\n0 0 0\n")
-    vtkfile._require_whole(path)
+    for kind, counted in (("ASCII", True), ("BINARY", False)):
+        path.write_text(HEAD.replace("ASCII", kind) + "POINTS 3 double\n0 0 0\n")
+        with pytest.raises(InputError, match="3 values, not 9") if counted else nullcontext():
+            vtkfile._require_whole(path)
 
 
 def test_the_times_of_a_series_rise(tmp_path):
