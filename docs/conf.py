@@ -13,7 +13,7 @@ HERE = Path(__file__).parent
 ROOT = HERE.parent
 
 project = "foamprb"
-author = "The authors of foamprb"
+author = "The foamprb developers"
 release = version = version_of("foamprb")
 extensions = [
     "myst_nb",
@@ -43,7 +43,7 @@ html_theme_options: dict[str, Any] = {
     "footer_start": ["copyright"],
     "footer_end": [],
 }
-copyright = "The authors of foamprb. GPL-3.0-or-later"  # noqa: A001
+copyright = "The foamprb developers. GPL-3.0-or-later"  # noqa: A001
 copybutton_exclude = ".linenos, .gp, .go"
 
 # Notebooks are executed when the site is built, and again when they change. Without this variable their
