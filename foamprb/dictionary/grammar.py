@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import gzip
+import logging
 import os
 import re
 import zlib
 from collections.abc import Callable, Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
 from foamprb.dictionary.files import existing
+from foamprb.dictionary.mistakes import Mistake
 from foamprb.dictionary.tree import CaseFile, Dictionary, DictionaryList, Entry, Stream, real, unquoted
 from foamprb.errors import InputError, suggestion
 
 __all__ = ["parse_dictionary", "read_dictionary", "read_dictionary_list"]
 
+log = logging.getLogger("foamprb")
 
-def read_dictionary(path: Path, case: Path) -> Dictionary:
+
+def read_dictionary(path: Path, case: Path, warn: bool = False) -> Dictionary:
     """Read a file in OpenFOAM's dictionary format, with macros and includes.
 
     These macros and directives are expanded:
@@ -38,6 +42,8 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
         The file.
     case
         The case: messages name files relative to it, and ``$FOAM_CASE`` and ``<case>`` in an include mean it.
+    warn
+        Whether to warn of entries that stand twice in a dictionary, in one file.
 
     Raises
     ------
@@ -48,6 +54,8 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     root = Dictionary("", None, source, 0)
     text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
     _Parser(source, text, (), spent).fill(root)
+    for repeated in spent.repeated if warn else ():
+        log.warning("%s", repeated)
     root.entries.pop(_HEADER, None)
     return root
 
@@ -101,6 +109,8 @@ class _Spent:
     bytes: int = 0
     files: int = 0
     words: int = 0
+    repeated: list[Mistake] = field(default_factory=list)
+    """Entries that stand twice in a dictionary."""
 
 
 def _read_text(path: Path, spent: _Spent, mistake: Callable[[str], InputError]) -> str:
@@ -183,6 +193,7 @@ class _Parser:
 
     def fill(self, dictionary: Dictionary, opened: _Token | None = None) -> None:
         """Read entries into a dictionary, up to its closing brace or the end of the file."""
+        lines: dict[str, int] = {}
         while True:
             token = self.take()
             if token.text == ("}" if opened else ""):
@@ -200,7 +211,13 @@ class _Parser:
             elif token.text in _MARKS:
                 raise self.mistake(token, "stands where a key is expected.")
             else:
-                dictionary.add(self.entry(token, dictionary))
+                entry = self.entry(token, dictionary)
+                if entry.key in lines:
+                    how = "both are merged" if isinstance(entry, Dictionary) else "the last one counts"
+                    what = f"stands in line {lines[entry.key]} too: {how}."
+                    self.spent.repeated.append(entry.mistake(what))
+                lines[entry.key] = entry.line
+                dictionary.add(entry)
 
     def entry(self, key: _Token, parent: Dictionary) -> Entry:
         """Read the value after a key."""

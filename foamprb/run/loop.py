@@ -7,8 +7,11 @@ import time as clock
 from collections.abc import Callable
 from contextlib import nullcontext
 
-from foamprb.cloud.cloud import Cloud, Stepper
-from foamprb.cloud.state import Status
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.cloud import Cloud, Stepper, explain
+from foamprb.cloud.state import Particles, Reason, Status
 from foamprb.distributed.launch import caught_signals
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.results.folder import FAILURES
@@ -127,10 +130,18 @@ def _failing(job: Job) -> str:
     injected = sum(counts.values()) - counts[Status.PENDING]
     if counts[Status.FAILED] <= most * injected:
         return ""
+    cloud, numbers = job.cloud, np.sum(job.cloud.map_ranks(_reasons_of), axis=0)
+    why = explain(int(np.argmax(numbers)), cloud.models, cloud.limits)
     return (
-        f"{counts[Status.FAILED]} of {injected} particles have failed at t = {job.cloud.time:.12g} s, more "
-        f"than maxFailedFraction {most:g} allows; {job.folder.table(FAILURES)} says why."
+        f"{counts[Status.FAILED]} of {injected} particles have failed at t = {cloud.time:.12g} s, more than "
+        f"maxFailedFraction {most:g} allows; {np.max(numbers)} of them: {why}. {job.folder.table(FAILURES)} "
+        "lists all."
     )
+
+
+def _reasons_of(p: Particles) -> NDArray[np.int64]:
+    """Return the number of failed particles for each reason."""
+    return np.bincount(p.reason[p.status == Status.FAILED], minlength=len(Reason))
 
 
 def _moving(cloud: Cloud) -> int:

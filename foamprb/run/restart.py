@@ -316,7 +316,8 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
     """Give the values in nested dataclasses by their paths; for a file its name, wherever it lies."""
     if is_dataclass(value):
         for field in fields(value):
-            yield from _leaves(f"{name}/{field.name}", getattr(value, field.name))
+            if field.compare:
+                yield from _leaves(f"{name}/{field.name}", getattr(value, field.name))
     elif isinstance(value, Mapping):
         for key, item in value.items():
             # A model without entries is more than none.

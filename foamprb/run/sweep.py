@@ -117,7 +117,11 @@ def read_study(path: Path) -> Study:
         raise InputError(
             f'{path}: no entries. Needed: [entries], and in it "solution/deltaT" = [1e-5, 2e-5], for example.'
         )
-    values = {name: _values(path, name, value) for name, value in _flat(entries)}
+    values: dict[str, tuple[object, ...]] = {}
+    for name, value in _flat(entries):
+        if name in values:
+            raise InputError(f"{path}: entries has {name} twice, in quotes and as a table. Keep one.")
+        values[name] = _values(path, name, value)
     study = Study(
         path,
         path.parent / (words["case"] or "."),

@@ -244,7 +244,7 @@ def read_medium(
 
 def read_gravity(case: Path, region: str) -> Vector3:
     """Read g, m/s2."""
-    root = read_dictionary(case / of_region(case, region, "g"), case)
+    root = read_dictionary(case / of_region(case, region, "g"), case, warn=True)
     if "dimensions" in root.entries:
         read_entry(root, "dimensions", Acceleration)
     g: Vector3 = read_entry(root, "value", AccelerationVector)

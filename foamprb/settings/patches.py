@@ -6,9 +6,10 @@ A new patch interaction model is a function from its ``…Coeffs`` to rules and 
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
@@ -34,6 +35,8 @@ __all__ = [
     "read_patch_interaction",
 ]
 
+log = logging.getLogger("foamprb")
+
 Touching: TypeAlias = Literal["ellipsoid", "centre"]
 """Part of a particle that touches a wall."""
 
@@ -45,6 +48,8 @@ class PatchRule:
     pattern: str
     interaction: Interaction
     regex: bool = False
+    line: int = field(default=0, compare=False)
+    """Line in the file of the settings."""
 
     def matches(self, word: str) -> bool:
         """Return whether the whole ``word`` equals or matches the pattern."""
@@ -124,7 +129,7 @@ def patch_rule(dictionary: Dictionary) -> PatchRule:
             re.compile(pattern)
         except re.error as error:
             raise dictionary.mistake(f"is not a regular expression: {error}.") from error
-    return PatchRule(pattern, read_model(INTERACTIONS, dictionary), regex)
+    return PatchRule(pattern, read_model(INTERACTIONS, dictionary), regex, dictionary.line)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -218,7 +223,21 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
         with mistakes:
             interactions.append(_interaction(rules, patch, file, where))
     mistakes.raise_any()
+    for rule in rules:
+        if isinstance(rule, PatchRule):
+            _warn_if_hidden(rule, rules, patches, where)
     return interactions
+
+
+def _warn_if_hidden(rule: PatchRule, rules: Sequence[Rule], patches: Sequence[Patch], where: str) -> None:
+    """Warn of a rule that counts for no patch, but for a pattern after the names of all that it matches."""
+    counting = [_rule_of(rules, patch) for patch in patches if applies(rule, patch)]
+    others = [r for r in counting if isinstance(r, PatchRule) and (r.regex or not rule.regex)]
+    if others and not any(r is rule for r in counting):
+        log.warning(
+            "%s/%s, line %d, has no effect: %s in line %d matches first.",
+            where, rule.pattern, rule.line, others[0].pattern, others[0].line,
+        )  # fmt: skip
 
 
 def patch_interactions(
@@ -245,11 +264,9 @@ def patch_interactions(
 
 
 def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
-    kind = patch.kind
-    for rule in rules:
-        is_named = rule == PatchRule(patch.name, rule.interaction)
-        if is_named or (applies(rule, patch) and kind is not PatchKind.PASSABLE):
-            return rule.interaction
+    kind, rule = patch.kind, _rule_of(rules, patch)
+    if rule is not None:
+        return rule.interaction
     if kind is PatchKind.PASSABLE:
         return Cyclic()
     if kind in (PatchKind.MIRROR, PatchKind.FACELESS):
@@ -263,6 +280,15 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
             f"Give it an entry of its own ({', '.join(INTERACTIONS)})."
         )
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
+
+
+def _rule_of(rules: Sequence[Rule], patch: Patch) -> Rule | None:
+    """Return the rule that counts for a patch, if there is one."""
+    for rule in rules:
+        is_named = rule == PatchRule(patch.name, rule.interaction)
+        if is_named or (applies(rule, patch) and patch.kind is not PatchKind.PASSABLE):
+            return rule
+    return None
 
 
 def applies(rule: Rule, patch: Patch) -> bool:

@@ -206,7 +206,7 @@ def read_settings(
             f"{f' -region {region}' if region else ''} writes {_DICTIONARY} for a case; or name another file "
             "with -dict."
         )
-    root = read_dictionary(file, case)
+    root = read_dictionary(file, case, warn=True)
     texts = override(root, overrides or {})
     # Other entries may name solids from these files.
     files = read_entry(root, "libs", Files) if "libs" in root.entries else ()

@@ -136,7 +136,7 @@ class Solution:
         float,
         Fraction,
         Meaning("the run ends when a larger share of the injected particles has failed", "1"),
-    ] = 1.0
+    ] = 0.5
     maxStretch: Annotated[
         float, _ABOVE_ONE, Meaning("a particle with a larger stretch from its shape at rest fails", "1")
     ] = Limits.maxStretch

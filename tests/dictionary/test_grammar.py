@@ -31,6 +31,21 @@ def tree(entry: object) -> object:
     return entry.text
 
 
+def test_entries_that_stand_twice_in_a_file_are_named(tmp_path, caplog):
+    """Those of a macro or another file are meant to be replaced."""
+    (tmp_path / "other").write_text("nu 1;")
+    text = 'base { a 1; }\n#include "other"\nnu 2; nu 3;\nx { $base; a 2; }\ny { d 1; }\ny { d 2; }'
+    (tmp_path / "dictionary").write_text(text)
+    read_dictionary(tmp_path / "dictionary", tmp_path)
+    assert not caplog.messages
+    root = read_dictionary(tmp_path / "dictionary", tmp_path, warn=True)
+    assert caplog.messages == [
+        "dictionary, line 3: nu stands in line 3 too: the last one counts.",
+        "dictionary, line 6: y stands in line 5 too: both are merged.",
+    ]
+    assert tree(root) == {"base": {"a": "1"}, "nu": "3", "x": {"a": "2"}, "y": {"d": "2"}}
+
+
 @given(st.text(st.sampled_from('abc1.$:#{}()[];"/*\\ \n')) | st.text())
 def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     folder = tmp_path_factory.getbasetemp()

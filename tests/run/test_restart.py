@@ -324,8 +324,13 @@ def results_so_far(case: Path) -> dict[str, bytes]:
 
 def test_too_many_failures_end_the_run_with_its_results(case, capsys):
     edit(case, r"deltaT\s+\S+;", "deltaT 0.001;")
-    edit(case, r"endTime\s+\S+;", f"endTime {END};\n maxFailedFraction 0.1;")
-    text = message(case, capsys)
+    edit(case, r"endTime\s+\S+;", f"endTime {END};")
+    assert "maxFailedFraction 0.5 allows; " in message(case, capsys)
+    edit(case, r"endTime\s", "maxFailedFraction 0.1;\n endTime ")
+    text = message(case, capsys, "-overwrite")
+    assert re.search(
+        r"allows; \d+ of them: its volume ratio J left \[1/8, 8\] \(Δt beyond stability\?\)\.", text
+    )
     failed, injected = map(int, re.search(r"(\d+) of (\d+) particles have failed", text).groups())
     assert failed > 0.1 * injected
     folder = case / "postProcessing/softCloud"
@@ -333,7 +338,7 @@ def test_too_many_failures_end_the_run_with_its_results(case, capsys):
     assert (folder / "fates.csv").exists()
     # Still too many.
     assert text.split(";")[0] == message(case, capsys, "-resume").split(";")[0]
-    edit(case, r"maxFailedFraction\s+\S+;", "")
+    edit(case, r"maxFailedFraction\s+\S+;", "maxFailedFraction 1;")
     go_on(case)
     allowed = results(case)
     assert main(["run", "-case", str(case), "-overwrite"]) == 0

@@ -67,6 +67,7 @@ def test_names_of_entries_are_as_long_as_they_must_be(tmp_path):
         ("case = 1", "case is 1. Allowed: a text in quotes"),
         ("", r"no entries. Needed: \[entries\]"),
         ("[entries]\na = []", "a has no values"),
+        ('[entries]\n"a/b" = [1, 2]\na.b = [3, 4]', "entries has a/b twice, in quotes and as a table"),
         ("[entries]\na = { from = 1, number = 2 }", "a range needs from and to, two numbers"),
         (
             "[entries]\na = { from = 1, to = 2, number = 1 }",

@@ -45,6 +45,18 @@ def test_the_first_rule_that_matches_counts(rules: list[PatchRule], expected: li
     assert match_patches(rules, [patch("in"), patch("out"), patch("side", "wall")]) == expected
 
 
+def test_an_entry_behind_a_pattern_that_hides_it_is_named(caplog: pytest.LogCaptureFixture) -> None:
+    """A pattern behind names is for the other patches of a mesh."""
+    patches = [patch("in"), patch("out")]
+    match_patches(
+        [PatchRule("in", Stick()), PatchRule("out", Stick()), PatchRule(".*", Stick(), True)], patches
+    )
+    assert not caplog.messages
+    match_patches([PatchRule(".*", Stick(), True, 7), PatchRule("out", Escape(), line=9)], patches)
+    (said,) = caplog.messages
+    assert said.endswith("patches/out, line 9, has no effect: .* in line 7 matches first.")
+
+
 def test_patches_of_a_constraint_type() -> None:
     planes = [patch(name, name) for name in ("empty", "symmetry", "symmetryPlane", "wedge")]
     assert match_patches([], planes) == [Mirror()] * 4

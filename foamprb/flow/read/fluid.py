@@ -168,7 +168,7 @@ def read_viscosity(
     InputError
         The viscosity is missing or of another kind; or it depends on a temperature that is not known.
     """
-    root = read_dictionary(file, case)
+    root = read_dictionary(file, case, warn=True)
     here = _Fields(case, region, time, transient)
     generalised = _generalised(case, region)
     if "thermoType" in root.entries or "mixture" in root.entries:

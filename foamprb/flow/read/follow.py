@@ -7,11 +7,15 @@ longer change.
 
 from __future__ import annotations
 
+import hashlib
 import math
 import time as clock
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from typing import NamedTuple
+
+import xxhash
 
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.schema import read_entry
@@ -73,15 +77,16 @@ class FollowedCase:
         self._roots: list[Path] = []
         self._listed: set[str] = set()
         """All times of earlier looks."""
-        self._stamps: dict[str, int | None] = {}
-        """When each complete time was written, ns; None if it is not known."""
+        self._stamps: dict[str, dict[str, _Stamp]] = {}
+        """States of the files of each complete time."""
         self._seen: tuple[object, float] = (), 0.0
 
     def require_unchanged(self, names: Iterable[str]) -> None:
         """Raise InputError if the solver has written complete times again."""
         for name in names:
-            now, then = _stamp(self._roots[0] / name), self._stamps[name]
-            if now is not None and then is not None and now != then:
+            then = self._stamps[name]
+            self._stamps[name] = now = self._stamp(name)
+            if any(now[file].checksum != then[file].checksum for file in now.keys() & then.keys()):
                 raise InputError(self._returned(f"the time {name} was written again"))
 
     def look(self) -> None:
@@ -108,7 +113,7 @@ class FollowedCase:
             lagging = name == written[-1] or self._roots[0].name.startswith("processors")
             if lagging and not self._is_settled(name):
                 break
-            self._stamps[name] = _stamp(self._roots[0] / name)
+            self._stamps[name] = self._stamp(name)
             self.times.append(name)
         _, _, end = (self._selection or "").partition(":")
         past = bool(written) and not names_in(self.case, written[-1:], f":{end}")
@@ -188,6 +193,16 @@ class FollowedCase:
             self._seen = state, clock.monotonic() - age
         return clock.monotonic() - self._seen[1] >= _QUIET
 
+    def _stamp(self, name: str) -> dict[str, _Stamp]:
+        """Return the state of a time: when its first file was written, or the checksums of its files."""
+        folder = self._roots[0] / name
+        try:
+            written = (folder / "uniform/time").stat().st_mtime_ns
+        except OSError:
+            # Another program may write files again that do not change, and add further ones.
+            return _stamps_of(folder / self._region, self._stamps.get(name, {}))
+        return {"uniform/time": _Stamp((0, written), str(written))}
+
     def _read_control(self) -> Dictionary:
         """Return ``system/controlDict``; the one of before while it is being changed."""
         path = self.case / _CONTROL
@@ -207,12 +222,30 @@ def _common_times(folders: Iterable[Path]) -> tuple[str, ...]:
     return tuple(name for name in first if all(name in names for names in others))
 
 
-def _stamp(folder: Path) -> int | None:
-    """Return when a time was written, ns; None without the file that OpenFOAM writes first."""
-    try:
-        return (folder / "uniform/time").stat().st_mtime_ns
-    except OSError:
-        return None
+class _Stamp(NamedTuple):
+    """State of a file."""
+
+    written: tuple[int, int]
+    """Size, and time of the last change, ns."""
+    checksum: str
+
+
+def _stamps_of(folder: Path, before: Mapping[str, _Stamp]) -> dict[str, _Stamp]:
+    """Return the states of the files in a folder; only files that were written since are read again."""
+    stamps = {}
+    # A file may be renamed meanwhile.
+    with suppress(OSError):
+        for file in sorted(folder.iterdir()):
+            if file.is_file():
+                status, then = file.stat(), before.get(file.name)
+                written = status.st_size, status.st_mtime_ns
+                if then is not None and then.written == written:
+                    stamps[file.name] = then
+                else:
+                    with file.open("rb") as stream:
+                        digest = hashlib.file_digest(stream, xxhash.xxh3_128)
+                    stamps[file.name] = _Stamp(written, digest.hexdigest())
+    return stamps
 
 
 def _number(dictionary: Dictionary, key: str, default: float) -> float:

@@ -155,6 +155,23 @@ def test_solver_that_goes_back_is_an_error_unless_it_writes_later_times_only(cas
         flow.look()
 
 
+def test_checksums_tell_times_without_the_file_that_is_written_first(case):
+    """A copy of the same files, or a further one, is no change."""
+    control(case, endTime="1")
+    flow = followed(case)
+    for time in ("0.1", "0.2", "0.3"):
+        write(case / time, "U")
+        (case / time / "uniform/time").unlink()
+        flow.look()
+    assert flow.times == ["0", "0.1", "0.2"]
+    (case / "0.1/U").write_bytes((case / "0.1/U").read_bytes())
+    (case / "0.1/vorticity").touch()
+    flow.require_unchanged(flow.times)
+    (case / "0.1/U").write_text("values of V\n// *** //\n")
+    with pytest.raises(InputError, match=r"the time 0\.1 was written again\."):
+        flow.require_unchanged(flow.times)
+
+
 def test_new_time_before_earlier_ones_is_an_error(case):
     flow = followed(case)
     write(case / "0.1", "U")
