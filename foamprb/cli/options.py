@@ -49,7 +49,7 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
         default="",
         choices=["vtk"],
         metavar="vtk",
-        help="read the mesh by VTK, in single precision",
+        help="read the mesh by VTK's own reader, in single precision, to check that of foamprb",
     )
     add("--flow", type=Path, metavar="FILE", help="read the flow from a mesh file")
     add("--velocity", default="U", metavar="NAME", help="velocity field [U]")
@@ -62,7 +62,8 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
         "--featureAngle",
         type=float,
         metavar="DEG",
-        help="split patches of a mesh file at edges with a larger angle",
+        help="with a mesh file: split the boundary at edges sharper than DEG degrees, to separate inlet, "
+        "outlet and walls",
     )
     add("--scale", type=float, metavar="S", help="lengths in a mesh file times S are m [1]")
 

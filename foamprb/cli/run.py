@@ -49,7 +49,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
         "--patience",
         type=float,
         metavar="SECONDS",
-        help="with -follow: stop after so long without a new time",
+        help="with -follow: give up after SECONDS without a new time",
     )
     parser.add_argument("--dry-run", action="store_true", help="check the input, print the plan and exit")
 

@@ -30,7 +30,12 @@ def declare(parser: argparse.ArgumentParser) -> None:
         help="limits of the colours [the 5th and the 95th percentile]")  # fmt: skip
     add("--enlargement", type=float, metavar="S", help="draw the bodies S times larger [automatic]")
     add("--slice", metavar="PLANE", help="show the flow on a plane: x, z=0.01 or '(point) (normal)'")
-    add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow on the plane [latest]")
+    add(
+        "--flowTime",
+        default="latestTime",
+        metavar="TIME",
+        help="with -slice: time of the drawn flow [latest]",
+    )
     add("--bodies", type=int, metavar="N", help="at most N bodies, evenly spread [100000]")
     add("--maxSize", type=float, default=30.0, metavar="MB",
         help="largest page; times that do not fit are left out [30]")  # fmt: skip

@@ -74,12 +74,17 @@ def log_description(job: Job) -> None:
         log.info("Selecting shapeModel %s", models["shape"])
     log.info("Selecting integrationScheme %s: %s", models["integrator"], models["integratorDescription"])
     if models["shapeStokesNumber"] is not None:
-        log.info("    auto: Stokes numbers at injection up to %.3g (shape), %.3g (path); "
-                 "stokes below %g, else rosenbrock",
-                 models["shapeStokesNumber"], models["pathStokesNumber"], SMALL_STOKES)  # fmt: skip
+        shape, path = models["shapeStokesNumber"], models["pathStokesNumber"]
+        reason = f"a Stokes number is {SMALL_STOKES:g} or more"
+        if max(shape, path) < SMALL_STOKES:
+            reason = f"both Stokes numbers are below {SMALL_STOKES:g}"
+        elif models["integrator"] == "stokes":
+            reason = f"drops have no inertia; their Stokes numbers should be below {SMALL_STOKES:g}"
+        log.info("    integrator %s, as %s: %.3g (shape), %.3g (path) at injection",
+                 models["integrator"], reason, shape, path)  # fmt: skip
     if models["stepsEnd"] > 1:
-        most = f" of up to {models['longestStep']} deltaT" if models["longestStep"] else ""
-        log.info("    steps%s where the error allows it, to multiples of %d deltaT", most, models["stepsEnd"])
+        most = f" of up to {models['longestStep']} deltaT" if models["longestStep"] else " longer than deltaT"
+        log.info("    may take steps%s, to multiples of %d deltaT", most, models["stepsEnd"])
     for name, entries in models["dispersion"].items():
         log.info("Selecting dispersionModel %s %s", name, entries)
     for name, entries in models["fates"].items():

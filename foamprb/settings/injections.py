@@ -30,7 +30,7 @@ from foamprb.settings.fluid import ConstantProperties, Fluid
 
 __all__ = ["STIFFNESS", "InjectionModel", "InjectionSettings", "Solid", "parameters", "read_injections"]
 
-_ONE_OF_THESE = "one of the three is required"
+_ONE_OF_THESE = "one of shearModulus, youngsModulus and Ca is required"
 
 
 @dataclass(frozen=True, kw_only=True)

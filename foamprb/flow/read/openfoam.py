@@ -447,7 +447,7 @@ def _caveats(case: Case, time: str, source: FlowSource, **options: bool) -> list
 
 def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) -> list[Caveat]:
     """Return a warning that an unsteady flow stands still, unless it has become steady."""
-    text = "the flow is one instant of an unsteady solver (ddtSchemes), which stands still for the particles"
+    text = "the flow of an unsteady solver (ddtSchemes) is used as a steady flow, of one instant"
     earlier = [time for time in case.times() if 0.0 < float(time) < float(name)]
     with suppress(InputError):
         if earlier and case.mesh_folder(earlier[-1]) == case.mesh_folder(name):
@@ -458,8 +458,8 @@ def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) ->
             if crossed and change * float(name) < _STEADY * (float(name) - float(earlier[-1])):
                 return []
             text += f": its velocity changed by {100.0 * change:.3g} % since {earlier[-1]} s"
-            return [Caveat(f"{text}. solution/transient true follows all times.")]
-    return [Caveat(f"{text}: right if it is steady by then.")]
+            return [Caveat(f"{text}; set transient true to follow all times.")]
+    return [Caveat(f"{text}, which is right if it is steady by then.")]
 
 
 def _mean_square(vectors: Floats, comm: MeshCommunicator) -> float:

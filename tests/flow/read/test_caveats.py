@@ -83,7 +83,8 @@ def test_an_instant_of_an_unsteady_flow_tells_how_much_it_changed(case):
     text = (case / "1e1/U").read_text()
     (case / "0.5/U").write_text(re.sub(r"\((\S+) (\S+) (\S+)\)", r"(0 0 0)", text))
     (found,) = caveats(case)
-    assert "stands still for the particles: its velocity changed by 100 % since 0.5 s." in found
+    assert "is used as a steady flow, of one instant: its velocity changed by 100 % since 0.5 s" in found
+    assert "set transient true" in found
 
 
 NOTHING = {
