@@ -122,7 +122,19 @@ def _text(section: str, model: str, name: str, hint: Any, default: Any) -> Entry
     if Distribution in members(hint)[1:]:
         said += "; a number or a [distribution](#distributions)"
     shown = note.default if note and note.default else _shown(default)
-    return EntryText(section, SECTIONS[section].path, model, name, unit, shown, may_be, said)
+    values = _values(hint, note)
+    return EntryText(section, SECTIONS[section].path, model, name, unit, shown, may_be, said, "", values)
+
+
+def _values(hint: Any, note: Meaning | None) -> dict[str, str]:
+    """Return the allowed words of an entry, with what each means; of a registry of types, its tables do."""
+    rule = rule_of(hint)
+    if not isinstance(rule, Choice) or set(rule.names) <= {
+        name for s in SECTIONS.values() for name in s.models
+    }:
+        return {}
+    meanings = note.values if note else {}
+    return {name: meanings.get(name, "") for name in rule.names}
 
 
 def _shown(default: Any) -> str:

@@ -158,7 +158,14 @@ class Haemolysis(PathFunction):
     constants: Annotated[
         str,
         Choice((*POWER_LAWS, "pores", "own")),
-        Meaning("of the power law; `pores` of the membrane; `own` with A, alpha and beta"),
+        Meaning(
+            "of the power law; `pores` of the membrane; `own` with A, alpha and beta",
+            values={
+                name: f"{law.A:g} % (τ in Pa)^{law.alpha:g} (t in s)^{law.beta:g}, "
+                f"of experiments from {law.least:g} to {law.most:g} Pa"
+                for name, law in POWER_LAWS.items()
+            },
+        ),
     ]
     stress: Annotated[
         Literal["fluid", "KelvinVoigt", "morphology"],

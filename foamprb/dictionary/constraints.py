@@ -7,8 +7,8 @@ annotated, e.g. ``rho0: Annotated[float, Positive]``. :mod:`foamprb.dictionary.s
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
 from typing import Annotated, NewType, TypeAlias
 
 
@@ -91,6 +91,8 @@ class Meaning:
     unit: str = ""
     default: str = ""
     """Description of the default, if its value is not to be shown."""
+    values: Mapping[str, str] = field(default_factory=dict)
+    """What each allowed word means, where the text does not say it."""
 
 
 Rule: TypeAlias = Bounds | Choice | Only | NoEffect | Each

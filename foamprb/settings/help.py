@@ -39,6 +39,8 @@ class EntryText(NamedTuple):
     meaning: str
     why_idle: str = ""
     """Why it has no effect; empty if it has one."""
+    values: Mapping[str, str] = {}
+    """What each of its words means; empty if it takes no words."""
 
     @property
     def full_name(self) -> str:
@@ -93,7 +95,7 @@ def meaning(section: str, entry: str, model: str = "") -> EntryText:
 
 
 def explain(word: str | None) -> list[str]:
-    """Return the documentation of an entry, a dictionary or a type; without a word, a list of all.
+    """Return the documentation of an entry, a dictionary, a type or a value; without a word, a list of all.
 
     Raises
     ------
@@ -112,6 +114,9 @@ def explain(word: str | None) -> list[str]:
             lines += _model_lines(name, wanted)
         if wanted in (name, section.path):
             lines += _section_lines(name)
+    for text in everything:
+        if wanted in text.values:
+            lines += _value_lines(text, wanted)
     if wanted in forces:
         path = f"particleForces/{wanted}/"
         inner = [t._replace(name=t.name.removeprefix(path)) for t in everything if t.name.startswith(path)]
@@ -125,10 +130,11 @@ def explain(word: str | None) -> list[str]:
         return lines[:-1]
     paths = [text.full_name for text in everything if not text.why_idle]
     names = {part for path in paths for part in path.split("/") if not part.startswith("(")}
+    names |= {value for text in everything for value in text.values}
     names |= {model for section in sections.values() for model in section.models} | {*sections, *forces}
     close = suggestion(word, names)
     question = close.partition(" Allowed:")[0] if close.startswith("Did") else "foamprb help lists all names."
-    raise InputError(f"no entry, dictionary or type '{word}'. {question}")
+    raise InputError(f"no entry, dictionary, type or value '{word}'. {question}")
 
 
 def _overview() -> list[str]:
@@ -154,6 +160,20 @@ def _model_lines(name: str, model: str) -> list[str]:
     section = _texts().sections[name]
     lines = [f"{section.path}: type {model}", *_wrapped(plain(section.models[model]))]
     return [*lines, *_list_lines(_texts().of(name, model)), ""]
+
+
+def _value_lines(text: EntryText, value: str) -> list[str]:
+    """Return what a word of an entry means, with the entries of the dictionary that belong to it."""
+    of_value = [
+        other
+        for other in _texts().entries
+        if other.dictionary == text.dictionary
+        and other.name != text.name
+        and (other.name.startswith(f"{value}Coeffs/") or f"`{value}`" in f"{other.default} {other.meaning}")
+    ]
+    said = text.values[value] or text.meaning
+    title = f"{text.full_name} {value}{f' ({text.model})' if text.model else ''}"
+    return [title, *_wrapped(plain(said)), *_list_lines(of_value), ""]
 
 
 def _section_lines(name: str) -> list[str]:

@@ -44,7 +44,18 @@ class Solid:
         str,
         Choice(MATERIALS),
         Meaning(
-            "[material](models/materials.md), or one from `libs`; one for the whole cloud", "", "required"
+            "[material](models/materials.md), or one from `libs`; one for the whole cloud",
+            "",
+            "required",
+            {
+                "neoHooke": "rubber-like solid with a constant shear modulus, the usual choice",
+                "mooneyRivlin": "rubber-like solid whose energy also depends on the second invariant",
+                "gent": "solid that stiffens towards a largest stretch, as chains of a gel do",
+                "saintVenantKirchhoff": "linear law of large rotations, for small strains",
+                "drop": "[drop](models/drops.md) of a liquid of this viscosity and surface tension",
+                "capsule": "liquid in a thin elastic membrane, the [solid](models/capsules.md) that is "
+                "equivalent for small deformation",
+            },
         ),
     ] = ""
     bulkModulus: Annotated[

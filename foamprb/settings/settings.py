@@ -42,7 +42,17 @@ _DICTIONARY = "softCloudProperties"
 class EllipsoidDrag:
     """``subModels/particleForces/ellipsoidDrag``."""
 
-    type: Annotated[str, Choice(DRAGS), Meaning("[law of drag](models/drag.md)")] = "oberbeck"
+    type: Annotated[
+        str,
+        Choice(DRAGS),
+        Meaning(
+            "[law of drag](models/drag.md)",
+            values={
+                "oberbeck": "exact drag of an ellipsoid",
+                "brennerProlate": "the paper's, of a prolate spheroid of the longest and the shortest axis",
+            },
+        ),
+    ] = "oberbeck"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,22 +83,48 @@ class SubModels:
     patchInteractionModel: Annotated[
         str,
         Choice(INTERACTION_MODELS),
-        Meaning("[interaction with patches](#patch-interaction), with the `…Coeffs` of the model"),
+        Meaning(
+            "[interaction with patches](#patch-interaction), with the `…Coeffs` of the model",
+            values={
+                "localInteraction": "an interaction for each patch",
+                "rebound": "particles bounce off every patch",
+                "standardWallInteraction": "one interaction for all walls; particles leave elsewhere",
+            },
+        ),
     ]
     tractionModel: Annotated[
-        str, Choice(TRACTIONS), Meaning("[traction](models/traction.md) on the surface")
+        str,
+        Choice(TRACTIONS),
+        Meaning(
+            "[traction](models/traction.md) on the surface",
+            values={
+                "roscoe": "on a surface that moves with the deforming body",
+                "jeffery": "as on a rigid ellipsoid; wrong for soft ones",
+            },
+        ),
     ] = "roscoe"
     shapeModel: Annotated[
         str,
         Choice(SHAPES),
-        Meaning("modes of the shape: an ellipsoid, or also the [quadratic mode](models/quadratic.md)"),
+        Meaning(
+            "modes of the shape: an ellipsoid, or also the [quadratic mode](models/quadratic.md)",
+            values={
+                "affine": "a sphere becomes an ellipsoid",
+                "quadratic": "the curvature of the flow bends the ellipsoid, to a bullet for example",
+            },
+        ),
     ] = "affine"
     dispersionModel: Annotated[
         str,
         Choice(("none", *DISPERSIONS)),
         Meaning(
             "[dispersion by eddies](models/turbulent-dispersion.md) of a flow that is a mean; the `…Coeffs` "
-            "of the model are optional"
+            "of the model are optional",
+            values={
+                "none": "no eddies",
+                "stochasticDispersionRAS": "particles pass through one random eddy after another",
+                "gradientDispersionRAS": "as OpenFOAM's: eddy velocities down the gradient of k",
+            },
         ),
     ] = "none"
     fates: Annotated[

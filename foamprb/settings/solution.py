@@ -67,7 +67,10 @@ class IntegrationSchemes:
     shape: Annotated[
         str,
         Choice(("auto", *INTEGRATORS)),
-        Meaning("[integrator of the shape](integrators.md); `auto` chooses by Stokes numbers"),
+        Meaning(
+            "[integrator of the shape](integrators.md); `auto` chooses by Stokes numbers",
+            values={name: integrator.description for name, integrator in INTEGRATORS.items()},
+        ),
     ] = "auto"
     tolerance: Annotated[
         float, Positive, Meaning("largest error of a step, for integrators with error control", "1")

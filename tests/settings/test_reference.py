@@ -106,6 +106,29 @@ def test_help_knows_all_that_the_page_does():
     assert all(name in "\n".join(explain(None)) for name in SECTIONS)
 
 
+def test_help_explains_every_value_of_an_entry():
+    """Its own entries are listed: of a capsule its membrane."""
+    for text in EVERY:
+        for value, said in text.values.items():
+            lines = explain(value)
+            title = lines.index(f"{text.full_name} {value}{f' ({text.model})' if text.model else ''}")
+            assert plain(said or text.meaning).startswith(lines[title + 1].strip())
+    said = "\n".join(explain("capsule"))
+    assert "constantProperties/solid/type capsule" in said
+    assert "surfacePoissonsRatio" in said
+    assert "surfaceTension" not in said
+    assert "stochasticDispersionRASCoeffs/seed" in "\n".join(explain("stochasticDispersionRAS"))
+    with pytest.raises(InputError, match=r"Did you mean 'capsule'\?"):
+        explain("capsul")
+
+
+def test_materials_and_models_have_a_sentence_each():
+    named = ("solid/type", "tractionModel", "shapeModel", "dispersionModel", "patchInteractionModel")
+    for text in EVERY:
+        if text.full_name.endswith(named):
+            assert all(text.values.values()), text.full_name
+
+
 def test_help_suggests_a_name_for_an_unknown_one():
     with pytest.raises(InputError, match=r"'deltT'. Did you mean 'deltaT'\?"):
         explain("deltT")
