@@ -10,6 +10,7 @@ import numpy as np
 from foam_writer import write_case
 from numpy.typing import NDArray
 
+from foamprb.body.quadratic import bullet_amplitude
 from foamprb.cloud.measures import quaternion
 from foamprb.cloud.state import Status
 from foamprb.results.folder import ResultsFolder
@@ -54,7 +55,13 @@ def motion(n: int, m: int, seed: int = 0, tumbling: float = 0.7) -> Motion:
     return Motion(times, x, F, random.uniform(0.01, 0.02, n))
 
 
-def clouds(moved: Motion, first: int = 0) -> list[PointCloud]:
+def modes(n: int, m: int, amplitude: float) -> NDArray[np.float64]:
+    """Return quadratic modes of any direction with the amplitude of a bullet, (m, n, 7)."""
+    B = np.random.default_rng(1).standard_normal((m, n, 7))
+    return amplitude * B / bullet_amplitude(tuple(np.moveaxis(B, -1, 0)))[..., None]
+
+
+def clouds(moved: Motion, first: int = 0, B: NDArray[np.float64] | None = None) -> list[PointCloud]:
     """As files: a third is released later, body 1 sticks to the floor and body 2 leaves through the lid."""
     m, n = moved.x.shape[:2]
     result = []
@@ -86,6 +93,7 @@ def clouds(moved: Motion, first: int = 0) -> list[PointCloud]:
                     "status": status[here],
                     "patch": patch[here],
                     "injector": (ids[here] % 2).astype(np.int32),
+                    **({} if B is None else {"quadraticShape": B[k, here]}),
                 },
                 UNITS,
                 {"status": STATUS_NAMES, "patch": PATCHES, "injector": INJECTORS},
@@ -103,14 +111,16 @@ def with_orientation(cloud: PointCloud) -> PointCloud:
     return replace(cloud, arrays={**cloud.arrays, "orientation": q})
 
 
-def write_run(case: Path, moved: Motion, mesh: bool = True, fates: bool = False) -> Path:
+def write_run(
+    case: Path, moved: Motion, mesh: bool = True, fates: bool = False, B: NDArray[np.float64] | None = None
+) -> Path:
     """Write a case with such results; return the folder of the results."""
     if mesh:
         write_case(case, perturbation=0.0)
     folder = case / "postProcessing" / "softCloud"
     folder.mkdir(parents=True, exist_ok=True)
     series = Series(ResultsFolder(folder, "softCloud"))
-    for cloud in clouds(moved):
+    for cloud in clouds(moved, B=B):
         series.append(cloud)
     if fates:
         n = len(moved.radius)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError, suggestion
 from foamprb.view.results import NEEDED, Run, Table
+from foamprb.view.surfaces import MODE, unfolded
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -25,7 +26,7 @@ _MOST_VALUES = 4_000_000
 """Values that decide the limits of colours, at most."""
 _JUMP = 10.0
 """Ratio of the distance between two times to that at the larger velocity above which a body has jumped."""
-SHAPE_ARRAYS = frozenset({"glyph", "deformationGradient", "orientation", "origId", "active"})
+SHAPE_ARRAYS = frozenset({"glyph", MODE, "deformationGradient", "orientation", "origId", "active"})
 """Point arrays that hold the shape or the number of the body, or repeat another array."""
 
 _LABELS = {
@@ -91,7 +92,8 @@ class Codes(NamedTuple):
 class Bodies:
     """n bodies at m times.
 
-    Body i at time t is the unit sphere under ``radius[i] * F[t, i]``, moved to ``x[t, i]``.
+    Body i at time t is the unit sphere under ``radius[i] * F[t, i]``, moved to ``x[t, i]``. With a quadratic
+    mode a point X of the sphere moves by ``radius[i] * B YY`` more; Y is X turned by the rotation of F.
 
     Parameters
     ----------
@@ -112,6 +114,8 @@ class Bodies:
         Status of the particles.
     fields, codes
         Arrays by name.
+    B
+        Quadratic mode, (m, n, 7), so reduced that no surface folds; None if no body has one.
     """
 
     times: Floats
@@ -123,6 +127,7 @@ class Bodies:
     status: Codes
     fields: dict[str, Quantity]
     codes: dict[str, Codes]
+    B: Singles | None = None
 
     @property
     def shown(self) -> Mask:
@@ -216,10 +221,13 @@ def gather(
     present, status = np.zeros((m, n), dtype=bool), np.full((m, n), UNNAMED, dtype=np.uint8)
     codes = {name: np.full((m, n), UNNAMED, dtype=np.uint8) for name in coded}
     values = {name: np.full((m, n, k), np.nan, dtype=np.float32) for name, k in valued.items()}
+    B = np.zeros((m, n, 7), dtype=np.float32) if MODE in run.components else None
+    needed = (*NEEDED, MODE) if B is not None else NEEDED
     collected: list[NDArray[Any]] = [x, F, *codes.values(), *values.values()]
+    collected += [B] if B is not None else []
     met = np.zeros(n, dtype=bool)
     for t, frame in enumerate(frames):
-        cloud = run.cloud(frame, dict.fromkeys((*NEEDED, *names)))
+        cloud = run.cloud(frame, dict.fromkeys((*needed, *names)))
         rows, places = _selected(cloud.arrays["origId"].astype(np.int64), ids)
         columns = {name: array[rows] for name, array in cloud.arrays.items()}
         points, d = cloud.points[rows], columns["d"].astype(np.float64)
@@ -236,6 +244,8 @@ def gather(
         places = places[sound]
         present[t, places] = True
         x[t, places], F[t, places] = points[sound], shape[sound]
+        if B is not None:
+            B[t, places] = unfolded(F[t, places], columns[MODE][sound])
         for name, array in codes.items():
             array[t, places] = _known(columns[name][sound], run.names[name])
         for name, array in values.items():
@@ -261,6 +271,7 @@ def gather(
         codes={
             name: Codes(name, label_of(name), run.names[name], _once(array)) for name, array in codes.items()
         },
+        B=B if B is not None and B.any() else None,
     )
 
 

@@ -116,6 +116,12 @@ def pack_shapes(bodies: Bodies) -> Column:
     return pack(np.rint(bodies.F.reshape(m, n, 9) / step), [0.0], [step])
 
 
+def pack_modes(B: NDArray[Any]) -> Column:
+    """Pack quadratic modes, (m, n, 7), with the error of F."""
+    step = max(SHAPE_STEP, float(np.abs(B).max(initial=0.0)) / _SHORT)
+    return pack(np.rint(B / step), [0.0], [step])
+
+
 def pack_field(field: Quantity) -> Column:
     """Pack the values of an array to a relative error, so that small values keep their digits.
 

@@ -148,6 +148,7 @@ class Page:
                 "shapes": self._add(encode.pack_shapes(bodies)),
                 "present": self._add(encode.pack_bits(bodies.present)),
                 "radius": self._add(encode.pack_values(bodies.radius)),
+                "modes": None if bodies.B is None else self._add(encode.pack_modes(bodies.B)),
             },
             "codes": {
                 name: {"name": code.name, "label": code.label, "meanings": code.meanings}

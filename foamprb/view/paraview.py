@@ -6,6 +6,7 @@ from inspect import getsource
 
 import numpy as np
 
+from foamprb.body.quadratic import layers
 from foamprb.cloud.state import Status
 from foamprb.results.atomic import write_text
 from foamprb.results.folder import ResultsFolder
@@ -14,6 +15,7 @@ from foamprb.results.vtk import write_triangles
 from foamprb.view.colours import LIGHT, colour_map, rgb
 from foamprb.view.geometry import FLAT_TYPES
 from foamprb.view.scene import VIEW_ANGLE, Scene, anchor
+from foamprb.view.surfaces import MODE, bulges, unfolded
 
 __all__ = ["write_state"]
 
@@ -40,10 +42,12 @@ PAPER, INK, SOFT, GLASS = {palette!r}
 POSITION, FOCUS, UP = {position!r}, {focus!r}, {up!r}
 # More bodies than this are drawn by the graphics card as copies of one sphere, from semiAxes and orientation.
 # Fewer bodies are made one by one from glyph, so that a point of the surface keeps its place on the body.
-# 0: always as copies.
+# They have their quadratic mode, if the files contain it. 0: always as copies.
 MANY = 20000
 # Arrays that follow from the shape, where the files do not contain them.
 SHAPES = {shapes!r}
+# Surfaces of bodies with the quadratic mode, after ENLARGEMENT = … and STEPS = ….
+SURFACES = {surfaces!r}
 # ParaView runs this text without the name of its file.
 folder = Path(globals().get("__file__", {file!r})).resolve().parent
 view = simple.GetActiveViewOrCreate("RenderView")
@@ -67,7 +71,12 @@ cloud.LowerThreshold, cloud.UpperThreshold = {shown!r}
 cloud.UpdatePipeline(TIME)
 
 count = cloud.GetDataInformation().GetNumberOfPoints()
-if count > MANY:
+if count <= MANY and {mode!r} in cloud.PointData.keys():
+    bodies = simple.ProgrammableFilter(registrationName="bodies", Input=cloud)
+    bodies.OutputDataSetType = "vtkPolyData"
+    bodies.Script = f"ENLARGEMENT = {{ENLARGEMENT}}\\nSTEPS = {{8 if count > 5000 else 24}}\\n" + SURFACES
+    shown, sphere = simple.Show(bodies, view), None
+elif count > MANY:
     bodies = cloud
     shown = simple.Show(cloud, view)
     shown.SetRepresentationType("3D Glyphs")
@@ -87,10 +96,11 @@ else:
         LimitScalingByEigenvalues=0,
     )
     sphere = bodies.GlyphType
-# Fewer facets for more bodies.
-sphere.Radius = 1.0
-sphere.ThetaResolution = sphere.PhiResolution = 8 if count > 5000 else 24
-if bodies is not cloud:
+if sphere:
+    # Fewer facets for more bodies.
+    sphere.Radius = 1.0
+    sphere.ThetaResolution = sphere.PhiResolution = 8 if count > 5000 else 24
+if sphere and bodies is not cloud:
     # ParaView changes the factor when it makes the filter, even a given factor of 1.
     bodies.UpdatePipeline(TIME)
     bodies.ScaleFactor = ENLARGEMENT
@@ -140,6 +150,7 @@ view.CameraViewAngle = {angle!r}
 simple.Render(view)
 """
 
+_IMPORTS = "from __future__ import annotations\n\nimport numpy as np\n\n"
 _SHAPES = """\
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 arrays, scope = output.VTKObject.GetPointData(), {{}}
@@ -152,10 +163,57 @@ for name, values in scope["derived"](*sources, names).items():
     arrays.AddArray(added)
 """
 
+_SURFACES = """\
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+scope = {{}}
+exec({functions!r}, scope)
+import numpy as np
+cloud = inputs[0].VTKObject
+arrays, n = cloud.GetPointData(), cloud.GetNumberOfPoints()
+source = vtkSphereSource()
+source.SetRadius(1.0)
+source.SetThetaResolution(STEPS)
+source.SetPhiResolution(STEPS)
+source.Update()
+X = vtk_to_numpy(source.GetOutput().GetPoints().GetData()).astype(float)
+triangles = vtk_to_numpy(source.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
+glyph, d, B = (vtk_to_numpy(arrays.GetArray(name)) if n else np.zeros((0, size))
+               for name, size in (("glyph", 9), ("d", 1), ({mode!r}, 7)))
+radius = 0.5 * d.astype(float).reshape(-1, 1, 1)
+F = glyph.reshape(-1, 3, 3).astype(float).swapaxes(1, 2) / radius
+offsets = X @ F.swapaxes(1, 2)
+finite = np.isfinite(F).all(axis=(1, 2))
+K = scope["bulges"](F[finite], scope["unfolded"](F[finite], B[finite]))
+offsets[finite] += np.einsum("nijk,vj,vk->nvi", K, X, X, optimize=True)
+centres = vtk_to_numpy(cloud.GetPoints().GetData()).astype(float) if n else np.zeros((0, 3))
+surface, points, cells = output.VTKObject, vtkPoints(), vtkCellArray()
+places = centres[:, None] + ENLARGEMENT * radius * offsets
+points.SetData(numpy_to_vtk(np.ascontiguousarray(places.reshape(-1, 3)), deep=1))
+corners = (triangles[None] + len(X) * np.arange(n)[:, None, None]).reshape(-1)
+cells.SetData(numpy_to_vtkIdTypeArray(3 * np.arange(len(corners) // 3 + 1), deep=1),
+              numpy_to_vtkIdTypeArray(corners, deep=1))
+surface.SetPoints(points)
+surface.SetPolys(cells)
+for k in range(arrays.GetNumberOfArrays()):
+    values = arrays.GetArray(k)
+    repeated = numpy_to_vtk(np.repeat(vtk_to_numpy(values), len(X), axis=0), deep=1)
+    repeated.SetName(values.GetName())
+    surface.GetPointData().AddArray(repeated)
+"""
+
+
+def _script_of_surfaces() -> str:
+    """Return the script of a filter that makes the surfaces of bodies with a quadratic mode."""
+    functions = "\n\n".join(getsource(function) for function in (layers, unfolded, bulges))
+    return _SURFACES.format(functions=f"{_IMPORTS}{functions}", mode=MODE)
+
 
 def _script_of_shapes() -> str:
     """Return the script of a filter that adds the arrays that follow from the shape."""
-    function = f"from __future__ import annotations\n\nimport numpy as np\n\n{getsource(derived)}"
+    function = f"{_IMPORTS}{getsource(derived)}"
     return _SHAPES.format(function=function, names=tuple(DERIVED), sources=SOURCES)
 
 
@@ -199,6 +257,8 @@ def write_state(folder: ResultsFolder, scene: Scene) -> None:
         "up": camera.up.tolist(),
         "angle": VIEW_ANGLE,
         "shapes": _script_of_shapes(),
+        "surfaces": _script_of_surfaces(),
+        "mode": MODE,
         "shown": (int(Status.ACTIVE), int(Status.STUCK)),
         "file": str(folder.state.resolve()),
     }

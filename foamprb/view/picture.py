@@ -43,6 +43,7 @@ from foamprb.view.scene import (
     Scene,
     anchor,
 )
+from foamprb.view.surfaces import bulges
 
 pyvista = load("pyvista")
 
@@ -94,10 +95,11 @@ class Drawing:
         if len(shown):
             colours = self._hazed(body_colours(scene, frame, shown), bodies.x[frame, shown])
             F = bodies.F[frame, shown].astype(np.float64)
+            K = bulges(F, bodies.B[frame, shown]) if bodies.B is not None else None
             place, size = bodies.x[frame, shown], bodies.radius[shown] * scene.enlargement
-            self._add("bodies", draw(sphere_for(len(shown)), place, F, size, colours))
+            self._add("bodies", draw(sphere_for(len(shown)), place, F, size, colours, K))
             if len(shown) <= _MOST_MARKED:
-                self._add("mark", draw(mark(), place, F, 1.002 * size, marked(colours)))
+                self._add("mark", draw(mark(), place, F, 1.002 * size, marked(colours), K))
         self._show_deposits(frame)
         if self.texts:
             times = bodies.times
@@ -488,8 +490,10 @@ def mark() -> Triangles:
     return Triangles(np.concatenate(points), np.concatenate(triangles))
 
 
-def draw(shape: Triangles, place: Floats, F: Floats, size: Floats, colours: Table) -> Any:
-    """Return one mesh of a shape on each of n bodies, with normals by F⁻ᵀ.
+def draw(
+    shape: Triangles, place: Floats, F: Floats, size: Floats, colours: Table, K: Floats | None = None
+) -> Any:
+    """Return one mesh of a shape on each of n bodies, with its normals.
 
     Parameters
     ----------
@@ -499,12 +503,22 @@ def draw(shape: Triangles, place: Floats, F: Floats, size: Floats, colours: Tabl
         (n, 3), (n, 3, 3) and (n,): a point X of the sphere moves to ``place + size * F X``.
     colours
         (n, 3).
+    K
+        Quadratic modes, (n, 3, 3, 3): F X becomes F X + K XX, see :func:`foamprb.view.surfaces.bulges`.
     """
     n, v = len(place), len(shape.points)
     # Graphics have single precision; places may lie far from the origin.
     sphere = shape.points.astype(np.float32)
     points = place[:, None, :] + sphere @ (size[:, None, None] * F).astype(np.float32).transpose(0, 2, 1)
-    normals = sphere @ np.linalg.inv(F).astype(np.float32)
+    if K is None:
+        normals = sphere @ np.linalg.inv(F).astype(np.float32)
+    else:
+        half = np.einsum("nijk,vk->nvji", K.astype(np.float32), sphere)
+        points += size[:, None, None] * np.einsum("vj,nvji->nvi", sphere, half)
+        # Rows: derivatives by the three components of X. The normals are X under their cofactors.
+        a, b, c = np.moveaxis(F.astype(np.float32).transpose(0, 2, 1)[:, None] + 2.0 * half, 2, 0)
+        cofactors = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=2)
+        normals = np.einsum("vj,nvji->nvi", sphere, cofactors)
     normals /= np.linalg.norm(normals, axis=2, keepdims=True)
     faces = shape.triangles.astype(np.int32)[None] + (v * np.arange(n, dtype=np.int32))[:, None, None]
     mesh = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), faces.reshape(-1, 3))

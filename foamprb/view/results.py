@@ -29,6 +29,7 @@ from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
 from foamprb.results.vtk_check import is_compressed, require_sizes
 from foamprb.view.dataset import dataset_of
+from foamprb.view.surfaces import MODE, bulges, unfolded
 
 if TYPE_CHECKING:
     import pyvista
@@ -249,7 +250,15 @@ class Run:
         sphere = pyvista.Sphere(radius=1.0, theta_resolution=resolution, phi_resolution=resolution)
         n, size = len(cloud.points), sphere.n_points
         shapes = cloud.arrays["glyph"].reshape(n, 3, 3)
-        points = cloud.points[:, None] + enlargement * (sphere.points.astype(np.float64) @ shapes)
+        X = sphere.points.astype(np.float64)
+        offsets = X @ shapes
+        if MODE in cloud.arrays:
+            radius = 0.5 * cloud.arrays["d"].astype(np.float64)[:, None, None]
+            finite = np.isfinite(offsets).all(axis=(1, 2))
+            F = (shapes.swapaxes(1, 2) / radius)[finite]
+            K = bulges(F, unfolded(F, cloud.arrays[MODE][finite]))
+            offsets[finite] += radius[finite] * np.einsum("nijk,vj,vk->nvi", K, X, X, optimize=True)
+        points = cloud.points[:, None] + enlargement * offsets
         corners = sphere.regular_faces + size * np.arange(n)[:, None, None]
         mesh = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), corners.reshape(-1, 3))
         for name, array in cloud.arrays.items():

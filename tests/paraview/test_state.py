@@ -11,7 +11,7 @@ import pytest
 import pyvista
 from PIL import Image
 from pvpython import pvpython
-from view_run import clouds, motion, with_orientation, write_run
+from view_run import clouds, modes, motion, with_orientation, write_run
 
 from foamprb.cli import main
 from foamprb.cloud.measures import WRITTEN
@@ -21,6 +21,7 @@ from foamprb.results.vtk import PointCloud, Tracks, write_tracks
 from foamprb.view.paraview import write_state
 from foamprb.view.results import open_run
 from foamprb.view.show import Request, make_scene
+from foamprb.view.surfaces import bulges
 
 pytestmark = [
     pytest.mark.paraview,
@@ -83,6 +84,31 @@ exec xvfb-run -a {shutil.which("paraview")} --dr "$1"
     picture = np.asarray(Image.open(tmp_path / "shot.png").convert("RGB"), dtype=float)
     coloured = np.ptp(picture[:330, :400], axis=2) > 60.0
     assert 0.001 < coloured.mean() < 0.5
+
+
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not on PATH")
+def test_quadratic_modes_are_drawn_true(tmp_path: Path) -> None:
+    B = modes(6, 3, 0.2)
+    folder = write_run(tmp_path / "case", motion(6, 3), B=B)
+    run = open_run(tmp_path / "case")
+    scene = make_scene(Request(tmp_path / "case"), run, range(3))
+    write_state(run.results, scene)
+    saved = tmp_path / "bodies.vtp"
+    run_state(
+        tmp_path, folder / "softCloud.py", f"simple.SaveData({str(saved)!r}, simple.FindSource('bodies'))"
+    )
+    bodies, shown = scene.bodies, scene.bodies.shown[scene.first]
+    surface = pyvista.read(saved)
+    assert {"taylorDeformation", "origId"} <= set(surface.point_data.keys())
+    n = int(shown.sum())
+    offsets = (
+        np.asarray(surface.points, dtype=float).reshape(n, -1, 3) - bodies.x[scene.first, shown][:, None]
+    )
+    F, mode = bodies.F[scene.first, shown].astype(float), bodies.B[scene.first, shown]
+    X = np.asarray(pyvista.Sphere(radius=1.0, theta_resolution=24, phi_resolution=24).points, dtype=float)
+    expected = X @ F.swapaxes(1, 2) + np.einsum("nijk,vj,vk->nvi", bulges(F, mode), X, X)
+    size = scene.enlargement * bodies.radius[shown, None, None]
+    np.testing.assert_allclose(offsets, size * expected, atol=1e-5 * size.max())
 
 
 def larger(cloud: PointCloud, factor: float) -> PointCloud:

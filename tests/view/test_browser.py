@@ -10,6 +10,7 @@ import re
 import shutil
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
-from view_run import Motion, motion, write_run
+from view_run import Motion, modes, motion, write_run
 
 from foamprb.view.colours import LIGHT, colour_map, colour_of_name, rgb
 from foamprb.view.picture import picture
@@ -179,6 +180,28 @@ class TestPicture:
         assert both.sum() / (body | (saturation(ours) > 0.35)).sum() > 0.85
         paper = (theirs > 250).all(axis=2)
         assert ((ours > 250).all(axis=2) == paper).mean() > 0.99
+
+    def test_quadratic_modes_are_drawn_as_VTK_draws_them(self, browser, tmp_path):
+        moved = motion(4, 2, tumbling=0.0)
+        x = np.array([[0.25, 0.3, 0.5], [0.75, 0.3, 0.5], [0.25, 0.75, 0.5], [0.75, 0.75, 0.5]])
+        moved = Motion(moved.times, np.tile(x, (2, 1, 1)), moved.F, np.full(4, 0.15))
+        write_run(tmp_path, moved, B=modes(4, 2, 0.25))
+        request = Request(tmp_path, time=0.0, enlargement=1.0)
+        with_modes = make_scene(request, open_run(tmp_path), range(2))
+        opened = Tab(browser, write_page(request, None, 30.0, "").as_uri(), "naked")
+        ours = saturation(opened.pixels().astype(float)) > 0.35
+        shares = []
+        for scene in (with_modes, replace(with_modes, bodies=replace(with_modes.bodies, B=None))):
+            picture(scene, tmp_path / "vtk.png", (WIDTH, HEIGHT), LIGHT, texts=False)
+            theirs = (
+                saturation(np.array(Image.open(tmp_path / "vtk.png").convert("RGB")).astype(float)) > 0.35
+            )
+            shares.append((ours & theirs).sum() / (ours | theirs).sum())
+        assert ours.mean() > 0.02
+        assert shares[0] > 0.95
+        assert shares[1] < shares[0] - 0.05
+        assert opened.messages == []
+        opened.page.close()
 
     @NAKED
     def test_bodies_have_the_colours_of_their_values(self, tab, scene):

@@ -13,7 +13,7 @@ import pytest
 from foam_writer import GRADIENT
 from page_reader import PageReader
 from paths import ROOT
-from view_run import motion, write_run
+from view_run import modes, motion, write_run
 
 import foamprb.view
 from foamprb.cli import main
@@ -68,6 +68,15 @@ class TestContents:
         assert np.abs(F - moved.F)[present].max() < 0.51 * SHAPE_STEP
         radius = page.values(page.scene["bodies"]["radius"])
         np.testing.assert_allclose(radius, moved.radius, rtol=1e-6)
+
+    def test_quadratic_modes(self, page, moved, tmp_path):
+        assert page.scene["bodies"]["modes"] is None
+        B = modes(N, M, 0.15)
+        write_run(tmp_path, moved, mesh=False, B=B)
+        page = PageReader(write_page(Request(tmp_path), None, 30.0, "").read_text(encoding="utf-8"))
+        off = page.values(page.scene["bodies"]["modes"]) - B
+        assert np.abs(off)[page.present()].max() < 0.51 * SHAPE_STEP
+        assert "quadraticShape" not in page.scene["fields"]
 
     def test_arrays(self, page, moved):
         fields = page.scene["fields"]

@@ -8,13 +8,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from PIL import Image
-from view_run import motion, write_run
+from view_run import modes, motion, write_run
 
 from foamprb.cli import main
 from foamprb.view.colours import DARK, LIGHT, rgb
 from foamprb.view.picture import _drawing, draw, mark, sphere_for, trails
 from foamprb.view.results import open_run
 from foamprb.view.show import Request, make_scene, make_still
+from foamprb.view.surfaces import bulges
 
 drawn = pytest.mark.browser
 
@@ -47,6 +48,26 @@ class TestMeshes:
             tangents = np.cross(sphere.points, random.standard_normal(3)) @ F[k].T
             assert np.abs(np.einsum("ij,ij->i", normals[k], tangents)).max() < 1e-5
         np.testing.assert_allclose(np.linalg.norm(normals, axis=2), 1.0, rtol=1e-6)
+
+    def test_the_normals_of_a_quadratic_mode_are_those_of_its_surface(self, random):
+        sphere = sphere_for(1)
+        F = np.eye(3) + 0.1 * random.standard_normal((2, 3, 3))
+        K = bulges(F, modes(2, 1, 0.2)[0])
+        place, size = random.standard_normal((2, 3)), np.array([0.5, 2.0])
+        mesh = draw(sphere, place, F, size, np.zeros((2, 3), dtype=np.uint8), K)
+        v = len(sphere.points)
+        points = np.asarray(mesh.points).reshape(2, v, 3)
+        normals = np.asarray(mesh.point_data["Normals"]).reshape(2, v, 3)
+        along = np.cross(sphere.points, random.standard_normal(3))
+
+        def surface(X, k):
+            return place[k] + size[k] * (X @ F[k].T + np.einsum("ijk,vj,vk->vi", K[k], X, X))
+
+        for k in range(2):
+            np.testing.assert_allclose(points[k], surface(sphere.points, k), atol=1e-6)
+            tangents = surface(sphere.points + 1e-4 * along, k) - surface(sphere.points - 1e-4 * along, k)
+            assert np.abs(np.einsum("ij,ij->i", normals[k], tangents / 2e-4)).max() < 1e-5
+            assert np.einsum("ij,ij->i", normals[k], points[k] - place[k]).min() > 0.0
 
     def test_the_sphere_is_round_and_coarser_for_more(self):
         sizes = [len(sphere_for(n).points) for n in (10, 10_000, 100_000)]

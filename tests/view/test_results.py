@@ -99,6 +99,23 @@ def test_surfaces_of_the_bodies_have_their_arrays(case):
     assert bodies.field_data["time"] == pytest.approx(0.3)
 
 
+def test_surfaces_have_the_quadratic_mode(tmp_path):
+    """A bullet reaches 1 + ε forward and 1 − ε backward; a body whose mode is not finite is an ellipsoid."""
+    moved = motion(4, 1)
+    moved.F[:] = np.eye(3)
+    # ε P₃ along z: B_zzz = ε.
+    B = np.tile([0.0, 0.0, -0.1, 0.0, 0.0, 0.0, -0.1], (1, 4, 1))
+    B[0, 2] = np.nan
+    write_run(tmp_path, moved, mesh=False, B=B)
+    run = foamprb.open_run(tmp_path)
+    bodies, cloud = run.bodies(), run.snapshot()
+    offsets = bodies.points.reshape(cloud.n_points, -1, 3) - cloud.points[:, None]
+    for body, epsilon in ((1, 0.2), (2, 0.0)):
+        along = offsets[cloud["origId"].tolist().index(body), :, 2] / moved.radius[body]
+        assert along.max() == pytest.approx(1.0 + epsilon)
+        assert along.min() == pytest.approx(-1.0 + epsilon)
+
+
 def test_dataset_has_all_times_of_all_particles(case):
     pytest.importorskip("xarray")
     run = foamprb.open_run(case)

@@ -145,6 +145,9 @@ export async function load() {
     x: await places(scene.bodies.places, frame),
     F: await column(scene.bodies.shapes, Int16Array),
     shapeStep: scene.bodies.shapes.step[0],
+    // Quadratic modes, if bodies have them.
+    B: scene.bodies.modes ? await column(scene.bodies.modes, Int16Array) : null,
+    modeStep: scene.bodies.modes ? scene.bodies.modes.step[0] : 0,
     bits: await column(scene.bodies.present, Uint8Array),
     bytesOfBits: scene.bodies.present.shape[1],
     // Whether a body passed through a coupled patch before a time: it moved much farther than its velocities carry it.

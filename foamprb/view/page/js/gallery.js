@@ -1,7 +1,7 @@
 // One body at eight times of its life, side by side at one scale, seen in the direction of the scene, beside a bar.
 
 import { Color, Matrix4, PerspectiveCamera, Scene, Vector4 } from "three";
-import { Bodies } from "./bodies.js";
+import { amplitude, Bodies } from "./bodies.js";
 import { roundLength } from "./compass.js";
 import { written } from "./colours.js";
 
@@ -11,7 +11,8 @@ export const GALLERY = COLUMNS * ROWS;
 export class Gallery {
   constructor(data) {
     this.data = data;
-    const own = { n: GALLERY, x: new Float32Array(3 * GALLERY), F: new Int16Array(9 * GALLERY), radius: new Float32Array(GALLERY), shapeStep: data.shapeStep };
+    const own = { n: GALLERY, x: new Float32Array(3 * GALLERY), F: new Int16Array(9 * GALLERY), radius: new Float32Array(GALLERY), shapeStep: data.shapeStep,
+      B: data.B && new Int16Array(7 * GALLERY), modeStep: data.modeStep };
     this.own = own;
     // Without haze: all are near.
     this.bodies = new Bodies(own, { value: new Vector4(0, 0, 0, 1e9) });
@@ -29,7 +30,13 @@ export class Gallery {
     frames.forEach((t, k) => {
       own.F.set(data.F.subarray(9 * (data.n * t + body), 9 * (data.n * t + body) + 9), 9 * k);
       const f = own.F.subarray(9 * k, 9 * k + 9);
-      for (let c = 0; c < 3; c++) longest = Math.max(longest, Math.hypot(f[c], f[c + 3], f[c + 6]) * data.shapeStep);
+      let bulge = 0;
+      if (data.B) {
+        const from = 7 * (data.n * t + body), B = data.B.subarray(from, from + 7);
+        own.B.set(B, 7 * k);
+        bulge = amplitude(B) * data.modeStep;
+      }
+      for (let c = 0; c < 3; c++) longest = Math.max(longest, Math.hypot(f[c], f[c + 3], f[c + 6]) * data.shapeStep + bulge);
     });
     // An ellipsoid reaches no farther than the root of the sum of the squares of three conjugate half axes.
     const half = 1.25 * longest, step = (tile + TEXT) / tile;
