@@ -7,14 +7,27 @@ import fcntl
 import os
 import re
 import secrets
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 
 from foamprb.errors import InputError
 
 _TOKEN_BYTES = 4
 _TEMPORARY = re.compile(rf"\.(.+)\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}\.tmp")
+_before: ContextVar[Callable[[Path], object]] = ContextVar("_before", default=lambda _: None)
+"""Called with the name of a file before it is written."""
+
+
+@contextmanager
+def before_each_file(call: Callable[[Path], object]) -> Iterator[None]:
+    """Call a function with the name of each file that this thread writes, before it is begun."""
+    token = _before.set(call)
+    try:
+        yield
+    finally:
+        _before.reset(token)
 
 
 @contextmanager
@@ -36,6 +49,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
         If the file cannot be written or renamed; it names ``path``.
     """
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(_TOKEN_BYTES)}.tmp")
+    _before.get()(path)
     try:
         path.parent.mkdir(exist_ok=True)
         temporary.touch(exist_ok=False)
@@ -108,8 +122,14 @@ def remove_unfinished(files: Collection[Path]) -> None:
     """Remove the temporary files that killed processes left of some files."""
     for folder in {file.parent for file in files}:
         for file in tuple(folder.iterdir()) if folder.is_dir() else ():
-            if (match := _TEMPORARY.fullmatch(file.name)) and folder / match[1] in files:
+            if unfinished(file) in files:
                 file.unlink(missing_ok=True)
+
+
+def unfinished(file: Path) -> Path | None:
+    """Return the file that a temporary file was to become; None for another file."""
+    match = _TEMPORARY.fullmatch(file.name)
+    return file.with_name(match[1]) if match else None
 
 
 @contextmanager

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import re
 import zlib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
 from foamprb.errors import InputError, suggestion
+from foamprb.results.atomic import unfinished
 
 __all__ = [
     "FAILURES",
@@ -35,6 +36,7 @@ RECORD_FORMAT = 2
 _ROOT = "postProcessing"
 _MOST_BYTES = 200
 """Longest name: file systems allow 255, and suffixes and temporary names need some."""
+_CHECKPOINT = re.compile(r"[\d.e+-]+\.checkpoint(\.\d+)?|\..+\.tmp")
 _NO_WORD = re.compile(r"""[\s"'/\\;{}]""")
 HOW = "Run the particles first: foamprb run."
 
@@ -157,6 +159,20 @@ class ResultsFolder:
         files = (*self.path.glob("*.csv"), *self.path.glob("*/*.csv"))
         return tuple(sorted(file.relative_to(self.path).with_suffix("").as_posix() for file in files))
 
+    def leftovers(self, listed: Collection[Path]) -> list[Path]:
+        """Return files with names of clouds, checkpoints or temporary files of a run that a list lacks."""
+        series = _series(self.cloud)
+
+        def is_ours(file: Path) -> bool:
+            top, *below = file.relative_to(self.path).parts
+            if top == CHECKPOINTS and below:
+                return bool(_CHECKPOINT.fullmatch(below[0]))
+            return bool(series.fullmatch(top)) or unfinished(file) is not None
+
+        others = {self.pvd, self.state, self.path / MANIFEST, *listed}
+        files = (file for file in sorted(self.path.rglob("*")) if file.is_symlink() or not file.is_dir())
+        return [file for file in files if file not in others and is_ours(file)]
+
     def table(self, name: str) -> Path:
         """Return the file of a table, whether it exists or not."""
         return self.path / f"{name}.csv"
@@ -168,11 +184,15 @@ class ResultsFolder:
 
 def fault_of_function(name: str, cloud: str) -> str:
     """Return why a cloud function cannot have a name, which names its folder too; empty if it can."""
-    series = re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
     tables = {f"{table}.csv" for table in (FATES, FAILURES)}
-    if name in {CHECKPOINTS, MANIFEST, RECORD, "manifest", *tables} or series.fullmatch(name):
+    if name in {CHECKPOINTS, MANIFEST, RECORD, "manifest", *tables} or _series(cloud).fullmatch(name):
         return "the results have a file of that name"
     return fault_of_word(name)
+
+
+def _series(cloud: str) -> re.Pattern[str]:
+    """Return the pattern of the names of the clouds of a run, of their list, and of what shows them."""
+    return re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
 
 
 def fault_of_word(name: str) -> str:

@@ -37,6 +37,7 @@ class Manifest:
         self.files = set(files)
         """The files that :meth:`read` has found; later ones are on disk only."""
         self._expected: frozenset[Path] | None = None
+        self._tables: set[Path] = set()
 
     @property
     def path(self) -> Path:
@@ -72,16 +73,26 @@ class Manifest:
             If the manifest cannot be written.
         """
         files = frozenset(files)
-        further = files - (self._expected or frozenset())
+        self._add(files - (self._expected or frozenset()))
+        self._expected = files
+
+    def expect_table(self, file: Path) -> None:
+        """List a file that is written at each write time, before the first of them; see :meth:`expect`."""
+        if file != self.path and file not in self._tables | self.files:
+            self._add(frozenset([file]))
+            self._expected = self._expected or frozenset()
+            self._tables.add(file)
+
+    def _add(self, files: frozenset[Path]) -> None:
+        """Append files to the list; begin it with them if it is not begun."""
         try:
-            _refuse_links(self.folder, further)
+            _refuse_links(self.folder, files)
         except ValueError as error:
             raise InputError(f"{self.folder}: results would be written elsewhere: {error}") from error
         if self._expected is None:
             self._write(self.files | files)
-        elif further:
-            replace_end(self.path, _END.encode(), f"{_NEXT}{self._lines(further)}{_END}".encode())
-        self._expected = files
+        elif files:
+            replace_end(self.path, _END.encode(), f"{_NEXT}{self._lines(files)}{_END}".encode())
 
     def settle(self, files: Iterable[Path]) -> None:
         """List only files that exist, and files that are about to be written, in one step.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import errno
 import logging
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -32,7 +32,7 @@ from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Sampled
 from foamprb.memory import OutOfMemory, ran_out
-from foamprb.results.atomic import only_writer, remove_unfinished
+from foamprb.results.atomic import before_each_file, only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import PARTICLES, Checkpoints, StoredCheckpoint, part_file, parts_of
 from foamprb.results.folder import FAILURES, FATES
@@ -93,7 +93,7 @@ def open_results(job: Job) -> Iterator[Results]:
 class Results:
     """Writer of a run's files; call :meth:`begin` before the other methods.
 
-    The manifest lists a file before it takes its name; the file of a cloud function, after its first write.
+    The manifest lists a file before it is written.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ class Results:
             return
         if start_from == "latestTime":
             log.info("No checkpoint in %s: beginning at the start time", self._checkpoints.folder)
-        self._start_over()
+        self._start_over(overwrite=start_from == "startTime")
 
     def write_start(self) -> None:
         """Write the snapshot of the start time, with the particles that appear then; no-op after a restart.
@@ -179,11 +179,12 @@ class Results:
         """
         cloud = self._ready()
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
-        tables = self._write_functions()
+        with before_each_file(self._manifest.expect_table):
+            self._job.functions.write(self._job.folder.path)
         memory = {name: array.copy() for name, array in self._job.functions.state().items()}
         stem = self._series.next(cloud.time)
         files = cloud.comm.piece_files(stem)
-        expected = [*tables, self._job.folder.pvd, *(files or [with_ending(stem, ".vtp")])]
+        expected = [self._job.folder.pvd, *(files or [with_ending(stem, ".vtp")])]
         self._manifest.expect([*expected, *self._checkpoint_files(now=True)])
         write_cloud = self._begin_pieces(stem) if files else self._begin_cloud(snapshot)
         parts = self._write_parts()
@@ -286,26 +287,20 @@ class Results:
             files += [file, *(part_file(file, first) for first in cloud.comm.parts)]
         return files
 
-    def _write_functions(self) -> list[Path]:
-        """Let the cloud functions write; return the files that changed in their folders."""
-        folders = self._function_folders()
-        before = _times_of_change(folders)
-        self._job.functions.write(self._job.folder.path)
-        return [file for file, time in _times_of_change(folders).items() if before.get(file) != time]
+    def _start_over(self, overwrite: bool) -> None:
+        """Remove the files that an earlier run has listed, and write the description of this one.
 
-    def _function_folders(self) -> list[Path]:
-        return [self._job.folder.path / name for name in self._job.functions.functions]
-
-    def _start_over(self) -> None:
-        """Remove the files that an earlier run has listed, and write the description of this one."""
+        On request, remove also files with names of a run that no list has.
+        """
         folder = self._job.folder.path
         remedy = f"The files of the earlier run are unknown: remove or rename {folder} to start over."
         try:
             manifest = Manifest.read(folder)
         except InputError as error:
             raise InputError(f"{error} {remedy}") from error
+        leftovers = self._job.folder.leftovers(manifest.files) if overwrite and manifest.files else []
         unlisted = [file for file in self._checkpoints.files().values() if file not in manifest.files]
-        if unlisted:
+        if unlisted and not leftovers:
             raise InputError(f"{manifest.path} does not list {unlisted[0].relative_to(folder)}. {remedy}")
         if self._job.folder.pvd.exists():
             try:
@@ -319,7 +314,7 @@ class Results:
         lists = [
             file for file in (self._job.folder.pvd, self._fates, self._failures) if file in manifest.files
         ]
-        manifest.remove([*checkpoints, *lists, *files, manifest.path])
+        manifest.remove([*checkpoints, *leftovers, *lists, *files, manifest.path])
         self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
 
@@ -368,7 +363,7 @@ class Results:
         self._series.relist(entries)
         write_record(job.folder.record, description)
         snapshots = [file for entry in entries for file in files_of(job.folder.path / entry.file)]
-        functions = self._function_folders()
+        functions = [job.folder.path / name for name in job.functions.functions]
         tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
         remaining = {
             self._job.folder.record,
@@ -407,18 +402,6 @@ def _contents_of(job: Job) -> Contents:
 
 def _smallest_radius(p: Particles) -> float:
     return float(p.R.min(initial=np.inf))
-
-
-def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
-    """Return the files in folders, and the time of the last change of each, ns."""
-    times = {}
-    for folder in folders:
-        for file in folder.rglob("*"):
-            # Another program may remove files at any time.
-            with suppress(FileNotFoundError):
-                if file.is_file():
-                    times[file] = file.stat().st_mtime_ns
-    return times
 
 
 def _number_due(p: Particles, time: float) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import json
 import re
 import sys
 import threading
@@ -23,6 +24,7 @@ from foamprb.cloud.measures import WRITTEN
 from foamprb.cloud.state import Status
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
+from foamprb.results.atomic import unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import Checkpoints
 from foamprb.results.folder import ResultsFolder
@@ -193,6 +195,41 @@ def test_checkpoints_that_no_manifest_lists_are_not_removed(stopped, truth, caps
         file.unlink()
     run(stopped)
     assert results(stopped) == truth
+
+
+def test_files_of_no_run_are_named_and_removed_on_request(case, capsys):
+    """As a run of an earlier version left them; notes of a user stay."""
+    run(case)
+    folder = folder_of(case)
+    left = ["softCloud_000017.vtp", "checkpoint/0.9.checkpoint", ".softCloud.pvd.0123abcd.tmp"]
+    stay = ["checkpoint/notes.txt", "other/notes.csv"]
+    (folder / "other").mkdir()
+    for name in (*left, *stay):
+        (folder / name).touch()
+    assert main(["report", "-case", str(case)]) == 0
+    assert "4 files in" in (page := (folder / "report.html").read_text())
+    assert all(name in page for name in (*left, "other/notes.csv"))
+    assert "manifest.json does not list checkpoint/0.9.checkpoint" in message(case, capsys)
+    run(case, "-overwrite")
+    assert {*left, *stay} & names(folder) == {*stay}
+    assert main(["report", "-case", str(case)]) == 0
+    assert "1 files in" in (folder / "report.html").read_text()
+
+
+def test_a_table_is_listed_before_it_is_begun(case, monkeypatch):
+    observe(case, HITS)
+    manifest, seen = folder_of(case) / "manifest.json", []
+    touch = Path.touch
+
+    def watched(file: Path, *arguments: object, **options: bool) -> None:
+        if file.parent.name == "hits":
+            seen.append(unfinished(file).relative_to(manifest.parent).as_posix())
+            assert seen[-1] in json.loads(manifest.read_text())["files"]
+        touch(file, *arguments, **options)
+
+    monkeypatch.setattr(Path, "touch", watched)
+    run(case)
+    assert len(seen) > len({*seen}) > 0
 
 
 def interrupt_removal(case: Path, nth: int, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ import html
 import logging
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
@@ -20,6 +20,7 @@ from foamprb.flow.read.flows import read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
 from foamprb.results.folder import RECORD_FORMAT, file_name
+from foamprb.results.manifest import Manifest
 from foamprb.view.colours import DARK, LIGHT, written
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
@@ -41,7 +42,7 @@ _MOST_TIMES = 120
 """Largest number of times read for curves over all particles."""
 _MOST_BODIES = 30_000
 """Largest number of bodies in the picture."""
-_PATHS = 6
+_PATHS = _MOST_NAMED = 6
 _MOST_WALLS = 6
 """Largest number of walls that are drawn unrolled."""
 
@@ -124,7 +125,7 @@ def write_report(
             f"{title_of(case)}: {run.name}",
             _subtitle(run),
             _cards(fates),
-            run.record.get("warnings", ()),
+            [*run.record.get("warnings", ()), *_leftovers(run)],
             [section for section in sections if section is not None],
         )
     except (AttributeError, LookupError, TypeError, ValueError) as error:
@@ -141,6 +142,23 @@ def write_report(
     log.info("%d particles, %d plots, %.1f MB: %s", len(fates["id"]), len(report.made),
              len(text.encode()) / 1e6, target)  # fmt: skip
     return target
+
+
+def _leftovers(run: Run) -> Iterator[str]:
+    """Yield a warning of files and tables in the folder that are not those of this run."""
+    try:
+        listed = Manifest.read(run.folder).files
+    except InputError as error:
+        yield str(error)
+        return
+    tables = [file for file in map(run.file, run.tables) if file not in listed]
+    names = [str(file.relative_to(run.folder)) for file in (*run.results.leftovers(listed), *tables)]
+    if listed and names:
+        yield (
+            f"{len(names)} files in {run.folder} are not of this run, as its manifest.json lacks them: "
+            f"{', '.join(names[:_MOST_NAMED])}{', …' if len(names) > _MOST_NAMED else ''}. foamprb run "
+            "-overwrite removes clouds, checkpoints and temporary files among them."
+        )
 
 
 def _geometry(case: Path, source: FlowSource) -> Geometry | None:
