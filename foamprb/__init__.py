@@ -9,6 +9,8 @@ From a case to its results, as ``foamprb run`` goes:
     execute             advance a job's cloud to its end time and write the results
     open_run            the results of a run: tables, snapshots, paths
     open_runs           those of several runs, such as a study, as one table
+    fit                 properties of bodies from their measured shapes
+    Fits                what ``fit`` returns: a table of bodies, and of the population
     InputError          a mistake in the input; its message says where, and what is allowed
     RunStopped          a run that ended early; its message gives the reason, and how to continue
 

@@ -104,6 +104,8 @@ from .flow.read.openfoam import read_case as read_case
 from .flow.read.openfoam import read_series as read_series
 from .flow.read.source import Division as Division
 from .flow.series import SeriesFlow as SeriesFlow
+from .run.fit import Fits as Fits
+from .run.fit import fit as fit
 from .run.job import Job as Job
 from .run.job import prepare as prepare
 from .run.loop import execute as execute
@@ -123,6 +125,7 @@ __all__ = [
     "Escape",
     "FailedParticlesWarning",
     "FaxenCorrection",
+    "Fits",
     "GradientDispersion",
     "Gravity",
     "HerschelBulkley",
@@ -155,6 +158,7 @@ __all__ = [
     "drops",
     "execute",
     "extend",
+    "fit",
     "log_ratio",
     "measure",
     "open_run",

@@ -16,7 +16,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, NoReturn, Protocol, TextIO
 
 import foamprb
-from foamprb.cli import compare, estimate, export, info, init, paraview, report, run, sweep, view
+from foamprb.cli import compare, estimate, export, fit, info, init, paraview, report, run, sweep, view
 from foamprb.cli import compile as compile_
 from foamprb.cli import help as help_
 from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
@@ -49,6 +49,7 @@ COMMANDS: dict[str, Command] = {
     "view": view,
     "paraview": paraview,
     "report": report,
+    "fit": fit,
     "sweep": sweep,
     "compare": compare,
     "export": export,

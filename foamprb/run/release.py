@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -25,11 +25,21 @@ from foamprb.cloud.viscosity import medium_at, viscosity_at_rate
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
-from foamprb.settings.injections import InjectionSettings
+from foamprb.settings.injections import InjectionSettings, Solid
 
-__all__ = ["Release"]
+__all__ = ["Release", "lame_of"]
 
 Floats = NDArray[np.float64]
+
+
+def lame_of(solid: Solid, mu: Floats, largest_stress: Callable[[], float]) -> Floats:
+    """Return λ_s, Pa, for shear moduli μ_s, Pa, and the largest viscous stress around the bodies, Pa."""
+    if solid.poissonsRatio is not None:
+        return np.asarray(lame_parameter(mu, solid.poissonsRatio))
+    bulk = solid.bulkModulus
+    if bulk is None:
+        bulk = sufficient_bulk_modulus(mu, largest_stress())
+    return np.asarray(lame_from_bulk_modulus(bulk, mu))
 
 
 class Release:
@@ -126,7 +136,7 @@ class _Source:
             self._refuse_moduli(p)
             stress = self._viscous_stress(p)
             p.Ca[:] = stress / p.mu
-            p.lame[:] = self._lame(p.mu)
+            p.lame[:] = lame_of(solid, p.mu, lambda: self._largest_stress)
             find_hosts(p, self._flow)
             yield p
 
@@ -144,16 +154,6 @@ class _Source:
         """Largest viscous stress around the particles, Pa."""
         parts = (pending(self._places, rows) for rows in parts_of(self.size))
         return max(float(np.max(self._viscous_stress(p), initial=0.0)) for p in parts)
-
-    def _lame(self, mu: Floats) -> Floats:
-        """Return λ_s, Pa, for shear moduli μ_s, Pa."""
-        solid = self._injection.solid
-        if solid.poissonsRatio is not None:
-            return np.asarray(lame_parameter(mu, solid.poissonsRatio))
-        bulk = solid.bulkModulus
-        if bulk is None:
-            return np.asarray(lame_from_bulk_modulus(sufficient_bulk_modulus(mu, self._largest_stress), mu))
-        return np.asarray(lame_from_bulk_modulus(bulk, mu))
 
     def _refuse_moduli(self, p: Particles) -> None:
         """Raise InputError if a stiffness is not a positive number."""

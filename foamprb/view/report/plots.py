@@ -20,6 +20,7 @@ __all__ = [
     "Plot",
     "by_origin",
     "curves",
+    "dots",
     "histogram",
     "shares",
     "unrolled",
@@ -213,6 +214,44 @@ def curves(
                       label=label)  # fmt: skip
         axes.set(xlabel=_label(x[0], nx), ylabel=_label(y[0], ny))
         _legend(axes)
+
+    return _plot(draw)
+
+
+def dots(
+    x: Floats,
+    y: Floats,
+    x_axis: tuple[str, str],
+    y_axis: tuple[str, str],
+    line: bool = False,
+    log: bool = False,
+) -> Plot:
+    """Return a dot for each body; a selection of many.
+
+    Parameters
+    ----------
+    x, y
+        Values, (n,).
+    x_axis, y_axis
+        Symbol and unit of both axes.
+    line
+        Whether to draw the line on which both are equal.
+    log
+        Whether the axis of y is logarithmic.
+    """
+    few = slice(None, None, 1 + len(x) // _MOST_DOTS)
+    (fx, nx), (fy, ny) = _scaled(x, x_axis[1]), _scaled(y, y_axis[1])
+
+    def draw(_: Any, axes: Any) -> None:
+        axes.plot(x[few] / fx, y[few] / fy, "o", color=NAMES[0], markersize=3.0, markeredgewidth=0.0,
+                  alpha=0.5, rasterized=True)  # fmt: skip
+        if line:
+            ends = np.array([np.nanmin(x), np.nanmax(x)])
+            axes.plot(ends / fx, ends / fy, "--", color=NAMES[5], label="equal")
+            _legend(axes)
+        axes.set(
+            xlabel=_label(x_axis[0], nx), ylabel=_label(y_axis[0], ny), yscale="log" if log else "linear"
+        )
 
     return _plot(draw)
 

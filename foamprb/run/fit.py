@@ -1,0 +1,377 @@
+"""Fit of the properties of measured bodies: Gauss–Newton steps for all bodies at once, in logarithms."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from foamprb.cloud.tracker import never
+from foamprb.cloud.viscosity import viscosity_at_rate
+from foamprb.errors import InputError, RunInterrupted, suggestion
+from foamprb.flow.read.source import FlowSource
+from foamprb.results.atomic import write_text
+from foamprb.results.tables import read_table, write_table
+from foamprb.run.compilation import compile_run
+from foamprb.run.device import UNKNOWNS, Bodies, Device, plane_of, spread, view_of
+from foamprb.run.job import Job, prepare
+from foamprb.run.least_squares import Solution, gauss_newton
+from foamprb.run.measured import Measured, read_measured
+
+__all__ = ["Fits", "fit", "fit_job"]
+
+log = logging.getLogger("foamprb")
+
+Floats = NDArray[np.float64]
+
+_BATCH = 2048
+"""Bodies fitted together; their results are then written."""
+_USUAL = 0.02
+"""Standard error of a quantity without one: relative, of an angle in rad. Only the proportions matter."""
+_EXACT = 1e-3
+"""Relative error of an area without one."""
+_NEAR = 0.05
+"""Distance from the measured place, in diameters, within which a body has to pass."""
+_NORMAL = 1.959964
+"""Half of the 95 % interval of the normal distribution, in standard errors."""
+_UNLIKELY = 1e-4
+"""Probability of a residual below which no properties explain a body."""
+_CURVED = 1.0
+"""Largest curvature number of an affine body: the shape by the curvature is 0.44 of that by the strain."""
+_RESAMPLES = 1000
+_TEXTS = ("id", "reason")
+
+
+@dataclass(frozen=True)
+class Fits:
+    """Fitted properties.
+
+    Parameters
+    ----------
+    table
+        A row for each measured body: ``fits.csv``.
+    population
+        A row for each property: ``population.csv``.
+    unknown
+        Names of the properties.
+    shapes
+        Names of the measured quantities.
+    folder
+        Folder of the tables.
+    """
+
+    table: Mapping[str, NDArray[Any]]
+    population: Mapping[str, NDArray[Any]]
+    unknown: tuple[str, ...]
+    shapes: tuple[str, ...]
+    folder: Path
+
+    @property
+    def fitted(self) -> NDArray[np.bool_]:
+        """Whether a body has been fitted, (n,)."""
+        return np.asarray(self.table["reason"] == "")
+
+    @property
+    def reasons(self) -> dict[str, int]:
+        """Number of bodies that were not fitted, by the reason."""
+        reasons, counts = np.unique(self.table["reason"][~self.fitted], return_counts=True)
+        return dict(zip(reasons.tolist(), counts.tolist(), strict=True))
+
+
+def fit(
+    case: PathLike[str] | str,
+    measured: PathLike[str] | str | Mapping[str, ArrayLike],
+    unknown: Sequence[str] = ("shearModulus",),
+    plane: str | None = None,
+    view: str | None = None,
+    *,
+    time: float | str | None = None,
+    dictionary: Path | None = None,
+    threads: int | None = None,
+    source: FlowSource | None = None,
+    output: Path | str | None = None,
+    overrides: Mapping[str, object] | None = None,
+) -> Fits:
+    """Fit properties of measured bodies, with a case and its settings as the model.
+
+    Parameters
+    ----------
+    case, time, dictionary, threads, source, output, overrides
+        See :func:`foamprb.prepare`.
+    measured
+        Table of the bodies, see :func:`foamprb.run.measured.read_measured`.
+    unknown
+        ``shearModulus``, ``viscosity`` or ``surfaceTension`` of each body.
+    plane
+        Where the bodies were seen, ``"x=0.01"`` or ``"(0.01 0 0) (1 0 0)"``; by default the plane of a cloud
+        function.
+    view
+        Direction of the camera, ``"z"``; by default that of ``deformabilityCytometry``.
+
+    Returns
+    -------
+    The results, which are also files in the folder ``fit`` beside those of a run.
+
+    Raises
+    ------
+    InputError
+        If the table or the case cannot be used.
+    """
+    job = prepare(case, time, dictionary, threads, source, output=output, overrides=overrides)
+    return fit_job(job, read_measured(measured), unknown, plane, view)
+
+
+def fit_job(
+    job: Job,
+    measured: Measured,
+    unknown: Sequence[str],
+    plane: str | None = None,
+    view: str | None = None,
+    overwrite: bool = False,
+    stop: Callable[[], bool] = never,
+) -> Fits:
+    """Fit properties of measured bodies; a fit of the same bodies that was stopped is continued.
+
+    Parameters
+    ----------
+    job
+        The case.
+    measured, unknown, plane, view
+        See :func:`fit`.
+    overwrite
+        Whether to start over.
+    stop
+        Called several times a second; True to stop.
+
+    Raises
+    ------
+    InputError
+        If the table or the case cannot be used.
+    RunInterrupted
+        If ``stop`` returned True.
+    """
+    unknown = tuple(dict.fromkeys(unknown))
+    for name in unknown:
+        if name not in UNKNOWNS:
+            raise InputError(f"-unknown '{name}'. {suggestion(name, UNKNOWNS)}")
+    if not unknown or len(measured.shapes) < len(unknown):
+        raise InputError(
+            f"{measured.file}: {len(measured.shapes)} measured quantities of the shape "
+            f"({', '.join(measured.shapes)}) for {len(unknown)} unknown properties. Needed: at least as many."
+        )
+    plane_ = plane_of(plane, job)
+    device = Device(job, plane_, view_of(view, job, plane_), stop)
+    compile_run(job.cloud, job.compilation)
+    folder = job.folder.path / "fit"
+    folder.mkdir(parents=True, exist_ok=True)
+    problem = _Problem(device, measured, unknown)
+    target, sign = folder / "fits.csv", folder / "fit.json"
+    text = json.dumps({"sign": _sign(job, measured, unknown, plane, view)})
+    table = {} if overwrite else _earlier(target, sign, text)
+    ready = len(table.get("id", ()))
+    write_text(sign, text)
+    for first in range(ready, measured.n, _BATCH):
+        try:
+            part = problem.solve(slice(first, first + _BATCH))
+        except RunInterrupted:
+            raise RunInterrupted(
+                f"stopped after {first} of {measured.n} bodies, which are in {target}. The same command "
+                "continues."
+            ) from None
+        table = {name: np.concatenate([table[name], part[name]]) for name in part} if table else part
+        write_table(target, table)
+        log.info("%d of %d bodies", len(table["id"]), measured.n)
+    population = _population(table, unknown)
+    write_table(folder / "population.csv", population)
+    return Fits(table, population, unknown, measured.shapes, folder)
+
+
+def _sign(job: Job, measured: Measured, *options: object) -> str:
+    """Return a checksum of everything that determines the results."""
+    sums = hashlib.sha256(repr((options, job.settings.overrides)).encode())
+    sums.update(job.settings.file.read_bytes())
+    for name, column in sorted(measured.columns.items()):
+        sums.update(name.encode() + column.tobytes())
+    for name, values in job.cloud.flow.traits().items():
+        sums.update(name.encode() + np.asarray(values).tobytes())
+    return sums.hexdigest()
+
+
+def _earlier(target: Path, sign: Path, text: str) -> dict[str, NDArray[Any]]:
+    """Return the table of a fit that was stopped; empty if there is none, or one of other bodies."""
+    if not target.exists() or not sign.exists() or sign.read_text(encoding="utf-8") != text:
+        return {}
+    return read_table(target, _TEXTS)
+
+
+class _Problem:
+    """Measured bodies in a device."""
+
+    def __init__(self, device: Device, measured: Measured, unknown: tuple[str, ...]) -> None:
+        self.device, self.measured, self.unknown = device, measured, unknown
+        self.places, self.offsets = device.places(measured)
+        device.pass_guides(float(np.nanmedian(self.offsets)))
+        self.guide, self.release, self.ratio = device.lead_to(self.places)
+        self.names = (*(("area",) if measured.size == "area" else ()), *measured.shapes)
+        self.values = np.stack([measured.of(name) for name in self.names], axis=1)
+        errors = np.stack([measured.of(f"{name}Error") for name in self.names], axis=1)
+        self.has_errors = bool(np.isfinite(errors[:, -len(measured.shapes) :]).any())
+        usual = [
+            np.full(measured.n, _USUAL) if name == "angle"
+            else (_EXACT if name == "area" else _USUAL) * np.abs(measured.of(name))
+            for name in self.names
+        ]  # fmt: skip
+        self.errors = np.where(np.isfinite(errors), errors, np.maximum(np.stack(usual, axis=1), 1e-12))
+        p = device.job.cloud.particles
+        start = {
+            "shearModulus": float(np.median(p.mu)),
+            "viscosity": float(np.median(p.eta)) or viscosity_at_rate(device.job.cloud.medium.mu, None),
+            "surfaceTension": float(np.median(p.gamma)) or float(np.median(p.mu * p.R)),
+        }
+        self.start = [math.log(start[name]) for name in unknown]
+
+    def solve(self, rows: slice) -> dict[str, NDArray[Any]]:
+        """Return the table of some bodies."""
+        batch = _Batch(self, rows)
+        able = batch.able
+        start = np.tile(self.start, (len(able), 1))
+        if batch.size_is_unknown:
+            start = np.column_stack([start, np.log(batch.d[able])])
+        positive = np.array([name != "angle" for name in self.names])
+        solution = gauss_newton(batch.predict, batch.values[able], batch.errors[able], start, positive)
+        return batch.table(solution)
+
+
+class _Batch:
+    """Bodies that are fitted together."""
+
+    def __init__(self, problem: _Problem, rows: slice) -> None:
+        self._problem, self._measured = problem, problem.measured.take(rows)
+        self._places, self._offsets = problem.places[rows], problem.offsets[rows]
+        self._guide, self._ratio = problem.guide[rows], problem.ratio[rows]
+        self._release = problem.release[rows].copy()
+        self._arrival = problem.device.expected(self._places, self._guide, self._offsets)
+        self.values, self.errors = problem.values[rows], problem.errors[rows]
+        self.size_is_unknown = self._measured.size == "area"
+        sizes = self._measured
+        self.d = 2.0 * np.sqrt(sizes.of("area") / np.pi) if self.size_is_unknown else sizes.of("d")
+        self._reason = self._faults()
+        self.able = np.flatnonzero(self._reason == "")
+
+    def _faults(self) -> NDArray[Any]:
+        """Return why bodies are not fitted, (n,); empty texts for the others."""
+        problem, reason = self._problem, np.full(len(self.d), "", dtype=object)
+        device, shapes = problem.device, self.values[:, -len(problem.measured.shapes) :]
+        missing = np.isfinite(shapes).sum(axis=1) < len(problem.unknown)
+        curvature = device.curvature_number(self._arrival, np.nan_to_num(self.d))
+        # The last one that holds is stored.
+        if not device.job.cloud.models.has_quadratic:
+            reason[curvature > _CURVED] = (
+                f"the curvature number is above {_CURVED:g}: use shapeModel quadratic"
+            )
+        reason[np.isnan(curvature)] = "its place is outside the flow"
+        reason[missing] = "fewer values than unknown properties"
+        reason[~np.isfinite(self.d)] = "its size is missing"
+        places = [column for name, column in self._measured.columns.items() if name in ("x", "y", "z")]
+        unplaced = np.isnan([self._offsets, *places]).any(axis=0)
+        reason[unplaced] = "its place is missing"
+        return reason
+
+    def predict(
+        self, some: NDArray[np.int64], theta: Floats, moves: bool
+    ) -> tuple[Floats, NDArray[np.bool_]]:
+        """Return predictions of the values; an estimate ``moves`` the release towards the measured place."""
+        problem, rows = self._problem, self.able[some]
+        properties = {name: np.exp(theta[:, k]) for k, name in enumerate(problem.unknown)}
+        d = np.exp(theta[:, -1]) if self.size_is_unknown else self.d[rows]
+        bodies = Bodies(self._guide[rows], self._release[rows], d, properties)
+        seen = problem.device.follow(bodies, self._offsets[rows])
+        if moves:
+            self._arrival[rows] = seen.x
+            self._release[rows] += self._ratio[rows, None] * np.nan_to_num(self._places[rows] - seen.x)
+        image = problem.device.image(seen, d, problem.names)
+        return np.stack([image[name] for name in problem.names], axis=1), seen.passed
+
+    def table(self, solution: Solution) -> dict[str, NDArray[Any]]:
+        """Return the table of a solution."""
+        from scipy.stats import chi2
+
+        problem, able = self._problem, self.able
+        deviations = (self.values[able] - solution.predicted) / self.errors[able]
+        squares = np.nansum(deviations**2, axis=1)
+        count = np.isfinite(self.values[able]).sum(axis=1)
+        freedom = count - solution.theta.shape[1]
+        apart = np.linalg.norm(np.nan_to_num(self._places - self._arrival)[able], axis=1)
+        near = apart < _NEAR * self.d[able]
+        reason = np.full(len(able), "", dtype=object)
+        reason[~solution.converged] = "the steps do not converge"
+        if problem.has_errors or not freedom.any():
+            worst = np.argmax(np.nan_to_num(np.abs(deviations)), axis=1)
+            for row in np.flatnonzero(squares > chi2.isf(_UNLIKELY, np.maximum(freedom, 1))):
+                reason[row] = f"no value explains its {problem.names[worst[row]]}"
+        reason[~(solution.valid & near)] = "no path of a body leads to its place"
+        fitted = reason == ""
+        scale = 1.0 if problem.has_errors else math.nan
+        if not problem.has_errors and freedom[fitted].any():
+            # Without errors the residuals of all bodies show them; exact solutions have no residual.
+            scale = math.sqrt(float(squares[fitted].sum()) / float(freedom[fitted].sum()))
+        theta = np.where(fitted[:, None], solution.theta, np.nan)
+        half = _NORMAL * scale * solution.spread
+        columns: dict[str, Floats] = {}
+        for k, name in enumerate(problem.unknown):
+            for ending, logarithms in (
+                ("", theta[:, k]), ("Low", theta[:, k] - half[:, k]), ("High", theta[:, k] + half[:, k])
+            ):  # fmt: skip
+                columns[name + ending] = np.exp(np.clip(logarithms, -700.0, 700.0))
+        columns |= {f"{name}Predicted": solution.predicted[:, k] for k, name in enumerate(problem.names)}
+        columns["residual"] = np.sqrt(squares / np.maximum(count, 1))
+        self._reason[able] = reason
+        d = self.d.copy()
+        if self.size_is_unknown:
+            d[able] = np.exp(solution.theta[:, -1])
+        table: dict[str, NDArray[Any]] = {"id": self._measured.ids.astype(str)}
+        table |= dict(zip("xyz", self._arrival.T, strict=True))
+        table |= {"d": d, **dict(zip(problem.names, self.values.T, strict=True))}
+        table |= {name: spread(values, able, len(d)) for name, values in columns.items()}
+        return {**table, "reason": self._reason.astype(str)}
+
+
+def _population(table: Mapping[str, NDArray[Any]], unknown: Sequence[str]) -> dict[str, NDArray[Any]]:
+    """Return median and spread of each property with 95 % intervals by resampling the bodies."""
+    random = np.random.default_rng(0)
+    rows = []
+    for name in unknown:
+        values = table[name][np.isfinite(table[name]) & (table["reason"] == "")]
+        if not len(values):
+            rows.append([0.0] + 6 * [math.nan])
+            continue
+        samples = np.empty((_RESAMPLES, 2))
+        logs = np.log(values)
+        for k in range(_RESAMPLES):
+            drawn = logs[random.integers(0, len(logs), len(logs))]
+            samples[k] = np.median(drawn), drawn.std()
+        (median_low, spread_low), (median_high, spread_high) = np.quantile(samples, (0.025, 0.975), axis=0)
+        median, spread = math.exp(float(np.median(logs))), float(logs.std())
+        rows.append(
+            [
+                len(values),
+                median,
+                math.exp(median_low),
+                math.exp(median_high),
+                spread,
+                spread_low,
+                spread_high,
+            ]
+        )
+    heads = ("bodies", "median", "medianLow", "medianHigh", "sdLog", "sdLogLow", "sdLogHigh")
+    columns = dict(zip(heads, np.array(rows).T, strict=True))
+    return {"property": np.array(list(unknown)), **columns, "bodies": columns["bodies"].astype(np.int64)}

@@ -1,0 +1,259 @@
+"""Tables of measured bodies: where each was seen, its size, and the shape that was measured."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from foamprb.errors import InputError, closest
+from foamprb.optional import load
+
+__all__ = ["SHAPES", "Measured", "read_measured"]
+
+Floats = NDArray[np.float64]
+
+_LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
+_AREAS = {f"{unit}{two}": factor**2 for unit, factor in _LENGTHS.items() for two in ("2", "^2")}
+_RATES = {"1/s": 1.0, "rad/s": 1.0}
+_ANGLES = {"rad": 1.0, "deg": math.pi / 180.0}
+_NUMBERS = {"": 1.0, "1": 1.0, "%": 0.01}
+_UNITS = {
+    "x": _LENGTHS, "y": _LENGTHS, "z": _LENGTHS, "d": _LENGTHS, "a": _LENGTHS, "b": _LENGTHS, "area": _AREAS,
+    "strain": _NUMBERS, "deformation": _NUMBERS, "angle": _ANGLES, "treading": _RATES,
+}  # fmt: skip
+"""Factors to SI units of each quantity, by unit."""
+SHAPES = ("strain", "deformation", "angle", "treading")
+"""Measured quantities that depend on the shape."""
+_WITH_ERRORS = ("d", "area", *SHAPES)
+_HEAD = re.compile(r"\s*([^\[\]]*?)\s*(?:\[\s*(.*?)\s*\])?\s*")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Measured bodies.
+
+    Parameters
+    ----------
+    file
+        The table, for messages.
+    columns
+        Values in SI units by name, (n,): x, y, z (place), d (diameter at rest), area (of the outline),
+        strain ((a − b)/√(ab) of its semi-axes), deformation (1 − 2√(πA)/P), angle (of its long axis with the
+        normal of the plane) and treading (angular velocity of the surface); each but the place with its
+        standard error, ``strainError``. NaN where a value is missing.
+    ids
+        Numbers or names of the bodies, (n,).
+    """
+
+    file: str
+    columns: Mapping[str, Floats]
+    ids: NDArray[Any]
+
+    @property
+    def n(self) -> int:
+        """Number of bodies."""
+        return len(self.ids)
+
+    @property
+    def shapes(self) -> tuple[str, ...]:
+        """Names of the measured quantities of the shape."""
+        return tuple(name for name in SHAPES if name in self.columns)
+
+    @property
+    def size(self) -> str:
+        """Name of the measured size, ``d`` or ``area``."""
+        return "d" if "d" in self.columns else "area"
+
+    def of(self, name: str) -> Floats:
+        """Return a column; NaN if there is none."""
+        return self.columns.get(name, np.full(self.n, np.nan))
+
+    def take(self, rows: slice) -> Measured:
+        """Return some of the bodies."""
+        columns = {name: column[rows] for name, column in self.columns.items()}
+        return Measured(self.file, columns, self.ids[rows])
+
+
+def read_measured(table: PathLike[str] | str | Mapping[str, ArrayLike]) -> Measured:
+    """Read a table of measured bodies.
+
+    Parameters
+    ----------
+    table
+        A ``.csv`` file whose heads have units, ``d [um]``; a file of dclab, ``.rtdc`` or ``.tsv``; the
+        ``_evaluated.csv`` of shear flow deformation cytometry; or arrays in SI units by the names of
+        :class:`Measured`.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read; if a unit is missing or unknown, a column that is needed is missing, or a
+        cell is no number.
+    """
+    if isinstance(table, Mapping):
+        return _checked("measured", {name: np.asarray(values) for name, values in table.items()})
+    path = Path(table)
+    if not path.is_file():
+        raise InputError(f"{path}: no such file. Needed: a table of measured bodies.")
+    if path.suffix == ".rtdc":
+        return _of_dclab(path, *_read_rtdc(path))
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a readable table ({error}).") from error
+    if path.suffix == ".tsv":
+        return _of_dclab(path, *_split_tsv(path, lines))
+    rows = [row for row in csv.reader(lines) if any(cell.strip() for cell in row)]
+    if len(rows) < 2:
+        raise InputError(f"{path}: no rows. Needed: a line of heads and a line for each body.")
+    if {"long_axis", "short_axis", "radial_position"} <= {*rows[0]}:
+        return _of_evaluation(path, rows)
+    heads, factors = [], []
+    for head in rows[0]:
+        name, factor = _factor(path, head)
+        heads.append(name)
+        factors.append(factor)
+    if twice := next((name for name in heads if name and heads.count(name) > 1), ""):
+        raise InputError(f"{path}: two columns {twice}. Needed: one.")
+    return _checked(str(path), _numbers(path, heads, rows[1:], 2, factors))
+
+
+def _factor(path: Path, head: str) -> tuple[str, float]:
+    """Return name and factor to SI units of a column by its head; no name if it is not used."""
+    match = _HEAD.fullmatch(head)
+    name, unit = (match[1], match[2]) if match else (head.strip(), None)
+    quantity = name.removesuffix("Error")
+    if name == "id":
+        return name, 1.0
+    if quantity not in (_WITH_ERRORS if name.endswith("Error") else _UNITS):
+        meant = closest(name, [*_UNITS, *(f"{q}Error" for q in _WITH_ERRORS)])
+        if meant and meant.lower() == name.lower():
+            raise InputError(f"{path}: a column {name}. Did you mean '{meant}'?")
+        return "", 1.0
+    allowed = _UNITS[quantity]
+    text = (unit or "").replace("µ", "u").replace("μ", "u").replace("²", "2").replace("°", "deg")
+    if text not in allowed:
+        shown = ", ".join(f"[{unit}]" for unit in allowed if unit)
+        state = f"has the unit [{unit}]" if unit else "has no unit"
+        raise InputError(f"{path}: the column {name} {state}. Allowed: {shown}.")
+    return name, allowed[text]
+
+
+def _numbers(
+    path: Path, heads: Sequence[str], rows: Sequence[Sequence[str]], first: int, factors: Sequence[float]
+) -> dict[str, NDArray[Any]]:
+    """Return the columns with a name; ``first`` is the line of the first row."""
+    columns: dict[str, NDArray[Any]] = {}
+    for line, row in enumerate(rows, first):
+        if len(row) != len(heads):
+            raise InputError(f"{path}: line {line} has {len(row)} cells, the heads are {len(heads)}.")
+    for k, (name, factor) in enumerate(zip(heads, factors, strict=True)):
+        cells = [row[k].strip() for row in rows]
+        if name == "id":
+            columns[name] = np.array(cells)
+        elif name:
+            values = np.empty(len(cells))
+            for i, cell in enumerate(cells):
+                try:
+                    values[i] = factor * float(cell or "nan")
+                except ValueError:
+                    raise InputError(
+                        f"{path}: line {first + i}: {name} is '{cell}'. Needed: a number."
+                    ) from None
+            columns[name] = values
+    return columns
+
+
+def _checked(file: str, columns: dict[str, NDArray[Any]]) -> Measured:
+    """Return measured bodies, with size and strain by the semi-axes a and b if these are measured."""
+    sizes = {len(column) for column in columns.values()}
+    if len(sizes) > 1:
+        raise InputError(f"{file}: columns of different lengths, {', '.join(map(str, sorted(sizes)))}.")
+    n = next(iter(sizes), 0)
+    ids = columns.pop("id", np.arange(n))
+    values = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
+    if {"a", "b"} <= values.keys():
+        a, b = values.pop("a"), values.pop("b")
+        product = np.where((a > 0.0) & (b > 0.0), a * b, np.nan)
+        values.setdefault("strain", np.abs(a - b) / np.sqrt(product))
+        values.setdefault("area", np.pi * product)
+    measured = Measured(file, values, ids)
+    if n == 0 or not ({"d", "area"} & values.keys()):
+        raise InputError(
+            f"{file}: no size of the bodies. Needed: a column d [um], area [um2], or a [um] and b [um]."
+        )
+    if not measured.shapes:
+        raise InputError(f"{file}: no measured shape. Needed: a column {', '.join(SHAPES)}, or a and b.")
+    for name, column in values.items():
+        wrong = column <= 0.0 if name in ("d", "area") or name.endswith("Error") else np.isinf(column)
+        if wrong.any():
+            raise InputError(
+                f"{file}: {name} of body {ids[np.argmax(wrong)]} is {column[np.argmax(wrong)]:g}"
+                f"{f', and of {wrong.sum() - 1} others' if wrong.sum() > 1 else ''}. Needed: a number"
+                f"{' > 0' if (column <= 0.0).any() else ''}."
+            )
+    return measured
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Files of devices
+
+
+def _read_rtdc(path: Path) -> tuple[list[str], NDArray[Any]]:
+    """Return names and values of the features of a file of dclab."""
+    dclab = load("dclab", "cytometry", "files of dclab need")
+    try:
+        with dclab.new_dataset(path) as data:
+            names = [name for name in ("area_um", "deform") if name in data]
+            return names, np.array([data[name][:] for name in names], dtype=float)
+    except (OSError, ValueError, KeyError) as error:
+        raise InputError(f"{path}: not a file of dclab ({error}).") from error
+
+
+def _split_tsv(path: Path, lines: Sequence[str]) -> tuple[list[str], NDArray[Any]]:
+    """Return names and values of a table that dclab exported; the last line but one of the heads has them."""
+    heads = [line for line in lines if line.startswith("#")]
+    if len(heads) < 2:
+        raise InputError(f"{path}: not a table of dclab. Needed: its two lines of heads, beginning with #.")
+    names = heads[-2].removeprefix("#").strip().split("\t")
+    rows = [line.split("\t") for line in lines if line.strip() and not line.startswith("#")]
+    columns = _numbers(path, names, rows, len(heads) + 1, [1.0] * len(names))
+    return names, np.array([columns[name] for name in names])
+
+
+def _of_dclab(path: Path, names: Sequence[str], values: NDArray[Any]) -> Measured:
+    columns = dict(zip(names, values, strict=True))
+    if missing := [name for name in ("area_um", "deform") if name not in columns]:
+        raise InputError(f"{path}: no feature {missing[0]}. Needed: area_um and deform.")
+    return _checked(str(path), {"area": 1e-12 * columns["area_um"], "deformation": columns["deform"]})
+
+
+def _of_evaluation(path: Path, rows: Sequence[Sequence[str]]) -> Measured:
+    """Return the cells of an evaluation of shear flow deformation cytometry: means of all frames of a cell.
+
+    The axes are whole ones, µm; the second line has units.
+    """
+    wanted = ("radial_position", "long_axis", "short_axis", "angle", "cell_id")
+    heads = [name if name in wanted else "" for name in rows[0]]
+    if missing := [name for name in wanted[:4] if name not in heads]:
+        raise InputError(f"{path}: no column {missing[0]}, which the evaluation of the device writes.")
+    columns = _numbers(path, heads, rows[2:], 3, [1.0] * len(heads))
+    cells, index = np.unique(columns.get("cell_id", np.arange(len(rows) - 2)), return_inverse=True)
+    frames = np.bincount(index)
+
+    def mean(values: NDArray[Any]) -> Floats:
+        return np.bincount(index, values) / frames
+
+    a, b = mean(0.5e-6 * columns["long_axis"]), mean(0.5e-6 * columns["short_axis"])
+    angle = mean(np.abs(np.radians(columns["angle"])))
+    y = mean(1e-6 * columns["radial_position"])
+    return _checked(str(path), {"id": cells.astype(np.int64), "y": y, "a": a, "b": b, "angle": angle})

@@ -1,0 +1,66 @@
+"""A pipe as a shear flow deformation cytometer, and cells that were seen in it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from foamprb import analytic
+from foamprb.run.device import Bodies, Device, plane_of, view_of
+from foamprb.run.job import Job, assemble
+from foamprb.run.measured import Measured, read_measured
+from foamprb.settings.settings import read_settings
+
+RADIUS, MEAN, MU = 1e-4, 5e-3, 1.0
+SETTINGS = """
+solution { deltaT 2e-3; endTime 2; integrationSchemes { shape stokes; } }
+constantProperties { rho0 1000; rhoInf 1000; mu 1; solid { type neoHooke; shearModulus 300; viscosity 1; } }
+subModels
+{
+    particleForces { ellipsoidDrag; }
+    injectionModels
+    {
+        cells
+        {
+            type lineInjection;
+            start (1e-6 -9e-5 0); end (1e-6 9e-5 0); number 37;
+            sizeDistribution { type fixedValue; fixedValueDistribution { value 15e-6; } }
+        }
+    }
+    patchInteractionModel localInteraction;
+    localInteractionCoeffs
+    {
+        patches ( wall { type rebound; } "(inlet|outlet)" { type escape; } );
+    }
+}
+"""
+
+
+def pipe_job(folder: Path, text: str = SETTINGS, flow=None, threads: int = 1) -> Job:
+    """The job of these settings in Poiseuille flow."""
+    (folder / "constant").mkdir(exist_ok=True, parents=True)
+    (folder / "constant/softCloudProperties").write_text(text)
+    flow = flow or analytic.pipe(RADIUS, MEAN, 2e-3)
+    return replace(assemble(read_settings(folder, time=None), flow, threads), output=folder / "results")
+
+
+def seen_cells(
+    job: Job, n: int, noise: float = 1.0, seed: int = 0
+) -> tuple[Measured, np.ndarray, np.ndarray]:
+    """Cells at x = 1 mm, with errors of 2 % of the strain and 0.02 rad, and their properties."""
+    random = np.random.default_rng(seed)
+    G, eta = 300.0 * np.exp(random.normal(0.0, 0.3, n)), np.exp(random.normal(0.0, 0.3, n))
+    d, y = random.normal(15e-6, 1e-6, n), random.uniform(3e-5, 8e-5, n) * random.choice([-1.0, 1.0], n)
+    plane = plane_of("x=1e-3", job)
+    device = Device(job, plane, view_of("z", job, plane))
+    device.pass_guides(1e-3)
+    places = np.stack([np.full(n, np.nan), y, np.full(n, np.nan)], axis=1)
+    guide, start, _ = device.lead_to(places)
+    seen = device.follow(Bodies(guide, start, d, {"shearModulus": G, "viscosity": eta}), np.full(n, 1e-3))
+    image = device.image(seen, d, ("strain", "angle"))
+    strain = image["strain"] * (1.0 + 0.02 * noise * random.normal(size=n))
+    angle = image["angle"] + 0.02 * noise * random.normal(size=n)
+    errors = {"strainError": 0.02 * image["strain"], "angleError": np.full(n, 0.02)}
+    return read_measured({"y": y, "d": d, "strain": strain, "angle": angle, **errors}), G, eta

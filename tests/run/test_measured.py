@@ -1,0 +1,97 @@
+"""Tables of measured bodies: units, files of devices, and one message for each mistake."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from foamprb.errors import InputError
+from foamprb.run.measured import read_measured
+
+
+def table(folder, text, name="cells.csv"):
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_units_and_errors_are_read(tmp_path):
+    path = table(
+        tmp_path, "id,x [mm],d [µm],area [um²],angle [deg],angleError [°],strain,note\na7,2,10,80,45,2,,x\n"
+    )
+    measured = read_measured(path)
+    assert measured.ids.tolist() == ["a7"]
+    expected = {"x": 2e-3, "d": 1e-5, "area": 8e-11, "angle": np.pi / 4, "angleError": np.pi / 90}
+    assert {name: measured.of(name)[0] for name in expected} == pytest.approx(expected)
+    assert np.isnan(measured.of("strain")[0])
+    assert measured.size == "d"
+    assert measured.shapes == ("strain", "angle")
+
+
+def test_semi_axes_give_size_and_strain(tmp_path):
+    measured = read_measured(table(tmp_path, "a [um],b [um]\n8,2\n"))
+    assert measured.of("area")[0] == pytest.approx(16e-12 * np.pi)
+    assert measured.of("strain")[0] == pytest.approx(1.5)
+    assert measured.size == "area"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "no rows. Needed: a line of heads"),
+        ("d,strain\n1e-5,0.1\n", r"the column d has no unit. Allowed: \[m\], \[mm\], \[um\], \[nm\]"),
+        ("d [inch],strain\n1,0.1\n", r"the column d has the unit \[inch\]"),
+        ("d [um],strain\n10,soft\n", "line 2: strain is 'soft'. Needed: a number"),
+        ("d [um],strain\n10,0.1\n10\n", "line 3 has 1 cells, the heads are 2"),
+        ("d [um],strain\n-10,0.1\n", "d of body 0 is -1e-05. Needed: a number > 0"),
+        ("d [um],strain,strainError\n10,0.1,0\n", "strainError of body 0 is 0"),
+        ("d [um],strain\n10,inf\n", "strain of body 0 is inf"),
+        (
+            "d [um],x [m]\n10,0.1\n",
+            "no measured shape. Needed: a column strain, deformation, angle, treading",
+        ),
+        ("strain\n0.1\n", "no size of the bodies"),
+        ("d [um],d [m],strain\n1,1,1\n", "two columns d"),
+        ("d [um],Strain\n10,0.1\n", "a column Strain. Did you mean 'strain'?"),
+    ],
+)
+def test_each_mistake_of_a_table_is_one_message(tmp_path, text, message):
+    with pytest.raises(InputError, match=message):
+        read_measured(table(tmp_path, text))
+
+
+def test_frames_of_a_cell_in_an_evaluation_are_averaged(tmp_path):
+    heads = "frame,timestamp,x,y,radial_position,long_axis,short_axis,angle,solidity,cell_id"
+    units = "frame,ms,cam_pixel,cam_pixel,,µm,µm,deg,dimensionless,dimensionless"
+    rows = "0,0,10,20,50,20,10,-30,0.98,3\n1,2,30,20,52,20,10,-34,0.98,3\n1,2,40,9,-70,16,12,20,0.98,5\n"
+    measured = read_measured(table(tmp_path, f"{heads}\n{units}\n{rows}", "a_evaluated.csv"))
+    assert measured.ids.tolist() == [3, 5]
+    np.testing.assert_allclose(measured.of("y"), [51e-6, -70e-6])
+    np.testing.assert_allclose(measured.of("angle"), np.radians([32.0, 20.0]))
+    np.testing.assert_allclose(measured.of("strain"), [10.0 / np.sqrt(200.0), 4.0 / np.sqrt(192.0)])
+    np.testing.assert_allclose(measured.of("area"), np.pi * 1e-12 * np.array([50.0, 48.0]))
+
+
+def test_an_exported_table_of_dclab_is_read(tmp_path):
+    heads = "\ufeff# dclab version: 1\n#\n# area_um\tdeform\n# Area [µm²]\tDeformation\n"
+    text = f"{heads}5.0e1\t2.0e-2\n6.0e1\t3.0e-2\n"
+    measured = read_measured(table(tmp_path, text, "cells.tsv"))
+    np.testing.assert_allclose(measured.of("area"), [5e-11, 6e-11])
+    np.testing.assert_allclose(measured.of("deformation"), [0.02, 0.03])
+    lacking = table(tmp_path, "# area_um\tarea_cvx\n# Area\tA\n1\t2\n", "b.tsv")
+    with pytest.raises(InputError, match="no feature deform"):
+        read_measured(lacking)
+
+
+def test_a_measurement_of_dclab_is_read(tmp_path):
+    dclab = pytest.importorskip("dclab")
+    path = tmp_path / "cells.rtdc"
+    with dclab.RTDCWriter(path) as writer:
+        writer.store_metadata({"experiment": {"sample": "beads", "run index": 1, "event count": 2}})
+        writer.store_feature("area_um", np.array([50.0, 60.0]))
+        writer.store_feature("deform", np.array([0.02, 0.03]))
+    measured = read_measured(path)
+    np.testing.assert_allclose(measured.of("area"), [5e-11, 6e-11])
+    np.testing.assert_allclose(measured.of("deformation"), [0.02, 0.03])
+    with pytest.raises(InputError, match="not a file of dclab"):
+        read_measured(table(tmp_path, "", "empty.rtdc"))
