@@ -10,7 +10,7 @@ from foamprb import analytic
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Stick
-from foamprb.cloud.paths import COLUMNS, Steps, step
+from foamprb.cloud.paths import COLUMNS_OF_ELLIPSOIDS, Steps, step
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import ObservedCloud
@@ -22,7 +22,9 @@ WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
 AIR = Medium(1.8e-5, 1.2, (0.0, -400.0, 0.0))
 
 
-def pipe_cloud(n=40, medium=AIR, length=0.03, integrator="stokes", walls=None, rebounds=False, **options):
+def pipe_cloud(
+    n=40, medium=AIR, length=0.03, integrator="stokes", walls=None, rebounds=False, shape="affine", **options
+):
     """Particles spread over the inlet that start one after the other, from two injection models."""
     random = np.random.default_rng(1)
     r, phi = 0.97 * RADIUS * np.sqrt(random.uniform(0, 1, n)), random.uniform(0, 2 * np.pi, n)
@@ -32,7 +34,8 @@ def pipe_cloud(n=40, medium=AIR, length=0.03, integrator="stokes", walls=None, r
     p.injector[:] = np.arange(n) % 2
     flow = analytic.pipe(RADIUS, MEAN, length)
     walls = walls or (Stick(), Escape(), Escape())
-    return Cloud(p, flow, medium, walls, 1e-4, Models(integrator=integrator, rebounds=rebounds), **options)
+    models = Models(integrator=integrator, rebounds=rebounds, shape=shape)
+    return Cloud(p, flow, medium, walls, 1e-4, models, **options)
 
 
 def observed(cloud):
@@ -75,7 +78,7 @@ def column(rows, name):
 def made_steps(t, x=None, v=None, F=None, l=None, number=0):
     """Steps of a particle, one after the other, from values of some quantities at n + 1 times."""
     n = len(t) - 1
-    tables = np.zeros((1, COLUMNS, n))
+    tables = np.zeros((1, COLUMNS_OF_ELLIPSOIDS, n))
     still = {"x": np.zeros((n + 1, 3)), "v": np.zeros((n + 1, 3)), "l": np.zeros((n + 1, 9))}
     still["F"] = np.tile(np.eye(3).ravel(), (n + 1, 1))
     given = {name: values for name, values in {"x": x, "v": v, "F": F, "l": l}.items() if values is not None}

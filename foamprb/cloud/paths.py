@@ -13,6 +13,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.quadratic import Third, advanced, rotation, turned, weights
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -33,6 +34,8 @@ from foamprb.compile.link import compiled
 
 __all__ = [
     "COLUMNS",
+    "COLUMNS_OF_ELLIPSOIDS",
+    "MODE",
     "ROOM",
     "RecordedRows",
     "Steps",
@@ -73,10 +76,18 @@ class StepRows(NamedTuple):
     passed: Annotated[
         int, Row(1, "", "1 if a coupled patch is between it and the step before; in the loop, if within it")
     ]
+    B0: Annotated[int, Row(7, "1", "quadratic mode at the start; these rows only where it is recorded")]
+    growth0: Annotated[int, Row(7, "1/s", "its source there")]
+    recovery0: Annotated[int, Row(1, "1/s", "its relaxation 1/τ₃ there")]
+    fluid_spin0: Annotated[int, Row(3, "1/s", "angular velocity of the fluid there")]
 
 
 step = offsets(StepRows)
 COLUMNS = end(step)
+MODE = frozenset(("B0", "growth0", "recovery0", "fluid_spin0"))
+"""Rows of the quadratic mode."""
+COLUMNS_OF_ELLIPSOIDS = step.B0
+"""Number of rows before these."""
 ALWAYS = frozenset(("t0", "x0", "t1", "x1"))
 """Rows that are recorded of every step; others of the block where a function needs them."""
 ROOM = 256
@@ -94,12 +105,17 @@ class RecordedRows(NamedTuple):
     end_l: int = -1
     """−1 if the fluid is not sampled at the end of a step."""
 
-    def starts(self, needs: Collection[str]) -> NDArray[np.int64]:
+    def starts(self, needs: Collection[str], mode: Mapping[str, int]) -> NDArray[np.int64]:
         """Return the rows that are recorded before a step is accepted, and those of the table, (k, 2).
 
-        ``needs`` are names of :class:`StepRows` beside :data:`ALWAYS`.
+        Parameters
+        ----------
+        needs
+            Names of :class:`StepRows` beside :data:`ALWAYS`.
+        mode
+            Rows of the quadratic mode in the block; empty without it.
         """
-        rows = {"t": at.t, "x": at.x, "v": at.v, "F": at.F, "Q": self.Q, "l": self.l, "A": self.A}
+        rows = {"t": at.t, "x": at.x, "v": at.v, "F": at.F, "Q": self.Q, "l": self.l, "A": self.A, **mode}
         return _pairs({f"{name}0": row for name, row in rows.items()}, needs)
 
     def ends(self, needs: Collection[str]) -> NDArray[np.int64]:
@@ -183,6 +199,14 @@ def tensor_of(table: Floats, first: int, k: int) -> Tensor:
     )  # fmt: skip
 
 
+def third_of(table: Floats, first: int, k: int) -> Third:
+    """Return the symmetric, traceless tensor of third order in seven rows of a table, column k."""
+    return (
+        table[first, k], table[first + 1, k], table[first + 2, k], table[first + 3, k],
+        table[first + 4, k], table[first + 5, k], table[first + 6, k],
+    )  # fmt: skip
+
+
 class Steps(NamedTuple):
     """Steps of particles, in the order in which each took them, and others that take no time."""
 
@@ -262,6 +286,34 @@ class Steps(NamedTuple):
         x, v, F = np.empty((self.n, 3)), np.empty((self.n, 3)), np.empty((self.n, 9))
         compiled(_between)(self.tables[0], share, int(self.in_frame), x, v, F)
         return x, v, F
+
+    @property
+    def has_mode(self) -> bool:
+        """Whether the quadratic mode is recorded."""
+        return int(self.tables.shape[1]) > step.B0
+
+    def mode_between(self, share: Floats) -> Floats:
+        """Return the quadratic mode after a share (n,) of each step of a single table, (n, 7).
+
+        It is exact for a flow that does not change in the step, as is the drift in it.
+        """
+        B = np.empty((self.n, 7))
+        compiled(_modes)(self.tables[0], share, B)
+        return B
+
+
+def _modes(table: Floats, share: Floats, modes: Floats) -> None:
+    for k in range(table.shape[1]):
+        B = mode_after(table, k, share[k] * (table[step.t1, k] - table[step.t0, k]))
+        for c in range(7):
+            modes[k, c] = B[c]
+
+
+def mode_after(table: Floats, k: int, h: float) -> Third:
+    """Return the quadratic mode after the time h, s, of step k."""
+    growth, rate = third_of(table, step.growth0, k), table[step.recovery0, k]
+    turn = rotation(vector_of(table, step.fluid_spin0, k), h)
+    return advanced(third_of(table, step.B0, k), growth, growth, weights(rate, h), turn)
 
 
 def _rates(table: Floats, in_frame: int, rate: Floats) -> None:
@@ -375,5 +427,15 @@ def _divided(record: Floats, in_frame: bool, rebounds: Floats, coupled: Sequence
             rest[step.A0 : step.A0 + 9] = (turn @ rest[step.A0 : step.A0 + 9].reshape(3, 3)).ravel()
         rest[step.l0 : step.l0 + 9] = rest[step.l1 : step.l1 + 9]
         rest[step.host0] = -1
+        if len(rest) > step.B0:
+            rest[step.B0 :] = _turned_mode(part[:, None], turn)
     rest[step.t1] = max(rest[step.t1], np.nextafter(rest[step.t0], np.inf))
     return np.stack([*parts, rest], axis=1)
+
+
+def _turned_mode(part: Floats, turn: Floats) -> Floats:
+    """Return the rows of the mode after a step, turned by a rotation, from a table of this step, (n, 1)."""
+    flat: Any = tuple(turn.ravel())
+    B = mode_after(part, 0, part[step.t1, 0] - part[step.t0, 0])
+    growth, spin = third_of(part, step.growth0, 0), turn @ part[step.fluid_spin0 :, 0]
+    return np.array([*turned(B, flat), *turned(growth, flat), part[step.recovery0, 0], *spin])

@@ -39,12 +39,12 @@ from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, interrupted
 from foamprb.cloud.needs import needed_by, reader_of
 from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, Adhere, Interaction, Rebound
-from foamprb.cloud.paths import COLUMNS, ROOM, Steps, steps_of
+from foamprb.cloud.paths import COLUMNS, COLUMNS_OF_ELLIPSOIDS, MODE, ROOM, Steps, steps_of
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import Fates
-from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid
+from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticRows, QuadraticSolid
 from foamprb.cloud.viscosity import model_of
 from foamprb.compile.link import is_compiled, link, linked, read_by
 from foamprb.errors import InputError, closest
@@ -292,10 +292,13 @@ class Tracker:
         lasting = self.layout.lasting, self.layout.fresh
         scratch = new_scratch(self.layout.rows, stop, bounds, self._room, lasting)
         if observers is not None:
-            recorded = self.integrator.recorded
+            recorded, needs = self.integrator.recorded, observers.needs
+            parts = [part for part in self.layout.parts if isinstance(part, QuadraticRows)]
+            mode = {name: row for part in parts for name, row in part._asdict().items()}
+            columns = COLUMNS if mode and needs & MODE else COLUMNS_OF_ELLIPSOIDS
             scratch = scratch._replace(
-                paths=np.empty((ROOM, COLUMNS, LANES)), starts=recorded.starts(observers.needs),
-                ends=recorded.ends(observers.needs), watched=observers.watched,
+                paths=np.empty((ROOM, columns, LANES)), starts=recorded.starts(needs, mode),
+                ends=recorded.ends(needs), watched=observers.watched,
             )  # fmt: skip
         return scratch._replace(fields=fields.arrays) if self._columns and fields is not None else scratch
 

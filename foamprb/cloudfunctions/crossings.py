@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector, inner, minus
-from foamprb.cloud.paths import Steps, cubic, shape_between, step, vector_of, way_at_end, way_at_start
+from foamprb.cloud.paths import MODE, Steps, cubic, step, vector_of, way_at_end, way_at_start
 from foamprb.cloud.state import Particles
 from foamprb.cloudfunctions.base import Memory, ObservedCloud, PathFunction, per_event
 from foamprb.compile.link import compiled
@@ -20,7 +20,7 @@ __all__ = ["Crossings", "PlaneFunction", "unit"]
 
 Floats = NDArray[np.float64]
 
-_COLUMNS = 15
+_COLUMNS, _OF_MODE = 15, 10
 _HALVINGS = 53
 
 
@@ -28,7 +28,7 @@ class Crossings(NamedTuple):
     """Crossings of a plane."""
 
     particles: Particles
-    """The particles, with their shapes there."""
+    """The particles, with their shapes there; with a quadratic mode also its B and their velocities."""
     t: Floats
     """Times, (n,), s."""
     x: Floats
@@ -52,14 +52,15 @@ class PlaneFunction(PathFunction):
         if not any(self.normal):
             raise InputError("has a normal (0 0 0)")
 
-    def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
-        """Return an empty table: number, time, place, sense, and F."""
-        return {"crossings": np.empty((0, _COLUMNS))}
+    def initial(self, cloud: ObservedCloud) -> Memory:
+        """Return an empty table: number, time, place, sense, F, and with a quadratic mode B and velocity."""
+        more = _OF_MODE if cloud.cloud.models.has_quadratic else 0
+        return {"crossings": np.empty((0, _COLUMNS + more))}
 
     @property
     def needs(self) -> frozenset[str]:
         """See :class:`PathFunction`."""
-        return frozenset({"v0", "v1", "F0", "F1", "Q0", "A0"})
+        return MODE | {"v0", "v1", "F0", "F1", "Q0", "A0"}
 
     def add(
         self,
@@ -69,15 +70,24 @@ class PlaneFunction(PathFunction):
         fresh: NDArray[np.bool_],
     ) -> Floats:
         """Return the crossings among the steps."""
-        found = np.empty((np.count_nonzero(fresh) + 1, _COLUMNS))
-        plane = np.array(self.origin, dtype=float), unit(self.normal)
-        n = compiled(_find)(steps.tables, fresh, *plane, int(steps.in_frame), found)
-        return found[:n].copy()
+        places = np.empty((np.count_nonzero(fresh) + 1, 3))
+        n = compiled(_find)(
+            steps.tables, fresh, np.array(self.origin, dtype=float), unit(self.normal), places
+        )
+        index, share, sense = places[:n].T.copy()
+        crossing = steps.take(index.astype(np.intp))
+        (x, v, F), (t0, t1) = crossing.between(share), crossing.t
+        columns = [crossing.number, (1.0 - share) * t0 + share * t1, x, sense, F]
+        if crossing.has_mode:
+            columns += [crossing.mode_between(share), v]
+        return np.column_stack(columns)
 
     def crossings(self, memory: Memory, cloud: ObservedCloud) -> Crossings:
         """Return all crossings, in the order of time."""
         rows = memory["crossings"]
-        p = cloud.cloud.of(rows[:, 0].astype(np.int64))._replace(F=np.ascontiguousarray(rows[:, 6:]))
+        p = cloud.cloud.of(rows[:, 0].astype(np.int64))._replace(F=rows[:, 6:_COLUMNS].copy())
+        if rows.shape[1] > _COLUMNS:
+            p = p._replace(B=rows[:, _COLUMNS : _COLUMNS + 7].copy(), v=rows[:, _COLUMNS + 7 :].copy())
         return Crossings(p, rows[:, 1], rows[:, 2:5], rows[:, 5])
 
 
@@ -86,12 +96,10 @@ def unit(vector: Vector3) -> Floats:
     return np.array(vector) / math.hypot(*vector)
 
 
-def _find(
-    tables: Floats, fresh: NDArray[np.bool_], origin: Floats, normal: Floats, in_frame: int, found: Floats
-) -> int:
+def _find(tables: Floats, fresh: NDArray[np.bool_], origin: Floats, normal: Floats, places: Floats) -> int:
     """Find the fresh steps whose ends lie on different sides of a plane; return their number.
 
-    Place and time follow from the cubic of the step, by bisection.
+    ``places`` (n, 3) receives the index of each, the share of it before the crossing, and the sense.
     """
     o: Vector = (origin[0], origin[1], origin[2])
     n: Vector = (normal[0], normal[1], normal[2])
@@ -100,18 +108,20 @@ def _find(
         for i in range(table.shape[1]):
             k += 1
             if fresh[k]:
-                m += _cross(table, i, o, n, in_frame, found[m])
+                m += _cross(table, i, o, n, k, places[m])
     return m
 
 
-def _cross(table: Floats, k: int, o: Vector, n: Vector, in_frame: int, found: Floats) -> int:
-    """Return 1 and describe the crossing, if the ends of step k of a table lie on different sides, else 0."""
-    x0, x1 = vector_of(table, step.x0, k), vector_of(table, step.x1, k)
-    before, after = inner(minus(x0, o), n), inner(minus(x1, o), n)
+def _cross(table: Floats, i: int, o: Vector, n: Vector, k: int, place: Floats) -> int:
+    """Return 1 and describe the crossing, if the ends of step i of a table lie on different sides, else 0.
+
+    ``k`` is the index of the step in all tables.
+    """
+    before = inner(minus(vector_of(table, step.x0, i), o), n)
+    after = inner(minus(vector_of(table, step.x1, i), o), n)
     if (before < 0.0) == (after < 0.0):
         return 0
-    m0, m1 = way_at_start(table, k), way_at_end(table, k)
-    slope0, slope1 = inner(m0, n), inner(m1, n)
+    slope0, slope1 = inner(way_at_start(table, i), n), inner(way_at_end(table, i), n)
     low, high = 0.0, 1.0
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
@@ -119,12 +129,5 @@ def _cross(table: Floats, k: int, o: Vector, n: Vector, in_frame: int, found: Fl
             low = middle
         else:
             high = middle
-    s = 0.5 * (low + high)
-    found[0], found[1] = table[step.number, k], (1.0 - s) * table[step.t0, k] + s * table[step.t1, k]
-    found[5] = 1.0 if before < 0.0 else -1.0
-    F = shape_between(table, k, s, in_frame)
-    for c in range(3):
-        found[2 + c] = cubic(s, x0[c], x1[c], m0[c], m1[c])
-    for c in range(9):
-        found[6 + c] = F[c]
+    place[0], place[1], place[2] = k, 0.5 * (low + high), 1.0 if before < 0.0 else -1.0
     return 1

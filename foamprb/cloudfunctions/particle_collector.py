@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
+from foamprb.body.quadratic import bullet_amplitude
 from foamprb.cloud.measures import shapes
 from foamprb.cloudfunctions.base import Memory, ObservedCloud, append, columns, masses, names_of, table
 from foamprb.cloudfunctions.crossings import PlaneFunction, unit
@@ -55,10 +56,11 @@ class ParticleCollector(PlaneFunction):
             p, t, x, sense = p.take(within), t[within], x[within], sense[within]
             D, mass, injector = D[within], mass[within], injector[within]
         names = names_of(cloud.names["injector"], injector)
+        mode = {"bulletAmplitude": bullet_amplitude(tuple(p.B.T))} if cloud.cloud.models.has_quadratic else {}
         write_table(
             folder / "crossings.csv",
             {"id": p.number, "injector": names, "t": t, **columns("xyz", x),
-             "direction": sense.astype(np.int64), "D": D, "mass": mass},
+             "direction": sense.astype(np.int64), "D": D, "mass": mass, **mode},
         )  # fmt: skip
         fresh = np.arange(p.size) >= memory["written"][0]
         counted = fresh if self.resetOnWrite else np.ones(p.size, dtype=bool)

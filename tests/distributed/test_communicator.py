@@ -184,11 +184,11 @@ def observe_both(cloud: Cloud, functions: dict[str, Any], n: int, folder: Path, 
         assert found[name].tobytes() == array.tobytes(), name
 
 
-@pytest.mark.parametrize("n", [1, 3])
-def test_functions_write_the_same_of_particles_elsewhere(n, tmp_path):
+@pytest.mark.parametrize(("n", "shape"), [(1, "affine"), (3, "affine"), (3, "quadratic")])
+def test_functions_write_the_same_of_particles_elsewhere(n, shape, tmp_path):
     for name in ("here", "there"):
         (tmp_path / name).mkdir()
-    cloud = pipe_cloud()
+    cloud = pipe_cloud(shape=shape)
     observe_both(cloud, FUNCTIONS, n, tmp_path)
     assert {*cloud.particles.status.tolist()} >= {1, 2}
 

@@ -45,9 +45,13 @@ def test_walls_molecules_and_shapes_go_on_where_they_were(case, monkeypatch):
         r"^\s+gravity;",
         "wallLift { cutOff 100; } BrownianMotion { T 293.15; } faxenCorrection; gravity;",
     )
+    camera = "type deformabilityCytometry; origin (0.0005 0 0); normal (1 0 0); view (0 0 1);"
+    channel = "channel { type tube; radius 0.0021; }"
+    edit(case, r"cloudFunctions\s*\{\}", f"cloudFunctions {{ camera {{ {camera} {channel} }} }}")
     monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 3000)
     assert main(["run", "-case", str(case)]) == 0
     expected = results(case)
+    assert expected["camera/cytometry.csv"].count(b"\n") > 100
     shutil.rmtree(case / "postProcessing")
     for time in (0.0017, EARLIER):
         stop_after(case, time)
