@@ -10,6 +10,10 @@ class InputError(Exception):
     """Mistake in the input; its message is complete for the user, without a traceback."""
 
 
+class UsageError(InputError):
+    """Command line that cannot be read: an unknown option, a missing or a superfluous argument."""
+
+
 class FailedParticlesWarning(UserWarning):
     """Failure of particles of a cloud; the message gives their number and the last reason.
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from foamprb.cli.options import add_browser, show_page
 
 PURPOSE = "write a page about several runs: fates, deposition, times, deformation"
+EXAMPLE = "compare 'study/*'"
 
 log = logging.getLogger("foamprb")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 PURPOSE = "compile the particle loops before the first run"
+EXAMPLE = "compile"
 
 
 def declare(_parser: argparse.ArgumentParser) -> None:

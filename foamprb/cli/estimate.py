@@ -15,6 +15,7 @@ Fact: TypeAlias = tuple[str, float, str]
 """Name, value and remark of a line."""
 
 PURPOSE = "estimate from a few numbers which effects matter to a particle"
+EXAMPLE = "estimate -d 5e-6 -rho0 1050 -Ca 0.1 -mu 1e-3 -rhoInf 1000 -shearRate 100 -residenceTime 1"
 
 _NUMBERS = (
     ("-d", "diameter", "D", "diameter, m", None),

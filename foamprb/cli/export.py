@@ -9,6 +9,7 @@ from pathlib import Path
 from foamprb.cli.options import add_cloud, add_flow, fraction, source_of
 
 PURPOSE = "write the results for OpenFOAM, or as one VTKHDF file"
+EXAMPLE = "export vtkhdf -case myCase -output bodies.vtkhdf"
 
 log = logging.getLogger("foamprb")
 

@@ -10,6 +10,7 @@ from foamprb.cli.options import add_browser, add_cache, add_flow, show_page, sou
 from foamprb.errors import InputError, RunInterrupted
 
 PURPOSE = "fit moduli of bodies to their measured shapes"
+EXAMPLE = "fit -case myCase -measured bodies.csv -plane x=0.01 -view z"
 
 log = logging.getLogger("foamprb")
 

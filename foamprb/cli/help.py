@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 PURPOSE = "explain an entry, a dictionary or a type of the settings"
+EXAMPLE = "help shearModulus"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:

@@ -7,6 +7,7 @@ import argparse
 from foamprb.cli.options import add_flow, source_of
 
 PURPOSE = "show the contents of a case"
+EXAMPLE = "info -case cases/pipe"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:

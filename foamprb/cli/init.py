@@ -9,6 +9,7 @@ from pathlib import Path
 from foamprb.cli.options import add_flow, source_of
 
 PURPOSE = "write an initial constant/softCloudProperties for this case"
+EXAMPLE = "init -case myCase"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:

@@ -10,6 +10,7 @@ import re
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from types import FrameType
@@ -19,12 +20,21 @@ import foamprb
 from foamprb.cli import compare, estimate, export, fit, info, init, paraview, report, run, sweep, view
 from foamprb.cli import compile as compile_
 from foamprb.cli import help as help_
-from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
+from foamprb.errors import (
+    InputError,
+    RankError,
+    RunInterrupted,
+    RunStopped,
+    UsageError,
+    closest,
+    suggestion,
+)
 from foamprb.memory import OutOfMemory, ran_out
 
 if TYPE_CHECKING:
     from foamprb.cloud.communicator import Communicator
 
+_START = time.perf_counter()
 _DEFERRED = 0.02
 """Time between two attempts to interrupt, s."""
 
@@ -34,6 +44,8 @@ class Command(Protocol):
 
     PURPOSE: str
     """Help text."""
+    EXAMPLE: str
+    """A command line without the program's name."""
 
     def declare(self, parser: argparse.ArgumentParser, /) -> None:
         """Add the options of the command."""
@@ -42,35 +54,59 @@ class Command(Protocol):
         """Execute the command; return the exit status."""
 
 
-COMMANDS: dict[str, Command] = {
-    "init": init,
-    "run": run,
-    "info": info,
-    "view": view,
-    "paraview": paraview,
-    "report": report,
-    "fit": fit,
-    "sweep": sweep,
-    "compare": compare,
-    "export": export,
-    "estimate": estimate,
-    "help": help_,
-    "compile": compile_,
+GROUPS: dict[str, dict[str, Command]] = {
+    "prepare": {"info": info, "init": init, "estimate": estimate, "help": help_},
+    "run": {"run": run, "sweep": sweep, "fit": fit, "compile": compile_},
+    "see the results": {
+        "view": view,
+        "report": report,
+        "compare": compare,
+        "paraview": paraview,
+        "export": export,
+    },
 }
+COMMANDS = {name: command for group in GROUPS.values() for name, command in group.items()}
+_LONG = re.compile(r"(?<![\w-])--(?=[A-Za-z])")
+
+
+class _Help(argparse.HelpFormatter):
+    """Formatter whose column of options is as wide as these with a single dash."""
+
+    def _format_action_invocation(self, action: argparse.Action) -> str:
+        return _LONG.sub("-", super()._format_action_invocation(action))
 
 
 class _Parser(argparse.ArgumentParser):
-    """Parser whose errors are one message with exit status 1."""
+    """Parser whose errors are one message, and whose help has options with a single dash."""
 
     def error(self, message: str) -> NoReturn:
-        raise InputError(f"{message}. Try: {self.prog} -help")
+        raise UsageError(f"{message.removeprefix('argument ')}. Try: {self.prog} -help")
+
+    def format_usage(self) -> str:
+        return _LONG.sub("-", super().format_usage())
+
+    def format_help(self) -> str:
+        return _LONG.sub("-", super().format_help())
+
+
+class _MainParser(_Parser):
+    """Parser of the whole command line, whose help lists the commands in groups."""
+
+    def format_help(self) -> str:
+        text = f"usage: {self.prog} COMMAND [options]\n\n{self.description}\n"
+        for title, group in GROUPS.items():
+            lines = [f"    {name:10s} {command.PURPOSE}" for name, command in group.items()]
+            example = next(iter(group.values())).EXAMPLE
+            text += "\n".join([f"\n{title}:", *lines, f"  example: {self.prog} {example}", ""])
+        options = "    -help      show this text and exit\n    -version   show the version and exit\n"
+        return f"{text}\noptions:\n{options}\n{self.epilog}\n"
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
+    parser = _MainParser(
         prog="foamprb",
         description="Track soft micro-particles through a flow computed by OpenFOAM.",
-        epilog="Options take a single or a double dash.",
+        epilog="Options of a command: foamprb COMMAND -help. They take a single or a double dash.",
         add_help=False,
         allow_abbrev=False,
     )
@@ -79,10 +115,22 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=version, help="show the version and exit")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     for name, command in COMMANDS.items():
-        added = commands.add_parser(name, help=command.PURPOSE, add_help=False, allow_abbrev=False)
-        added.add_argument("-h", "--help", action="help", help="show this text and exit")
-        added.add_argument("--debug", action="store_true", help="show the traceback of an error")
+        added = commands.add_parser(
+            name,
+            help=command.PURPOSE,
+            description=f"{command.PURPOSE[0].upper()}{command.PURPOSE[1:]}.",
+            epilog=f"example: foamprb {command.EXAMPLE}",
+            formatter_class=_Help,
+            add_help=False,
+            allow_abbrev=False,
+        )
         command.declare(added)
+        messages = added.add_argument_group("messages")
+        messages.add_argument("-h", "--help", action="help", help="show this text and exit")
+        amount = messages.add_mutually_exclusive_group()
+        amount.add_argument("--quiet", action="store_true", help="write warnings only")
+        amount.add_argument("--verbose", action="store_true", help="begin each line with the elapsed time, s")
+        messages.add_argument("--debug", action="store_true", help="show the traceback of an error")
     return parser
 
 
@@ -96,9 +144,14 @@ def _complete() -> None:
 class _Handler(logging.StreamHandler[TextIO]):
     """Handler that writes plain lines, and warnings in OpenFOAM's manner."""
 
+    timed = False
+
     def format(self, record: logging.LogRecord) -> str:
         text = record.getMessage()
-        return f"--> foamprb Warning : {text}" if record.levelno >= logging.WARNING else text
+        if record.levelno >= logging.WARNING:
+            text = f"--> foamprb Warning : {text}"
+        elapsed = f"[{time.perf_counter() - _START:8.2f}] "
+        return "\n".join(f"{elapsed}{line}" for line in text.split("\n")) if self.timed else text
 
     def handleError(self, record: logging.LogRecord) -> None:
         """End the program where the reader of its log has gone."""
@@ -139,7 +192,8 @@ def _log_to_stdout() -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status.
 
-    It is 0; 1 for a mistake in the input or a run that had to end early; 141 if the reader of the output has
+    It is 0; 1 for a mistake in the input or a run that had to end early; 2 for a command line that cannot be
+    read; 141 if the reader of the output has
     closed it; and 128 plus the number of the signal that ended a run: 130 for Ctrl-C, 143 for SIGTERM.
     """
     if "_ARGCOMPLETE" in os.environ:
@@ -149,7 +203,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _log_to_stdout()
 
     def answer(comm: Communicator | None = None) -> int:
-        return _exit_status(words, lambda: _do(words, comm))
+        return _exit_status(words, lambda: _do(words, words_given, comm))
 
     with _interrupted_between_imports():
         if "--parallel" not in words:
@@ -185,18 +239,64 @@ def _interrupted_between_imports() -> Iterator[None]:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def _do(words: Sequence[str], comm: Communicator | None) -> int:
-    """Execute the command line; a run with ``-parallel`` has its communicator among the arguments."""
+def _do(words: Sequence[str], typed: Sequence[str], comm: Communicator | None) -> int:
+    """Execute the command line; a run with ``-parallel`` has its communicator among the arguments.
+
+    Parameters
+    ----------
+    words, typed
+        Arguments with two dashes before the name of an option, and as the user typed them.
+    comm
+        Communicator of the ranks.
+    """
     for word in words:
         if not word.isprintable() and word != word.encode(errors="replace").decode():
             raise InputError(f"{word}: a name that is not UTF-8, which VTK cannot open. Rename it.")
     if words and not words[0].startswith("-") and words[0] not in COMMANDS:
-        raise InputError(f"unknown command '{words[0]}'. {suggestion(words[0], COMMANDS)}")
-    parsed = _parser().parse_args(words, argparse.Namespace(comm=comm))
+        raise UsageError(f"unknown command '{words[0]}'. {suggestion(words[0], COMMANDS)}")
+    try:
+        parsed, unknown = _parser().parse_known_args(words, argparse.Namespace(comm=comm))
+    except UsageError as error:
+        raise UsageError(_as_typed(str(error), words, typed)) from None
+    if unknown:
+        raise UsageError(_as_typed(_unknown(unknown[0], parsed.command), words, typed))
     if parsed.command is None:
         _parser().print_help()
-        return 1
+        return 2
+    if parsed.quiet:
+        logging.getLogger("foamprb").setLevel(logging.WARNING)
+    for handler in logging.getLogger("foamprb").handlers:
+        if isinstance(handler, _Handler):
+            handler.timed = parsed.verbose
+    case = getattr(parsed, "case", None)
+    if case is not None and not case.is_dir():
+        what = "is a file; the folder of a case is needed" if case.exists() else "no such folder"
+        raise InputError(f"-case {case}: {what}.")
     return COMMANDS[parsed.command].execute(parsed)
+
+
+def _unknown(word: str, command: str | None) -> str:
+    """Return the message for an argument that a command does not take."""
+    program = f"foamprb {command}" if command else "foamprb"
+    if not word.startswith("-"):
+        return f"'{word}' is one argument too many. Try: {program} -help"
+    name, parser = word.partition("=")[0], _parser()
+    if command:
+        (commands,) = (action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
+        parser = commands.choices[command]
+    meant = closest(name, {option for action in parser._actions for option in action.option_strings})
+    question = f" Did you mean '{meant}'?" if meant else ""
+    return f"{program} has no option '{name}'.{question} Try: {program} -help"
+
+
+def _as_typed(message: str, words: Sequence[str], typed: Sequence[str]) -> str:
+    """Return a message in which options have one dash, unless the user typed two."""
+    doubled = {
+        word.partition("=")[0] for word, as_typed in zip(words, typed, strict=True) if word == as_typed
+    }
+    return re.sub(
+        r"(?<![\w-])--[A-Za-z][\w-]*", lambda m: m[0] if m[0] in doubled else m[0].removeprefix("-"), message
+    )
 
 
 def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
@@ -224,7 +324,7 @@ def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
             sys.stdout.flush()
         except OSError:
             _drop_output()
-        return 1
+        return 2 if isinstance(error, UsageError) else 1
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)
         return 130

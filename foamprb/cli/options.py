@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 from foamprb.errors import InputError
 
 if TYPE_CHECKING:
+    from argparse import _ArgumentGroup as Group
+
     from foamprb.flow.read.source import FlowSource
 
 __all__ = [
@@ -27,22 +29,28 @@ __all__ = [
 
 def add_case(parser: argparse.ArgumentParser) -> None:
     """Add the options ``-case`` and ``-region``."""
-    parser.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
-    parser.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
+    _add_case(parser.add_argument_group("case"))
+
+
+def _add_case(group: Group) -> None:
+    group.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+    group.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
 
 
 def add_cloud(parser: argparse.ArgumentParser) -> None:
     """Add the options ``-cloud`` and ``-results``."""
-    parser.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
-    parser.add_argument(
+    group = parser.add_argument_group("results")
+    group.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
+    group.add_argument(
         "--results", type=Path, metavar="DIR", help="-output of the run [postProcessing in the case]"
     )
 
 
 def add_flow(parser: argparse.ArgumentParser) -> None:
     """Add the options of a case and its flow."""
-    add_case(parser)
-    add = parser.add_argument
+    group = parser.add_argument_group("case and flow")
+    _add_case(group)
+    add = group.add_argument
     add("--decomposed", action="store_true", help="read the processor folders")
     add(
         "--reader",
@@ -54,7 +62,7 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
     add("--flow", type=Path, metavar="FILE", help="read the flow from a mesh file")
     add("--velocity", default="U", metavar="NAME", help="velocity field [U]")
     add("--gradient", default="", metavar="NAME", help="gradient field [reconstructed]")
-    divided = parser.add_mutually_exclusive_group()
+    divided = group.add_mutually_exclusive_group()
     divided.add_argument(
         "--patchArray", default="", metavar="NAME", help="array of a mesh file with patch indices"
     )

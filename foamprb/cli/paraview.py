@@ -7,6 +7,7 @@ import argparse
 from foamprb.cli.options import add_case, add_cloud
 
 PURPOSE = "show the bodies of a run in ParaView"
+EXAMPLE = "paraview -case myCase"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:

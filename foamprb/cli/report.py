@@ -9,6 +9,7 @@ from foamprb.cli.options import add_browser, add_cloud, add_flow, show_page, sou
 from foamprb.errors import InputError
 
 PURPOSE = "write a page about a run and its results"
+EXAMPLE = "report -case myCase -paths 3,17"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:

@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_cache, add_flow, source_of
-from foamprb.errors import InputError
+from foamprb.errors import InputError, UsageError
 
 if TYPE_CHECKING:
     from foamprb.run.follow import Follow
     from foamprb.settings.solution import StartFrom
 
 PURPOSE = "track the particles of constant/softCloudProperties"
+EXAMPLE = "run -case myCase -dry-run"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -93,10 +94,10 @@ def _follow_options(arguments: argparse.Namespace, start_from: StartFrom | None)
 
     if not arguments.follow:
         if arguments.patience is not None:
-            raise InputError("-patience goes with -follow.")
+            raise UsageError("-patience goes with -follow.")
         return None
     if arguments.dry_run:
-        raise InputError("-dry-run does not go with -follow, which waits for the solver.")
+        raise UsageError("-dry-run does not go with -follow, which waits for the solver.")
     patience = math.inf if arguments.patience is None else arguments.patience
     if not patience > 0.0:
         raise InputError(f"-patience {patience:g}: a number of seconds > 0 is needed.")

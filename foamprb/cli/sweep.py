@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from foamprb.settings.solution import StartFrom
 
 PURPOSE = "run a case for all combinations of values of some entries"
+EXAMPLE = "sweep study.toml -list"
 
 log = logging.getLogger("foamprb")
 

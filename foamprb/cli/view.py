@@ -11,6 +11,7 @@ from foamprb.cli.options import add_browser, add_cloud, add_flow, show_page, sou
 from foamprb.errors import InputError
 
 PURPOSE = "show the bodies of a run: a page for any browser"
+EXAMPLE = "view -case myCase -png picture.png"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:

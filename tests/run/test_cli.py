@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import os
+import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -15,6 +17,8 @@ from paths import PIPE, ROOT
 from pipe_case import copy_of_pipe, edit
 
 from foamprb.cli import main
+from foamprb.cli.main import COMMANDS as ALL
+from foamprb.cli.main import GROUPS, _parser
 
 COMMANDS = ("run", "info", "compile")
 # As on a user's computer, where Python buffers what it writes into a pipe.
@@ -33,15 +37,68 @@ def test_every_command_has_help(capsys):
     assert not faults
 
 
-def test_help_names_every_command(capsys):
+def test_help_has_groups_and_examples_that_can_be_read(capsys):
     main(["-h"])
     out = capsys.readouterr().out
-    assert all(f"    {command} " in out for command in COMMANDS)
+    for title, group in GROUPS.items():
+        part = out.partition(f"\n{title}:\n")[2].partition("\n\n")[0]
+        assert all(f"    {name} " in part for name in group)
+        assert "example: foamprb " in part
+    for name, command in ALL.items():
+        assert (
+            _parser().parse_args(shlex.split(re.sub(r" -(?=[A-Za-z]{2})", " --", command.EXAMPLE))).command
+            == name
+        )
+        main([name, "-help"])
+        out = capsys.readouterr().out
+        assert f"example: foamprb {command.EXAMPLE}" in " ".join(out.split())
+        assert "--" not in out
 
 
 def test_without_a_command_the_help_is_a_mistake(capsys):
-    assert main([]) == 1
+    assert main([]) == 2
     assert capsys.readouterr().out.startswith("usage: foamprb")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("rn", "unknown command 'rn'. Did you mean 'run'?"),
+        ("-versio", "foamprb has no option '-versio'. Did you mean '-version'? Try: foamprb -help"),
+        ("run -patiense 3", "foamprb run has no option '-patiense'. Did you mean '-patience'?"),
+        ("run --overwrit", "foamprb run has no option '--overwrit'. Did you mean '-overwrite'?"),
+        ("view -zzzzz", "foamprb view has no option '-zzzzz'. Try: foamprb view -help"),
+        ("run a", "'a' is one argument too many. Try: foamprb run -help"),
+        ("run -time", "-time: expected one argument. Try: foamprb run -help"),
+        ("run --time", "--time: expected one argument. Try: foamprb run -help"),
+        ("run -time 1 -latestTime", "-latestTime: not allowed with argument -time. Try: foamprb run -help"),
+        ("run -patience 3", "-patience goes with -follow."),
+    ],
+)
+def test_a_command_line_that_cannot_be_read_ends_with_status_2(words, message, capsys):
+    """Options are named as they were typed."""
+    assert main(words.split()) == 2
+    assert capsys.readouterr().err.startswith(f"--> foamprb Error : {message}")
+
+
+@pytest.mark.parametrize("command", ["run", "info", "view", "init", "report"])
+def test_a_case_that_is_not_there_is_no_missing_file(command, tmp_path, capsys):
+    assert main([command, "-case", str(tmp_path / "nowhere")]) == 1
+    assert capsys.readouterr().err == f"--> foamprb Error : -case {tmp_path}/nowhere: no such folder.\n"
+    (tmp_path / "file").touch()
+    assert main([command, "-case", str(tmp_path / "file")]) == 1
+    assert "file: is a file; the folder of a case is needed." in capsys.readouterr().err
+
+
+def test_the_log_is_quiet_or_has_times(capsys):
+    words = ["run", "-case", str(PIPE), "-dry-run"]
+    assert main([*words, "-quiet"]) == 0
+    assert capsys.readouterr().out == ""
+    assert main([*words, "-verbose"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    times = [float(re.match(r"\[ *([0-9.]+)\] ", line)[1]) for line in lines]
+    assert times == sorted(times)
+    assert times[-1] > times[0]
 
 
 def test_version(capsys):

@@ -192,7 +192,8 @@ def test_mistakes_have_one_message(mistake, written, tmp_path, capsys):
     for time in ("0", "1.5"):
         shutil.copy(case / time / "U", case / time / "V")
     options, words = MISTAKES[mistake]
-    assert main(["run", "-case", str(case), *options]) == 1
+    usage = mistake in ("plan", "patience alone")
+    assert main(["run", "-case", str(case), *options]) == (2 if usage else 1)
     error = capsys.readouterr().err
     assert words in error
     assert len(error.splitlines()) == 1

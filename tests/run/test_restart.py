@@ -356,7 +356,8 @@ def test_mistakes_in_the_entries(case, capsys):
     assert "a cloud begins at time 0" in message(case, capsys)
     edit(case, r"startTime 0\.1;", "maxFailedFraction 2;")
     assert "a number from 0 to 1" in message(case, capsys)
-    assert "not allowed with" in message(case, capsys, "-resume", "-overwrite")
+    assert main(["run", "-case", str(case), "-resume", "-overwrite"]) == 2
+    assert "not allowed with" in capsys.readouterr().err
 
 
 def test_killed_runs_end_as_if_they_had_never_been(tmp_path):
