@@ -39,6 +39,8 @@ _GROUPS = {
     "step": "deltaT/relaxation time",
     "size": "size/cell size",
 }
+_ROUND_OFF = 1e-12
+"""Numbers of the flow and of dimensionless groups below this are shown as 0."""
 _BETWEEN_LINES = 30.0
 """Time between two lines about the progress, s."""
 
@@ -112,7 +114,7 @@ def log_description(job: Job) -> None:
 
 
 def _log_range(name: str, ends: Sequence[float | None]) -> None:
-    low, high = (math.nan if end is None else end for end in ends)
+    low, high = (math.nan if end is None else 0.0 if abs(end) < _ROUND_OFF else end for end in ends)
     log.info("    %-24s %.4g%s", name, low, "" if high <= low * (1 + 1e-9) else f" to {high:.4g}")
 
 

@@ -12,6 +12,7 @@ from mesh_shapes import block, box_patches
 from small_clouds import box_cloud
 
 import foamprb
+import foamprb.run.log as log_module
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.measures import path_stokes_number
@@ -62,6 +63,15 @@ def test_progress_lines_give_the_time_left(caplog, monkeypatch):
         "t = 1.5 s, 25 % of the run, about 2 min left",
         "t = 2 s, 50 % of the run, about 75 s left",
     ]
+
+
+def test_round_off_is_shown_as_zero(caplog):
+    caplog.set_level(logging.INFO, "foamprb")
+    for ends in ((3e-17, 0.97), (-3e-17, 2e-16), (2e-12, 1.0)):
+        log_module._log_range("|U|", ends)
+    assert [message.split("|U|")[1].strip() for message in caplog.messages] == [
+        "0 to 0.97", "0", "2e-12 to 1"
+    ]  # fmt: skip
 
 
 def test_extension_beyond_steady_shapes_is_a_doubt_and_shear_is_none():
