@@ -16,7 +16,7 @@ from foamprb.body.quadratic import parts, square
 from foamprb.cloud.cloud import Stepper
 from foamprb.cloud.communicator import Communicator
 from foamprb.cloud.paths import Steps, step
-from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.tracker import never
 from foamprb.cloudfunctions.base import Memory, ObservedCloud
 from foamprb.cloudfunctions.crossings import PlaneFunction, unit
@@ -385,7 +385,8 @@ class Device:
         R = 0.5 * d
         F = np.where(seen.passed[:, None, None], seen.F, np.eye(3))
         shape = R[:, None, None] ** 2 * F @ F.transpose(0, 2, 1)
-        shadow = outline(shape, self.view)
+        mode = np.where(seen.passed[:, None], seen.B, 0.0)
+        shadow = outline(empty(len(R))._replace(R=R, F=F.reshape(-1, 9), B=mode), self.view)
         a, b = shadow.semi_axes.T
         flat = self.basis @ shape @ self.basis.T
         angle = 0.5 * np.abs(np.arctan2(2.0 * flat[:, 0, 1], flat[:, 0, 0] - flat[:, 1, 1]))
