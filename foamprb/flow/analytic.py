@@ -27,6 +27,7 @@ from foamprb.flow.sampling import sample_with
 __all__ = [
     "AnalyticFlow",
     "FunctionFlow",
+    "duct",
     "extension",
     "function",
     "linear",
@@ -459,6 +460,50 @@ def _between(parameters: channels.SlitArrays, patches: tuple[Patch, ...]) -> Ana
         patches,
         inside,
         parameters.height,
+    )
+
+
+def duct(width: float, height: float, mean_velocity: float) -> AnalyticFlow:
+    """Return Poiseuille flow along x in a rectangular duct, such as a channel of a chip.
+
+    The walls are z = 0, the patch ``lower``, z = height, ``upper``, y = −width/2, ``left``, and y = width/2,
+    ``right``. The velocity is a Fourier series of a hundred terms.
+
+    Parameters
+    ----------
+    width, height, mean_velocity
+        m, m and m/s.
+
+    Examples
+    --------
+    >>> flow = duct(20e-6, 20e-6, 0.1)
+    >>> x = np.array([[0.0, 0.0, 10e-6]])
+    >>> u, gradient = flow.sample(x, flow.locate(x), 0.0)
+    >>> u.round(4).tolist()
+    [[0.2096, 0.0, 0.0]]
+    """
+    if not (0.0 < width < math.inf and 0.0 < height < math.inf):
+        raise InputError(f"duct: width {width:g} and height {height:g}: finite lengths above 0 are needed.")
+    force = mean_velocity / channels.duct_mean(width, height)
+    parameters = channels.DuctArrays(float(width), float(height), float(force))
+
+    def inside(points: Floats) -> Any:
+        return (np.array(channels.distances_in_duct(parameters, tuple(points.T))) >= 0.0).all(axis=0)
+
+    return AnalyticFlow(
+        parameters,
+        {
+            "sample": channels.sample_duct,
+            "curvature": channels.curvature_duct,
+            "walk": channels.walk_duct,
+            "gap": channels.gap_duct,
+            "walls": channels.planes_of_duct,
+            "normal": channels.normal_duct,
+            "recover": recover_free,
+        },
+        tuple(Patch(name, "wall") for name in ("lower", "upper", "left", "right")),
+        inside,
+        min(parameters.width, parameters.height),
     )
 
 

@@ -148,3 +148,126 @@ def planes_of_slit(flow: SlitArrays, host: int, x: Vector, cut: float, chosen: N
         high if high < cut and chosen[_UPPER] > 0 else math.inf, _DOWN,
         math.inf, _ZERO,
     )  # fmt: skip
+
+
+class DuctArrays(NamedTuple):
+    """Poiseuille flow along x in a rectangular duct, 0 ≤ z ≤ height and |y| ≤ width/2."""
+
+    width: float
+    height: float
+    force: float
+    """Pressure gradient over the viscosity, −∂p/∂x/μ, 1/(m s)."""
+
+
+_LEFT, _RIGHT = 2, 3
+_TERMS = 100
+_ASIDE = (0.0, 1.0, 0.0)
+
+
+def _of_duct(flow: DuctArrays, x: Vector) -> tuple[float, tuple[float, float], tuple[float, float, float]]:
+    """Return u, m/s, its derivatives along p and q, 1/s, and those along pp, qq and pq, 1/(m s).
+
+    p is the place along the shorter side, from a wall, and q that along the longer one, from the middle. With
+    the force k and the sides s and b, u = k (p (s − p)/2 − (4 s²/π³) Σ cosh(nπq/s)/cosh(nπb/2s)
+    sin(nπp/s)/n³), n odd (White, Viscous Fluid Flow, 3-48).
+    """
+    if flow.width < flow.height:
+        s, b, p, q = flow.width, flow.height, x[1] + 0.5 * flow.width, x[2] - 0.5 * flow.height
+    else:
+        s, b, p, q = flow.height, flow.width, x[2], x[1]
+    a = math.pi / s
+    # Sines, cosines and exponentials of the next odd number follow from the last ones.
+    sine, cosine = np.sin(a * p), np.cos(a * p)
+    double_sine, double_cosine = 2.0 * sine * cosine, 1.0 - 2.0 * sine * sine
+    near, far = np.exp(-a * np.maximum(0.5 * b - q, 0.0)), np.exp(-a * np.maximum(0.5 * b + q, 0.0))
+    ends = math.exp(-a * b)
+    near_2, far_2, ends_2 = near * near, far * far, ends * ends
+    u = u_p = u_q = u_pp = u_pq = 0.0 * sine
+    for k in range(_TERMS):
+        n = 2.0 * k + 1.0
+        even, odd = (near + far) / (1.0 + ends), (near - far) / (1.0 + ends)
+        u = u + even * sine / (n * n * n)
+        u_p = u_p + even * cosine / (n * n)
+        u_q = u_q + odd * sine / (n * n)
+        u_pp = u_pp + even * sine / n
+        u_pq = u_pq + odd * cosine / n
+        sine, cosine = (
+            sine * double_cosine + cosine * double_sine,
+            cosine * double_cosine - sine * double_sine,
+        )
+        near, far, ends = near * near_2, far * far_2, ends * ends_2
+    f, c = flow.force, 4.0 / math.pi
+    return (
+        f * (0.5 * p * (s - p) - c / (a * a) * u),
+        (f * (0.5 * s - p - c / a * u_p), -f * c / a * u_q),
+        (f * (c * u_pp - 1.0), -f * c * u_pp, -f * c * u_pq),
+    )
+
+
+def sample_duct(flow: DuctArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Return velocity, m/s, its gradient, 1/s, and ∂u/∂t = 0, m/s²."""
+    u, (u_p, u_q), _ = _of_duct(flow, x)
+    u_y, u_z = (u_p, u_q) if flow.width < flow.height else (u_q, u_p)
+    return (u, 0.0, 0.0), (0.0, u_y, u_z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), _ZERO
+
+
+def curvature_duct(flow: DuctArrays, host: int, x: Vector, t: float) -> Curvature:
+    """Return the second derivatives, 1/(m s)."""
+    _, _, (u_pp, u_qq, u_pq) = _of_duct(flow, x)
+    u_yy, u_zz = (u_pp, u_qq) if flow.width < flow.height else (u_qq, u_pp)
+    return _ZERO, (u_yy, 0.0, 0.0), (u_zz, 0.0, 0.0), _ZERO, (u_pq, 0.0, 0.0), _ZERO
+
+
+def duct_mean(width: float, height: float) -> float:
+    """Return the mean velocity in a duct whose pressure gradient over the viscosity is 1, m²."""
+    s, b = min(width, height), max(width, height)
+    n = np.arange(1.0, 400.0, 2.0)
+    corners = np.sum(np.tanh(0.5 * math.pi * n * b / s) / n**5)
+    return float(s * s / 12.0 * (1.0 - 192.0 / math.pi**5 * s / b * corners))
+
+
+def distances_in_duct(flow: DuctArrays, x: Vector) -> tuple[float, float, float, float]:
+    """Return the distances to the walls in the order of the patches, m."""
+    return x[2], flow.height - x[2], 0.5 * flow.width + x[1], 0.5 * flow.width - x[1]
+
+
+def walk_duct(flow: DuctArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """Return where the segment from x0 to x1 first meets a wall."""
+    fraction, patch = 1.0, _NOWHERE
+    before, after = distances_in_duct(flow, x0), distances_in_duct(flow, x1)
+    for k in range(4):
+        if after[k] < 0.0:
+            hit = max(before[k] / (before[k] - after[k]), 0.0)
+            if hit <= fraction:
+                fraction, patch = hit, k
+    return host, fraction, patch, patch
+
+
+def gap_duct(flow: DuctArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+    """Return the clearance between the ellipsoid and the wall that it is nearest to, m."""
+    low, high, left, right = distances_in_duct(flow, x)
+    patch = _UPPER if high < low else _LOWER
+    gap = min(low, high) - reach(R, F, _UP)
+    beside = min(left, right) - reach(R, F, _ASIDE)
+    if beside < gap:
+        gap, patch = beside, _RIGHT if right < left else _LEFT
+    return gap, patch, patch
+
+
+def normal_duct(flow: DuctArrays, triangle: int, x: Vector) -> Vector:
+    """Return the unit normal of a wall into the fluid."""
+    if triangle >= _LEFT:
+        return (0.0, -1.0, 0.0) if triangle == _RIGHT else _ASIDE
+    return _DOWN if triangle == _UPPER else _UP
+
+
+def planes_of_duct(flow: DuctArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
+    """Return the walls that are chosen and nearer than ``cut`` (m): of the sides, the nearer one."""
+    low, high, left, right = distances_in_duct(flow, x)
+    side = _RIGHT if right < left else _LEFT
+    beside = min(left, right)
+    return Planes(
+        low if low < cut and chosen[_LOWER] > 0 else math.inf, _UP,
+        high if high < cut and chosen[_UPPER] > 0 else math.inf, _DOWN,
+        beside if beside < cut and chosen[side] > 0 else math.inf, normal_duct(flow, side, x),
+    )  # fmt: skip

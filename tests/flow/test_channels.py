@@ -1,4 +1,4 @@
-"""Flows in pipes, over a wall and between two walls: their kernels, uncompiled."""
+"""Flows in pipes and ducts, over a wall and between two walls: their kernels, uncompiled."""
 
 from __future__ import annotations
 
@@ -8,6 +8,12 @@ import numpy as np
 import pytest
 
 from foamprb import analytic
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Stick
+from foamprb.cloud.state import spheres
+from foamprb.cloud.tracker import Models
+from foamprb.errors import InputError
 from foamprb.flow.base import NO_PLANES, Planes
 
 RADIUS, LENGTH, MEAN = 0.5, 2.0, 1.5
@@ -226,3 +232,92 @@ def test_places_between_walls():
     assert SHEAR.locate(x).tolist() == [-1, 0, 0, 0, 0]
     assert SLIT.width == HEIGHT
     assert SHEAR.width == math.inf
+
+
+DUCTS = [analytic.duct(0.4, 0.4, MEAN), analytic.duct(0.9, 0.4, MEAN), analytic.duct(0.3, 1.2, MEAN)]
+
+
+@pytest.mark.parametrize("flow", DUCTS)
+def test_the_derivatives_in_a_duct_are_those_of_the_velocity(flow, random):
+    functions, arrays = kernels(flow)
+    h = 1e-4 * flow.width
+    for _ in range(5):
+        y, z = random.uniform(-0.45, 0.45) * arrays.width, random.uniform(0.05, 0.95) * arrays.height
+        samples = {
+            d: functions["sample"](arrays, 0, (0.0, y + d[0] * h, z + d[1] * h), 0.0)
+            for d in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))
+        }
+        ends = ((1, 0), (-1, 0)), ((0, 1), (0, -1))
+        slopes = [(samples[a][0][0] - samples[b][0][0]) / (2 * h) for a, b in ends]
+        assert samples[0, 0][1][1:3] == pytest.approx(slopes, abs=1e-6 * MEAN / flow.width)
+        bends = [
+            (samples[a][1][k] - samples[b][1][k]) / (2 * h)
+            for k, a, b in ((1, (1, 0), (-1, 0)), (2, (0, 1), (0, -1)), (1, (0, 1), (0, -1)))
+        ]
+        found = functions["curvature"](arrays, 0, (0.0, y, z), 0.0)
+        assert [found[k][0] for k in (1, 2, 4)] == pytest.approx(bends, abs=1e-3 * MEAN / flow.width**2)
+        # Stokes' equation.
+        assert found[1][0] + found[2][0] == pytest.approx(-arrays.force, rel=1e-12)
+
+
+@pytest.mark.parametrize("flow", DUCTS)
+def test_the_velocity_in_a_duct_has_its_mean_and_is_zero_at_the_walls(flow):
+    w, h = flow.traits()["width"], flow.traits()["height"]
+    y, wy = np.polynomial.legendre.leggauss(40)
+    points = np.stack([np.zeros((40, 40)), *np.meshgrid(0.5 * w * y, 0.5 * h * (1.0 + y))], axis=-1)
+    u = flow.sample(points.reshape(-1, 3), None, 0.0)[0][:, 0].reshape(40, 40)
+    assert wy @ u @ wy / 4.0 == pytest.approx(MEAN, rel=1e-5)
+    walls = np.array([[0.0, y * w / 2, z * h] for y, z in ((0.3, 0.0), (0.3, 1.0), (-1.0, 0.3), (1.0, 0.6))])
+    assert flow.sample(walls, None, 0.0)[0][:, 0] == pytest.approx(0.0, abs=1e-5 * MEAN)
+
+
+def test_ducts_that_are_known():
+    """Square: largest over mean velocity 2.0963, f Re = 56.91 (Shah and London 1978). Wide: a slit."""
+    flow, a = analytic.duct(1.0, 1.0, 1.0), np.array([[0.0, 0.0, 0.5]])
+    assert flow.sample(a, None, 0.0)[0][0, 0] == pytest.approx(2.0963, abs=5e-5)
+    assert 2.0 * flow.traits()["force"] == pytest.approx(56.91, abs=0.01)
+    wide, x = analytic.duct(50.0, 1.0, 1.0), np.array([[0.0, 0.0, 0.2]])
+    slit = analytic.slit(1.0, wide.traits()["force"] / 12.0)
+    for found, expected in zip(wide.sample(x, None, 0.0), slit.sample(x, None, 0.0), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
+    for k in range(2):
+        with pytest.raises(InputError, match="finite lengths above 0"):
+            analytic.duct(*np.roll((0.0, 1.0), k), 1.0)
+
+
+def test_walls_of_a_duct():
+    functions, arrays = kernels(flow := DUCTS[1])
+    assert [patch.name for patch in flow.patches] == ["lower", "upper", "left", "right"]
+    x = [(0, 0.45, 0.4), (0, 0.451, 0.2), (0, -0.451, 0.2), (0, 0, -0.001), (0, 0, 0.401), (0, -0.45, 0.0)]
+    assert flow.locate(np.array(x, dtype=float)).tolist() == [0, -1, -1, -1, -1, 0]
+    start, identity = (0.0, 0.15, 0.1), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    ways = [
+        ((1.0, 0.15, -0.3), 0.25, 0), ((1.0, 0.15, 0.7), 0.5, 1), ((1.0, -1.05, 0.1), 0.5, 2),
+        ((1.0, 0.65, 0.1), 0.6, 3), ((1.0, 0.75, 0.7), 0.5, 3), ((1.0, 0.2, 0.2), 1.0, -1),
+    ]  # fmt: skip
+    for end, fraction, patch in ways:
+        assert functions["walk"](arrays, 7, start, end) == (7, pytest.approx(fraction), patch, patch)
+    # Along y the body is three times as long: it touches the wall at its side first.
+    long = (1.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 1.0)
+    for x, F, gap, patch in (
+        ((0.0, 0.1, 0.1), identity, 0.09, 0), ((0.0, 0.1, 0.35), identity, 0.04, 1),
+        ((0.0, -0.4, 0.1), identity, 0.04, 2), ((0.0, 0.36, 0.1), identity, 0.08, 3),
+        ((0.0, 0.36, 0.1), long, 0.06, 3),
+    ):  # fmt: skip
+        assert functions["gap"](arrays, 0, x, F, 0.01) == (pytest.approx(gap), patch, patch)
+    normals = [functions["normal"](arrays, k, start) for k in range(4)]
+    assert normals == [UP, DOWN, (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)]
+    planes = functions["walls"](arrays, 0, (0.0, -0.3, 0.1), 0.2, np.ones(4, dtype=np.int8))
+    assert planes[0::2] == pytest.approx((0.1, math.inf, 0.15))
+    assert planes.n3 == (0.0, 1.0, 0.0)
+
+
+def test_a_body_in_a_square_channel_follows_its_flow():
+    """Compiled: a rigid neutral sphere, without the curvature of the flow, moves with the fluid."""
+    flow = analytic.duct(40e-6, 40e-6, 0.01)
+    body = spheres(np.array([[0.0, 5e-6, 12e-6]]), d=1e-6, rho=1000.0, mu=1e4)
+    water = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
+    cloud = Cloud(body, flow, water, [Stick()] * 4, 1e-4, Models(integrator="stokes"))
+    u = flow.sample(body.x, body.host, 0.0)[0][0, 0]
+    cloud.advance(10)
+    assert body.x[0] == pytest.approx((1e-3 * u, 5e-6, 12e-6), rel=1e-9)
