@@ -38,6 +38,21 @@ AIR, WATER = Fluid(NU, RHO, RHO_S), Fluid(1e-6, 1000.0, 1050.0)
 """In air the particles' inertia counts; in water it does not, and the program chooses accordingly."""
 
 
+class Size(NamedTuple):
+    """A pipe along x and its mean velocity."""
+
+    radius: float = RADIUS
+    """m."""
+    length: float = LENGTH
+    """m."""
+    mean: float = MEAN
+    """m/s."""
+
+
+SIZE = Size()
+"""Of all measurements."""
+
+
 class Grid(NamedTuple):
     """Cells on a quarter of the wall, from the inner square to the wall, and along the pipe."""
 
@@ -74,7 +89,7 @@ class _Section(NamedTuple):
     beyond: Ints
 
 
-def _section(side: int, radial: int) -> _Section:
+def _section(side: int, radial: int, radius: float) -> _Section:
     t = np.linspace(-1.0, 1.0, side + 1)
     y, z = np.meshgrid(t, t, indexing="ij")
     # A square with bulging sides, its corners at half the radius.
@@ -94,7 +109,7 @@ def _section(side: int, radial: int) -> _Section:
         offset += m * n
     flat = np.concatenate([part.reshape(-1, 2) for part in blocks])
     _, first, place = np.unique(np.round(flat, 9), axis=0, return_index=True, return_inverse=True)
-    points = RADIUS * flat[first]
+    points = radius * flat[first]
     quads = place.reshape(-1)[np.concatenate(lists)].astype(np.int32)
     a, b = points[quads[:, 2]] - points[quads[:, 0]], points[quads[:, 3]] - points[quads[:, 1]]
     backwards = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] < 0.0
@@ -112,11 +127,11 @@ def _section(side: int, radial: int) -> _Section:
     return _Section(points, quads, edges[one], quad[one], beyond)
 
 
-def write_mesh(folder: Path, grid: Grid) -> Floats:
+def write_mesh(folder: Path, grid: Grid, size: Size = SIZE) -> Floats:
     """Write ``constant/polyMesh`` in binary; return the means of the cells' vertices, (n_cells, 3)."""
-    s = _section(grid.side, grid.radial)
+    s = _section(grid.side, grid.radial, size.radius)
     n_points, n_quads, layers = len(s.points), len(s.quads), np.arange(grid.axial, dtype=np.int32)
-    x = np.linspace(0.0, LENGTH, grid.axial + 1)
+    x = np.linspace(0.0, size.length, grid.axial + 1)
     points = np.empty((grid.axial + 1, n_points, 3))
     points[:, :, 0], points[:, :, 1:] = x[:, None], s.points
 
@@ -173,17 +188,17 @@ def write_mesh(folder: Path, grid: Grid) -> Floats:
     return centres.reshape(-1, 3)
 
 
-def write_case(folder: Path, grid: Grid) -> Path:
+def write_case(folder: Path, grid: Grid, size: Size = SIZE) -> Path:
     """Write a case that OpenFOAM and foamprb run: mesh, and U at time 0; particles are left to others."""
-    centres = write_mesh(folder, grid)
-    s = _section(grid.side, grid.radial)
+    centres = write_mesh(folder, grid, size)
+    s = _section(grid.side, grid.radial, size.radius)
     (folder / "0").mkdir(exist_ok=True)
     (folder / "system").mkdir(exist_ok=True)
-    ends = _list(poiseuille(np.pad(s.points[s.quads].mean(axis=1), ((0, 0), (1, 0)))))
+    ends = _list(poiseuille(np.pad(s.points[s.quads].mean(axis=1), ((0, 0), (1, 0))), size))
     with (folder / "0" / "U").open("wb") as file:
         file.write(_header("volVectorField", "U").encode())
         file.write(b"dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> ")
-        file.write(_list(poiseuille(centres)) + b";\nboundaryField\n{\n")
+        file.write(_list(poiseuille(centres, size)) + b";\nboundaryField\n{\n")
         for patch in (b"inlet", b"outlet"):
             file.write(patch + b" { type fixedValue; value nonuniform List<vector> " + ends + b"; }\n")
         file.write(b"wall { type noSlip; }\n}\n")
@@ -215,10 +230,10 @@ def write_dictionaries(folder: Path, nu: float, rho: float, g: float = 9.81) -> 
     _dictionary(folder / "system" / "fvSolution", "solvers {}")
 
 
-def poiseuille(x: Floats) -> Floats:
+def poiseuille(x: Floats, size: Size = SIZE) -> Floats:
     """Return the velocity at the points (n, 3), m/s."""
     u = np.zeros_like(x)
-    u[:, 0] = 2.0 * MEAN * (1.0 - (x[:, 1] ** 2 + x[:, 2] ** 2) / RADIUS**2)
+    u[:, 0] = 2.0 * size.mean * (1.0 - (x[:, 1] ** 2 + x[:, 2] ** 2) / size.radius**2)
     return u
 
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-import numpy as np
+import tempfile
+from pathlib import Path
 
-from foamprb.body.quadratic import outline_parts, tube_deformation
+import numpy as np
+from benchmarks import pipe
+
+import foamprb
+from foamprb.body.quadratic import tube_amplitude
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape
@@ -36,30 +41,65 @@ SOURCES = (
     "The tables are part of dclab (github.com/DC-analysis/dclab, GPL 2; data of the finite elements: doi "
     "10.6084/m9.figshare.12155064.v4). Both replace the channel by a tube of 0.547 of its width. The finite "
     "elements have the velocity that belongs to the curvature of the flow, 2Q/πR²; the analytical table has "
-    "that of the square channel, 2.0963 Q/L². Deformation is 1 − 2√(πA)/P of the outline. The mode of each "
-    "body is that of the tracker; its deformation is multiplied by the square of the tube's factor."
+    "that of the square channel, 2.0963 Q/L². Deformation is 1 − 2√(πA)/P of the outline. Each is a run of a "
+    "case of OpenFOAM with the exact flow in 3072 cells, with default settings; the deformation is that of "
+    "cytometry.csv, of bodies with the outlines' areas."
 )
 
 
-def _cells(areas: Floats, modulus: Floats, speed: float) -> Floats:
-    """Return the steady deformations of cells on the axis of the tube.
+SETTINGS = """solution {{ deltaT 2e-6; endTime 6e-4; writeInterval 6e-4; }}
+constantProperties
+{{
+    rho0 1000; rhoInf 1000; mu {mu_f};
+    solid {{ type neoHooke; poissonsRatio 0.4999; youngsModulus 1000; }}
+}}
+subModels
+{{
+    shapeModel quadratic;
+    particleForces {{ ellipsoidDrag; faxenCorrection; }}
+    injectionModels {{ cells {{ type manualInjection; positionsFile "cells.csv"; SOI 0; }} }}
+    patchInteractionModel localInteraction;
+    localInteractionCoeffs {{ patches ( wall {{ type rebound; }} "(inlet|outlet)" {{ type escape; }} ); }}
+}}
+cloudFunctions
+{{
+    camera
+    {{
+        type deformabilityCytometry; origin (7e-5 0 0); normal (1 0 0); view (0 0 1);
+        channel {{ type tube; radius {radius}; }}
+    }}
+}}
+"""
+"""Settings of a run with defaults."""
+
+
+def _cells(areas: Floats, moduli: Floats, speed: float) -> Floats:
+    """Return the deformations of cells on the axis of a tube, from a run of a case of OpenFOAM, (n,).
 
     Parameters
     ----------
     areas
         Of their outlines, m².
-    modulus
+    moduli
         Young's, Pa.
     speed
         Of the fluid on the axis, m/s.
     """
-    a, mu = np.sqrt(areas / np.pi), modulus / 3.0
+    a = np.sqrt(areas / np.pi)
     for _ in range(20):
-        eps = 7.0 / 8.0 * MU_F * speed * a / (mu * RADIUS**2)
+        eps = 7.0 / 8.0 * MU_F * speed * a / (moduli / 3.0 * RADIUS**2) * tube_amplitude(a / RADIUS)
         a = np.sqrt(areas / (np.pi * (1.0 - 0.75 * eps * eps)))
-    p = spheres(np.zeros((len(a), 3)), d=2.0 * a, rho=1000.0, mu=mu)
-    _advance(p, analytic.pipe(RADIUS, 0.5 * speed), MU_F, 1e-4, 20)
-    return np.asarray(outline_parts(tuple(p.B.T)).deformation * tube_deformation(a / RADIUS) ** 2)
+    rows = [
+        f"1e-5,0,0,{2.0 * float(radius)!r},{float(modulus)!r}"
+        for radius, modulus in zip(a, moduli, strict=True)
+    ]
+    with tempfile.TemporaryDirectory() as name:
+        case = pipe.write_case(Path(name), pipe.Grid(16, 8, 4), pipe.Size(RADIUS, 1e-4, 0.5 * speed))
+        (case / "constant/softCloudProperties").write_text(SETTINGS.format(mu_f=MU_F, radius=RADIUS))
+        (case / "constant/cells.csv").write_text("\n".join(["x,y,z,d,youngsModulus", *rows]))
+        foamprb.execute(foamprb.prepare(case))
+        seen = foamprb.open_run(case).table("camera/cytometry")
+    return np.asarray(seen["deformation"])[np.argsort(seen["id"])]
 
 
 def _advance(p, flow, mu_f: float, dt: float, steps: int, surroundings=()) -> None:  # type: ignore[no-untyped-def]
