@@ -64,3 +64,32 @@ def seen_cells(
     angle = image["angle"] + 0.02 * noise * random.normal(size=n)
     errors = {"strainError": 0.02 * image["strain"], "angleError": np.full(n, 0.02)}
     return read_measured({"y": y, "d": d, "strain": strain, "angle": angle, **errors}), G, eta
+
+
+CYTOMETER, VOLUME_FLOW = 10.94e-6, 0.04e-9
+"""Radius of the tube that acts as a channel of 20 µm, m, and its volume flow, m³/s."""
+
+
+def cytometer_job(folder: Path) -> Job:
+    """The job of cells with the quadratic mode on the axis of the tube of a deformability cytometer."""
+    text = SETTINGS.replace("mu 1;", "mu 0.015;").replace(
+        "shearModulus 300; viscosity 1;", "shearModulus 1000;"
+    )
+    text = text.replace("deltaT 2e-3; endTime 2;", "deltaT 5e-6; endTime 0.01;").replace("15e-6", "8e-6")
+    text = text.replace("-9e-5 0); end (1e-6 9e-5 0)", "0 0); end (1e-6 1e-9 0)").replace(
+        "number 37", "number 2"
+    )
+    text = text.replace("patchInteractionModel", "shapeModel quadratic; patchInteractionModel")
+    text += f"""
+    cloudFunctions
+    {{
+        camera
+        {{
+            type deformabilityCytometry;
+            origin (2e-4 0 0); normal (1 0 0); view (0 0 1);
+            channel {{ type tube; radius {CYTOMETER}; }}
+        }}
+    }}
+    """
+    flow = analytic.pipe(CYTOMETER, VOLUME_FLOW / (np.pi * CYTOMETER**2), 1e-3)
+    return pipe_job(folder, text, flow)

@@ -5,9 +5,13 @@ from __future__ import annotations
 import argparse
 import logging
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_browser, add_cache, add_flow, show_page, source_of
 from foamprb.errors import InputError, RunInterrupted
+
+if TYPE_CHECKING:
+    from foamprb.run.job import Job
 
 PURPOSE = "fit moduli of bodies to their measured shapes"
 EXAMPLE = "fit -case myCase -measured bodies.csv -plane x=0.01 -view z"
@@ -29,6 +33,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     )
     add("--unknown", default="shearModulus", metavar="NAMES", help='"shearModulus viscosity" [shearModulus]')
     add_device(parser)
+    add("--output", type=Path, metavar="DIR", help="folder of the results [postProcessing in the case]")
     add("--overwrite", action="store_true", help="start over [continue a fit that was stopped]")
     add_browser(parser)
 
@@ -40,26 +45,31 @@ def add_device(parser: argparse.ArgumentParser) -> None:
     add("--view", metavar="AXIS", help="direction of the camera: x, y, z or a vector")
     add("--time", metavar="TIME", help="time of the flow [latest]")
     add("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
-    add("--output", type=Path, metavar="DIR", help="folder of the results [postProcessing in the case]")
     add("--threads", type=int, metavar="N", help="threads [all processors]")
     add("--outsideLibs", action="store_true", help="run also Python files of libs outside the case")
+
+
+def read_device(arguments: argparse.Namespace, output: Path | None = None) -> Job:
+    """Return the job that the options of :func:`add_device` select."""
+    from foamprb.run.job import prepare
+
+    if arguments.threads is not None and arguments.threads < 1:
+        raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
+    return prepare(
+        arguments.case, arguments.time, arguments.dict, arguments.threads, source_of(arguments),
+        precompile=True, outside_libs=arguments.outsideLibs, output=output,
+    )  # fmt: skip
 
 
 def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.distributed.launch import caught_signals
     from foamprb.run.fit import fit_job
-    from foamprb.run.job import prepare
     from foamprb.run.measured import read_measured
     from foamprb.view.report.fits import write_fit_page
 
-    if arguments.threads is not None and arguments.threads < 1:
-        raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
     measured = read_measured(arguments.measured)
-    job = prepare(
-        arguments.case, arguments.time, arguments.dict, arguments.threads, source_of(arguments),
-        precompile=True, outside_libs=arguments.outsideLibs, output=arguments.output,
-    )  # fmt: skip
+    job = read_device(arguments, arguments.output)
     unknown = arguments.unknown.replace(",", " ").split()
     with caught_signals() as caught:
         try:

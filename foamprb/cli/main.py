@@ -17,7 +17,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, NoReturn, Protocol, TextIO
 
 import foamprb
-from foamprb.cli import compare, estimate, export, fit, info, init, paraview, report, run, sweep, view
+from foamprb.cli import compare, estimate, export, fit, info, init, lut, paraview, report, run, sweep, view
 from foamprb.cli import compile as compile_
 from foamprb.cli import help as help_
 from foamprb.errors import (
@@ -56,7 +56,7 @@ class Command(Protocol):
 
 GROUPS: dict[str, dict[str, Command]] = {
     "prepare": {"info": info, "init": init, "estimate": estimate, "help": help_},
-    "run": {"run": run, "sweep": sweep, "fit": fit, "compile": compile_},
+    "run": {"run": run, "sweep": sweep, "fit": fit, "lut": lut, "compile": compile_},
     "see the results": {
         "view": view,
         "report": report,

@@ -23,7 +23,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloudfunctions.base import Memory, ObservedCloud, columns, names_of, table
-from foamprb.cloudfunctions.crossings import Crossings, PlaneFunction, unit
+from foamprb.cloudfunctions.crossings import PlaneFunction, unit
 from foamprb.dictionary.constraints import Meaning, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.results.tables import Column, write_table
@@ -160,9 +160,8 @@ class DeformabilityCytometry(PlaneFunction):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the table of all crossings."""
-        crossings = self.crossings(memory, cloud)
-        p, t, x, sense = crossings
-        confinement = self._confinement(crossings)
+        p, t, x, sense = self.crossings(memory, cloud)
+        confinement = self.confinement(p.R, x)
         seen = outline(p, unit(self.view), confinement)
         more: dict[str, Column] = {}
         if cloud.cloud.models.has_quadratic:
@@ -180,12 +179,11 @@ class DeformabilityCytometry(PlaneFunction):
              **more},
         )  # fmt: skip
 
-    def _confinement(self, crossings: Crossings) -> Floats:
-        """Return R of each body over the radius of the tube, (n,); 0 of bodies on which it does not act."""
-        R = crossings.particles.R
+    def confinement(self, R: Floats, x: Floats) -> Floats:
+        """Return R, (n,), of bodies at x, (n, 3), over the radius of the tube; 0 where it does not act."""
         if self.channel is None:
             return np.zeros(len(R))
-        away = np.linalg.norm(np.cross(crossings.x - self.origin, unit(self.normal)), axis=1)
+        away = np.linalg.norm(np.cross(x - self.origin, unit(self.normal)), axis=1)
         ratio = R / self.channel.tube_radius
         return np.where((away <= _NEAR_AXIS * R) & (ratio <= _LARGEST), ratio, 0.0)
 

@@ -20,7 +20,7 @@ from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.tracker import never
 from foamprb.cloudfunctions.base import Memory, ObservedCloud
 from foamprb.cloudfunctions.crossings import PlaneFunction, unit
-from foamprb.cloudfunctions.deformability_cytometry import outline
+from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry, outline
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.dictionary.constraints import Vector3
 from foamprb.errors import InputError, RunInterrupted
@@ -370,6 +370,17 @@ class Device:
         along = along / np.linalg.norm(along)
         return np.stack([along, np.cross(self.view, along)])
 
+    def confinement(self, x: Floats, d: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+        """Return radii of bodies at x over that of the channel, and whether its effect is unknown, (n,).
+
+        The channel is that of ``deformabilityCytometry``; 0 and False without one.
+        """
+        for camera in self.job.settings.functions.values():
+            if isinstance(camera, DeformabilityCytometry) and camera.channel is not None:
+                ratio = camera.confinement(0.5 * d, x)
+                return ratio, ratio == 0.0
+        return np.zeros(len(d)), np.zeros(len(d), dtype=bool)
+
     def image(self, seen: Seen, d: Floats, names: Sequence[str]) -> dict[str, Floats]:
         """Return quantities of :class:`~foamprb.run.measured.Measured` of seen bodies, (n,) each.
 
@@ -380,15 +391,15 @@ class Device:
         d
             Their diameters at rest, m.
         names
-            Names of the quantities.
+            Names of the quantities, or ``bulletAmplitude``.
         """
-        R = 0.5 * d
-        F = np.where(seen.passed[:, None, None], seen.F, np.eye(3))
-        shape = R[:, None, None] ** 2 * F @ F.transpose(0, 2, 1)
-        mode = np.where(seen.passed[:, None], seen.B, 0.0)
-        shadow = outline(empty(len(R))._replace(R=R, F=F.reshape(-1, 9), B=mode), self.view)
+        p = empty(len(d))._replace(R=0.5 * d)
+        p.F[seen.passed], p.B[seen.passed] = seen.F[seen.passed].reshape(-1, 9), seen.B[seen.passed]
+        confinement, _ = self.confinement(np.nan_to_num(seen.x), d)
+        shadow = outline(p, self.view, confinement)
         a, b = shadow.semi_axes.T
-        flat = self.basis @ shape @ self.basis.T
+        F = p.F.reshape(-1, 3, 3)
+        flat = self.basis @ F @ F.transpose(0, 2, 1) @ self.basis.T
         angle = 0.5 * np.abs(np.arctan2(2.0 * flat[:, 0, 1], flat[:, 0, 0] - flat[:, 1, 1]))
         values = {
             "area": shadow.area,
@@ -396,6 +407,7 @@ class Device:
             "deformation": shadow.deformation,
             "angle": angle,
             "treading": seen.spin,
+            "bulletAmplitude": shadow.bullet_amplitude,
         }
         return {name: np.where(seen.passed, values[name], np.nan) for name in names}
 

@@ -47,6 +47,9 @@ _UNLIKELY = 1e-4
 """Probability of a residual below which no properties explain a body."""
 _CURVED = 1.0
 """Largest curvature number of an affine body: the shape by the curvature is 0.44 of that by the strain."""
+_BULLET = 0.26
+"""Largest amplitude of the quadratic mode, which is of first order; its deformation is 0.05."""
+_WALLS = "it is away from the axis of the channel, or too large for it"
 _RESAMPLES = 1000
 _TEXTS = ("id", "reason")
 
@@ -265,6 +268,7 @@ class _Batch:
         sizes = self._measured
         self.d = 2.0 * np.sqrt(sizes.of("area") / np.pi) if self.size_is_unknown else sizes.of("d")
         self._reason = self._faults()
+        self._bullet = np.zeros(len(self.d))
         self.able = np.flatnonzero(self._reason == "")
 
     def _faults(self) -> NDArray[Any]:
@@ -274,6 +278,7 @@ class _Batch:
         missing = np.isfinite(shapes).sum(axis=1) < len(problem.unknown)
         curvature = device.curvature_number(self._arrival, np.nan_to_num(self.d))
         # The last one that holds is stored.
+        reason[device.confinement(self._arrival, np.nan_to_num(self.d))[1]] = _WALLS
         if not device.job.cloud.models.has_quadratic:
             reason[curvature > _CURVED] = (
                 f"the curvature number is above {_CURVED:g}: use shapeModel quadratic"
@@ -295,10 +300,10 @@ class _Batch:
         d = np.exp(theta[:, -1]) if self.size_is_unknown else self.d[rows]
         bodies = Bodies(self._guide[rows], self._release[rows], d, properties)
         seen = problem.device.follow(bodies, self._offsets[rows])
+        image = problem.device.image(seen, d, (*problem.names, "bulletAmplitude"))
         if moves:
-            self._arrival[rows] = seen.x
+            self._arrival[rows], self._bullet[rows] = seen.x, image["bulletAmplitude"]
             self._release[rows] += self._ratio[rows, None] * np.nan_to_num(self._places[rows] - seen.x)
-        image = problem.device.image(seen, d, problem.names)
         return np.stack([image[name] for name in problem.names], axis=1), seen.passed
 
     def table(self, solution: Solution) -> dict[str, NDArray[Any]]:
@@ -318,6 +323,11 @@ class _Batch:
             worst = np.argmax(np.nan_to_num(np.abs(deviations)), axis=1)
             for row in np.flatnonzero(squares > chi2.isf(_UNLIKELY, np.maximum(freedom, 1))):
                 reason[row] = f"no value explains its {problem.names[worst[row]]}"
+        d = self.d.copy()
+        if self.size_is_unknown:
+            d[able] = np.exp(solution.theta[:, -1])
+        reason[problem.device.confinement(self._arrival[able], d[able])[1]] = _WALLS
+        reason[self._bullet[able] > _BULLET] = f"its bullet amplitude is above {_BULLET:g}"
         reason[~(solution.valid & near)] = "no path of a body leads to its place"
         fitted = reason == ""
         scale = 1.0 if problem.has_errors else math.nan
@@ -335,9 +345,6 @@ class _Batch:
         columns |= {f"{name}Predicted": solution.predicted[:, k] for k, name in enumerate(problem.names)}
         columns["residual"] = np.sqrt(squares / np.maximum(count, 1))
         self._reason[able] = reason
-        d = self.d.copy()
-        if self.size_is_unknown:
-            d[able] = np.exp(solution.theta[:, -1])
         table: dict[str, NDArray[Any]] = {"id": self._measured.ids.astype(str)}
         table |= dict(zip("xyz", self._arrival.T, strict=True))
         table |= {"d": d, **dict(zip(problem.names, self.values.T, strict=True))}
