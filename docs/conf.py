@@ -5,12 +5,20 @@ from __future__ import annotations
 import os
 import re
 import tempfile
+import tomllib
+from html import escape
 from importlib.metadata import version as version_of
 from pathlib import Path
 from typing import Any
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent
+
+# On GitHub the workflow has the address, also in a fork.
+ADDRESS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["urls"][
+    "Repository"
+]
+OWNER, REPOSITORY = os.environ.get("GITHUB_REPOSITORY", "/".join(ADDRESS.split("/")[-2:])).split("/")
 
 project = "foamprb"
 author = "The foamprb developers"
@@ -28,6 +36,10 @@ myst_enable_extensions = ["attrs_inline", "colon_fence"]
 html_theme = "pydata_sphinx_theme"
 html_title = "foamprb"
 html_static_path = ["_static"]
+html_favicon = "_static/favicon.svg"
+html_context = {
+    "github_user": OWNER, "github_repo": REPOSITORY, "github_version": "main", "doc_path": "docs",
+}  # fmt: skip
 html_css_files = ["site.css"]
 html_show_sourcelink = False
 html_sidebars = {"index": []}
@@ -36,7 +48,16 @@ html_theme_options: dict[str, Any] = {
     # The field with its shortcut has a label that differs from its text.
     "navbar_persistent": ["search-button"],
     "header_links_before_dropdown": 5,
-    "secondary_sidebar_items": ["page-toc"],
+    "logo": {"text": f"foamprb {version_of('foamprb').partition('+')[0]}"},
+    "icon_links": [
+        {
+            "name": "Repository",
+            "url": f"https://github.com/{OWNER}/{REPOSITORY}",
+            "icon": "fa-brands fa-github",
+        },
+    ],
+    "secondary_sidebar_items": ["page-toc", "edit-this-page"],
+    "use_edit_page_button": True,
     "show_nav_level": 1,
     "pygments_light_style": "a11y-high-contrast-light",
     "pygments_dark_style": "a11y-high-contrast-dark",
@@ -67,6 +88,8 @@ PAGES = {
     "CHANGELOG.md": "changelog.md",
     "CODE_OF_CONDUCT.md": "conduct.md",
     "CONTRIBUTING.md": "contributing.md",
+    "RELEASING.md": "releasing.md",
+    "SECURITY.md": "reporting.md",
     "tools/README.md": "tools.md",
     **{f"cases/{page.stem}/README.md": f"cases/{page.name}" for page in CASES},
 }
@@ -95,11 +118,30 @@ def change_page(_: Any, name: str, source: list[str]) -> None:
         items = "".join(re.findall(r"^\* .*\n", source[0], re.MULTILINE))
         pages = dict.fromkeys(re.findall(r"\]\(((?:\.\./)?[\w/-]+)\.md\)", items))
         source[0] += "\n```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
+    if name == "examples":
+        source[0] = gallery(source[0])
     if name == "reference/commands":
         source[0] += commands()
     if name == "reference/clouds":
         source[0] = source[0].replace("<!-- arrays -->\n", arrays())
     source[0] = within_the_site(source[0], page.parent, page)
+
+
+def gallery(text: str) -> str:
+    """Return the page of the examples with a card for each on top, and code and download in its section."""
+    example = r"^## (.+)\n\n`examples/(\w+)\.py`"
+    cards = []
+    for title, name in re.findall(example, text, re.MULTILINE):
+        link = title.lower().replace(" ", "-")
+        options = f':img-top: examples/{name}.png\n:img-alt: ""\n:link: "#{link}"'
+        cards.append(f":::{{grid-item-card}} {title}\n{options}\n:::")
+    grid = "\n\n".join(["::::{grid} 1 2 3 3\n:gutter: 2", *cards, "::::"])
+    code = (
+        r"\g<0>\n\n:::{dropdown} Code\n```{literalinclude} ../examples/\1.py\n:language: python\n```\n:::\n\n"
+        r"{download}`Download \1.py <../examples/\1.py>`"
+    )
+    text = re.sub(r"^!\[.*\]\(examples/(\w+)\.png\)$", code, text, flags=re.MULTILINE)
+    return text.replace("\n## ", f"\n{grid}\n\n## ", 1)
 
 
 def commands() -> str:
@@ -169,9 +211,20 @@ def write_scene(app: Any, failure: Exception | None) -> None:
         run.view(Path(app.outdir) / "scene.html", max_size=3.0, enlargement=50.0)
 
 
+def describe(_: Any, name: str, __: str, context: dict[str, Any], doctree: Any) -> None:
+    """Add the first paragraph as the description of a page; the first page has the name of the site once."""
+    if name == "index":
+        context["docstitle"] = ""
+    paragraphs = [] if doctree is None else list(doctree.findall(lambda node: node.tagname == "paragraph"))
+    if paragraphs:
+        text = escape(" ".join(paragraphs[0].astext().split()), quote=True)
+        context["metatags"] += f'<meta name="description" content="{text}" />\n'
+
+
 def setup(app: Any) -> None:
     """Change pages as they are read, and add the scene when all are written."""
     app.connect("autodoc-skip-member", skip)
     app.connect("source-read", change_page)
     app.connect("include-read", change_included)
+    app.connect("html-page-context", describe)
     app.connect("build-finished", write_scene)

@@ -25,6 +25,7 @@ for _ in range(250):
     angles.append(np.arctan2(long_axis[1], long_axis[0]))
 times = STEP * np.arange(1, 251)
 turned = -np.unwrap(2.0 * np.array(angles)) / 2.0  # the axis has no sign
+turned -= np.pi * np.round(turned[0] / np.pi)
 half = np.interp(np.pi, turned - turned[0], times - times[0])
 
 period = 2.0 * np.pi * (RATIO + 1.0 / RATIO) / RATE

@@ -26,6 +26,14 @@ def test_an_example_runs(script: Path, tmp_path: Path, monkeypatch: pytest.Monke
     assert len(script.read_text().splitlines()) <= 60
 
 
+def test_the_gallery_has_a_card_code_and_a_download_of_each() -> None:
+    gallery = runpy.run_path(str(ROOT / "docs/conf.py"))["gallery"]
+    text = gallery((ROOT / "docs/examples.md").read_text())
+    for pattern in (r":img-top: {}\.png", r"literalinclude\}} \.\./{}\.py", r"<\.\./{}\.py>"):
+        pattern = pattern.format(r"examples/(\w+)")
+        assert sorted(re.findall(pattern, text)) == [path.stem for path in EXAMPLES]
+
+
 def test_the_page_shows_every_example():
     page = (ROOT / "docs/examples.md").read_text()
     assert sorted(re.findall(r"!\[.*?\]\(examples/(\w+)\.png\)", page)) == [path.stem for path in EXAMPLES]
