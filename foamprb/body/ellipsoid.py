@@ -7,7 +7,7 @@ duplication sum with positive terms serves all of them, without loss of digits f
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -148,6 +148,16 @@ def _duplicated(semi_axes: Vector, times: int) -> Integrals:
 def reach(R: Scalar, F: Tensor, n: Vector) -> Scalar:
     """Return the support function R |Fᵀ·n|, the reach of the ellipsoid along the unit vector n, m."""
     return R * norm(vector_dot(n, F))
+
+
+def no_swelling(mode: Any, inverse_F: Tensor, p: Vector) -> Scalar:  # noqa: ARG001
+    """Return 0: the surface is that of the ellipsoid. See :func:`foamprb.body.quadratic.swelling`."""
+    return 0.0
+
+
+def no_largest_swelling(mode: Any, inverse_F: Tensor) -> Scalar:  # noqa: ARG001
+    """Return 0, the bound of :func:`no_swelling`."""
+    return 0.0
 
 
 def sorted_frame(Q: Tensor, stretches: Vector) -> tuple[Tensor, Vector]:

@@ -32,14 +32,21 @@ from foamprb.body.tensor import (
     Scalar,
     Tensor,
     Vector,
+    add,
     combine_vectors,
+    ddot,
     dot,
     dot_vector,
+    inner,
+    inverse,
     plus,
     plus_scaled,
+    scale,
     scale_vector,
     sym,
     to_frame,
+    transpose,
+    vector_dot,
     vector_product,
 )
 
@@ -287,6 +294,47 @@ def tube_deformation(b: Scalar) -> Scalar:
     """Return the square root of the deformation of the outline over that without walls, by P₃ and P₅."""
     five = b * b * b * b * b
     return 1.0 + five * (3.913713 + b * b * (-8.5654 + b * (6.8029 + b * b * 2.6066)))
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Contact
+
+
+def turn_of(F: Tensor) -> Tensor:
+    """Return the rotation Q of F = V Q, by Newton's iteration."""
+    Q = F
+    for _ in range(12):
+        Q = scale(0.5, add(Q, transpose(inverse(Q))))
+    return Q
+
+
+def swelling(mode: tuple[Third, Tensor], inverse_F: Tensor, p: Vector) -> Scalar:
+    """Return how much farther than the ellipsoid the surface reaches, over a, in the frame of the material.
+
+    F⁻¹ maps the ellipsoid to a ball, and the surface to X + F⁻¹ B YY with Y = Q X, |X| = 1. To second order
+    in B its support function in the direction p is 1 + f + 2 |w − f p|², f = p·F⁻¹ B YY and w = (p·F⁻¹ B·Y) Q
+    at X = p.
+
+    Parameters
+    ----------
+    mode
+        B, and the rotation Q by :func:`turn_of`.
+    inverse_F, p
+        F⁻¹, and a unit vector.
+    """
+    B, Q = mode
+    y = dot_vector(Q, p)
+    X, Y, Z = layers(B)
+    M = add(add(scale(y[0], X), scale(y[1], Y)), scale(y[2], Z))
+    row = dot_vector(M, vector_dot(p, inverse_F))
+    f, w = inner(row, y), vector_dot(row, Q)
+    return f + 2.0 * (inner(w, w) - f * f)
+
+
+def largest_swelling(mode: tuple[Third, Tensor], inverse_F: Tensor) -> Scalar:
+    """Return an upper bound of :func:`swelling` in all directions."""
+    most = bullet_amplitude(mode[0]) * ddot(inverse_F, inverse_F) ** 0.5
+    return most + 2.0 * most * most
 
 
 # ---------------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """Contacts with patches: when they happen, records of rebounds and passages, and normals of walls.
 
-The names ``gap``, ``walk`` and ``normal`` are bound to the flow when a loop is compiled.
+The names ``gap``, ``walk`` and ``normal`` are bound to the flow when a loop is compiled, ``mode_of`` to the
+quadratic mode.
 """
 
 from __future__ import annotations
@@ -67,6 +68,18 @@ def first_contact(before: float, after: float, a: float, b: float) -> float:
         else:
             high = middle
     return low
+
+
+def no_mode(_source: Any, _k: int, _F: Tensor) -> tuple[()]:
+    """Return nothing: bodies are ellipsoids.
+
+    Otherwise the mode of lane or particle k of a block or a cloud; see
+    :func:`foamprb.body.quadratic.swelling`.
+    """
+    return ()
+
+
+mode_of = no_mode
 
 
 class Rebounds(NamedTuple):
@@ -159,7 +172,7 @@ def contact_normals(flow: Any, p: Particles, rows: NDArray[Any], normals: NDArra
         f = p.F[k]
         F: Tensor = (f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8])
         R = p.R[k]
-        _, patch, triangle = gap(flow, p.host[k], x, F, R)
+        _, patch, triangle = gap(flow, p.host[k], x, F, R, mode_of(p, k, F))
         if patch != p.patch[k]:
             vx, vy, vz = p.v[k, 0], p.v[k, 1], p.v[k, 2]
             c = R / (math.sqrt(vx * vx + vy * vy + vz * vz) + 1e-300)

@@ -2,7 +2,7 @@
 
 The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross``, ``recover`` and ``cell_volume`` are bound to
 those of the flow that was chosen when the loop is compiled, and ``walk_on`` where it has its own;
-``turn_along``, ``bounce_along``, ``form_bond`` and ``reflects_steps`` are bound to models of the
+``turn_along``, ``bounce_along``, ``form_bond``, ``mode_in`` and ``reflects_steps`` are bound to models of the
 surroundings, ``bouncing`` and ``rewind`` to the integrator.
 """
 
@@ -45,6 +45,7 @@ from foamprb.cloud.block import (
     store9,
 )
 from foamprb.cloud.contact import first_contact, on_cubic, record_contact, slope_on_cubic
+from foamprb.cloud.contact import no_mode as mode_in
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Reason, Status
@@ -266,7 +267,8 @@ def share_before_contact(
             return _APPROACH * fraction
         ahead = reached
     R, F, before = block[at.R * LANES + i], load9(block, at.new_F, i), block[at.clearance * LANES + i]
-    after, _, _ = gap(flow, ahead, goal, F, R)
+    mode = mode_in(block, i, F)
+    after, _, _ = gap(flow, ahead, goal, F, R, mode)
     if min(before, after) >= CLOSE * R:
         return 1.0
     before = min(before, NEAR * R)
@@ -281,7 +283,7 @@ def share_before_contact(
     host, _, patch, _ = walk(flow, s.host[i], x, middle)
     if patch == -2:
         return 0.0
-    between_both, _, _ = gap(flow, host, middle, F, R)
+    between_both, _, _ = gap(flow, host, middle, F, R, mode)
     return 1.0 if between_both >= min(least, LEAST_OF_GAP * after) - _SOFT * R else 0.5 * _APPROACH
 
 
@@ -292,7 +294,7 @@ def would_stick(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector
 
 
 def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
-    """Return the gap between the ellipsoid in lane i and the walls, m, and the nearest patch and triangle.
+    """Return the gap between the body in lane i and the walls, m, and the nearest patch and triangle.
 
     Where walls are listed, a gap of at least :data:`NEAR` radii at rest is infinite, with −1 and −1: it does
     not depend on the reach of the lists.
@@ -304,7 +306,7 @@ def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
             s.outgrown[0] = UNLISTED
         else:
             fail(s, i, WALLS_TOO_MANY)
-    clearance, patch, triangle = gap(flow, s.host[i], load3(block, at.x, i), F, R)
+    clearance, patch, triangle = gap(flow, s.host[i], load3(block, at.x, i), F, R, mode_in(block, i, F))
     if clearance >= NEAR * R and s.bounds.reach < math.inf:
         return math.inf, -1, -1
     return clearance, patch, triangle
@@ -567,7 +569,8 @@ def meet_wall(
     fall = inner(minus(goal, start), n)
     reflected = reflects_steps > 0
     if after == -math.inf:
-        room, _, _ = gap(flow, s.host[i], x, load9(block, at.F, i), R)
+        F = load9(block, at.F, i)
+        room, _, _ = gap(flow, s.host[i], x, F, R, mode_in(block, i, F))
         # Infinite for a body that is a point to walls.
         reflected = reflected or room == math.inf
         after = min(0.0, (room if room < math.inf else 0.0) + inner(minus(goal, x), n))

@@ -75,7 +75,7 @@ def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float,
     return host, 1.0, -1, -1
 
 
-def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()) -> tuple[float, int, int]:
     """Return infinity: there are no walls."""
     return math.inf, -1, -1
 

@@ -142,8 +142,9 @@ class Flow(Sampled, Protocol):
     * ``sample_ahead(flow, host, x0, x1, t) -> (ahead, room, entered, u, l, u_t)`` *: the last piece on the
       path from x0 to x1, its ``sample`` at x1, the distance from x1, m, along each axis within which a point
       certainly lies in this piece, if more than 0, and the number of cells that the path enters;
-    * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
-      nearest touchable wall; beyond :data:`NEAR` R it may be infinite, with −1 and −1;
+    * ``gap(flow, host, x, F, R, mode) -> (gap, patch, triangle)``: signed clearance between the ellipsoid,
+      or the surface of a quadratic mode, and the nearest touchable wall; beyond :data:`NEAR` R it may be
+      infinite, with −1 and −1;
     * ``walls(flow, host, x, cut, chosen) -> planes`` *: the walls nearer to x than ``cut``, see
       :mod:`foamprb.flow.planes`;
     * ``turbulence(flow, host, x, t) -> (k, epsilon, slope, drift)`` *: see :data:`Turbulence`;

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.ellipsoid import reach
+from foamprb.body.ellipsoid import no_swelling as swelling
 from foamprb.body.faxen import Curvature
-from foamprb.body.tensor import Tensor, Vector
+from foamprb.body.tensor import Tensor, Vector, inverse, norm, scale_vector, vector_dot
 from foamprb.flow.base import NO_PLANES, Planes
 
 
@@ -61,11 +61,13 @@ def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int,
     return host, fraction, patch, patch
 
 
-def gap_pipe(flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """Return the clearance between the ellipsoid and the wall's tangent plane, m."""
+def gap_pipe(
+    flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+) -> tuple[float, int, int]:
+    """Return the clearance between the body and the wall's tangent plane, m."""
     n = normal_pipe(flow, _WALL, x)
     r = math.sqrt(x[1] * x[1] + x[2] * x[2])
-    return flow.radius - r - reach(R, F, n), _WALL, _WALL
+    return flow.radius - r - extent(R, F, mode, n), _WALL, _WALL
 
 
 def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:
@@ -128,11 +130,22 @@ def walk_slit(flow: SlitArrays, host: int, x0: Vector, x1: Vector) -> tuple[int,
     return host, 1.0, _NOWHERE, _NOWHERE
 
 
-def gap_slit(flow: SlitArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """Return the clearance between the ellipsoid and the nearer wall, m."""
-    upper = flow.height - x[2] < x[2]
-    patch = _UPPER if upper else _LOWER
-    return min(x[2], flow.height - x[2]) - reach(R, F, _UP), patch, patch
+def gap_slit(
+    flow: SlitArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+) -> tuple[float, int, int]:
+    """Return the clearance between the body and the nearer wall, m."""
+    low, high = x[2] - extent(R, F, mode, _UP), flow.height - x[2] - extent(R, F, mode, _DOWN)
+    patch = _UPPER if high < low else _LOWER
+    return min(low, high), patch, patch
+
+
+def extent(R: float, F: Tensor, mode: Any, n: Vector) -> float:
+    """Return how far a body reaches against the unit vector n, m."""
+    p = vector_dot(n, F)
+    length = norm(p)
+    # On the axis of a pipe n is 0.
+    outward = scale_vector(-1.0 / (length + 1e-300), p)
+    return float(R * length * (1.0 + swelling(mode, inverse(F), outward)))
 
 
 def normal_slit(flow: SlitArrays, triangle: int, x: Vector) -> Vector:

@@ -182,9 +182,11 @@ def sample_ahead(
     return last, 0.0, entered, u, l, u_t
 
 
-def gap(flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+def gap(
+    flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+) -> tuple[float, int, int]:
     """See :func:`foamprb.flow.walk.gap`."""
-    return gap_mesh(flow.mesh, host, x, F, R)
+    return gap_mesh(flow.mesh, host, x, F, R, mode)
 
 
 def walls(flow: SeriesArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:

@@ -10,6 +10,8 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from foamprb.body.ellipsoid import no_largest_swelling as largest_swelling
+from foamprb.body.ellipsoid import no_swelling as swelling
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -19,6 +21,7 @@ from foamprb.body.tensor import (
     inverse,
     longest_stretch,
     norm,
+    scale_vector,
     vector_dot,
 )
 from foamprb.flow.base import NEAR, Floats, Ints
@@ -34,13 +37,16 @@ _TIE = 1.0 + 1e-12
 """Factor of the distance of a triangle: of two at the same distance the first counts."""
 
 
-def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+def gap(
+    flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+) -> tuple[float, int, int]:
     """Return the clearance between the ellipsoid {x + R F·ξ: ξ·ξ ≤ 1} and the nearest wall triangle.
 
     The map y → F⁻¹(y − x) turns the ellipsoid into a ball of radius R about the origin, and triangles into
     triangles. The clearance is the distance of the mapped triangle (including edges and corners) from the
     origin minus R; it is negative exactly if body and wall overlap. Over a plane wall at distance h with
-    normal n it is h/|Fᵀn| − R.
+    normal n it is h/|Fᵀn| − R. With a quadratic mode the ball is swollen, by R :func:`swelling` towards the
+    triangle.
 
     Returns
     -------
@@ -52,12 +58,12 @@ def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[fl
     if begin == end:
         return np.inf, -1, NO_TRIANGLE
     if flow.near[begin] < 0:
-        return nearest_in_tree(flow, -1 - flow.near[begin], x, F, R)
-    return nearest_wall(flow, begin, end, x, F, R)
+        return nearest_in_tree(flow, -1 - flow.near[begin], x, F, R, mode)
+    return nearest_wall(flow, begin, end, x, F, R, mode)
 
 
 def nearest_wall(
-    flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float
+    flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float, mode: Any = ()
 ) -> tuple[float, int, int]:
     """Return the nearest wall triangle among the entries ``begin`` to ``end``; see :func:`gap`."""
     best, nearest = NEAR * R, NO_TRIANGLE
@@ -65,9 +71,10 @@ def nearest_wall(
     if not _any_within(flow, begin, end, x, _NEARLY * (best + R) * np.sqrt(ddot(F, F))):
         return np.inf, -1, NO_TRIANGLE
     inverse_F = inverse(F)
+    more = R * largest_swelling(mode, inverse_F)
     for k in range(begin, end):
         triangle = flow.near[k] if flow.near[k] >= 0 else -1 - flow.near[k]
-        distance = _mapped_distance(flow, triangle, x, F, inverse_F, _TIE * (best + R))
+        distance = _mapped_distance(flow, triangle, x, F, inverse_F, R, mode, _within(best, more, R))
         if distance - R < best or (distance - R == best and triangle < nearest):
             best, nearest = distance - R, triangle
     if nearest == NO_TRIANGLE:
@@ -88,26 +95,29 @@ def _any_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float)
     return False
 
 
-def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+def nearest_in_tree(
+    flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+) -> tuple[float, int, int]:
     """Return the nearest wall triangle in the tree; see :func:`gap`. ``seed`` is a triangle that may be near.
 
     Of several at the same distance the first counts, as in a list.
     """
     inverse_F, stretch = inverse(F), longest_stretch(F)
+    more = R * largest_swelling(mode, inverse_F)
     best, nearest = NEAR * R, NO_TRIANGLE
-    distance = _mapped_distance(flow, seed, x, F, inverse_F, _TIE * (best + R))
+    distance = _mapped_distance(flow, seed, x, F, inverse_F, R, mode, _within(best, more, R))
     if distance - R < best:
         best, nearest = distance - R, seed
     boxes, triangles = flow.wall_boxes, flow.wall_leaves
     node, n_leaves = 1, triangles.shape[0]
     while node > 0:
         # The map shortens lengths at most by the longest stretch.
-        limit = _TIE * (best + R) * stretch
+        limit = _within(best, more, R) * stretch
         hit = square_to_box(boxes, node, x) <= limit * limit
         for k in range(triangles.shape[1] if hit and node >= n_leaves else 0):
             triangle = triangles[node - n_leaves, k]
             if triangle >= 0:
-                distance = _mapped_distance(flow, triangle, x, F, inverse_F, _TIE * (best + R))
+                distance = _mapped_distance(flow, triangle, x, F, inverse_F, R, mode, _within(best, more, R))
                 if distance - R < best or (distance - R == best and triangle < nearest):
                     best, nearest = distance - R, triangle
         node = next_node(node, n_leaves, hit)
@@ -117,9 +127,19 @@ def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float)
 
 
 def _mapped_distance(
-    flow: MeshArrays, triangle: int, x: Vector, F: Tensor, inverse_F: Tensor, limit: float
+    flow: MeshArrays,
+    triangle: int,
+    x: Vector,
+    F: Tensor,
+    inverse_F: Tensor,
+    R: float,
+    mode: Any,
+    limit: float,
 ) -> float:
-    """Return the distance of the mapped triangle from the origin, m; infinite if its plane is too far."""
+    """Return the distance of the mapped triangle from the origin, less the swelling of the ball, m.
+
+    It is infinite if the triangle is not nearer than ``limit``.
+    """
     nodes = flow.nodes
     a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
     n, ra = inward(flow, triangle), arm(nodes, a, x)
@@ -129,7 +149,18 @@ def _mapped_distance(
         return np.inf
     rb, rc = arm(nodes, b, x), arm(nodes, c, x)
     p = nearest_point(dot_vector(inverse_F, ra), dot_vector(inverse_F, rb), dot_vector(inverse_F, rc))
-    return float(norm(p))
+    distance = norm(p)
+    if distance >= limit:
+        return np.inf
+    return float(distance - R * swelling(mode, inverse_F, scale_vector(1.0 / (distance + 1e-300), p)))
+
+
+def _within(best: float, more: float, R: float) -> float:
+    """Return the distance of mapped triangles that may be nearer than ``best`` + R by a swelling ``more``.
+
+    It is at most that of a body without swelling, up to which walls are listed.
+    """
+    return _TIE * (min(best + more, NEAR * R) + R)
 
 
 class Walls(NamedTuple):

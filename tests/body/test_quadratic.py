@@ -16,6 +16,7 @@ from foamprb.body.quadratic import (
     drift_by_shift,
     drift_of_drop,
     drift_of_solid,
+    largest_swelling,
     layers,
     outline_parts,
     parts,
@@ -26,9 +27,11 @@ from foamprb.body.quadratic import (
     shift,
     source,
     square,
+    swelling,
     tube_amplitude,
     tube_deformation,
     tube_velocity,
+    turn_of,
     turned,
     weights,
 )
@@ -394,3 +397,46 @@ def test_deformation_in_a_cytometer(d, modulus, deformation):
 
 def test_time_of_a_cell_in_a_cytometer():
     assert 1.0 / relaxation_of_solid(0.015, 2500.0 / 3.0, 0.0, 0.0) == pytest.approx(21.4e-6, rel=2e-3)
+
+
+# --- Contact ------------------------------------------------------------------------------------------------
+
+
+def farthest(F, B, n):
+    """Return the largest n·(F X + B YY) over the unit sphere, by a search that halves its grid 30 times."""
+    U, _, V = np.linalg.svd(F)
+    points, size = np.random.default_rng(0).standard_normal((4000, 3)), 0.1
+    best = None
+    for _ in range(30):
+        X = points / np.linalg.norm(points, axis=1, keepdims=True)
+        Y = X @ (U @ V).T
+        heights = X @ F.T @ n + np.einsum("ijk,vj,vk,i->v", full(B), Y, Y, n)
+        best, height = X[heights.argmax()], heights.max()
+        points = best + size * np.random.default_rng(1).uniform(-1.0, 1.0, (400, 3))
+        size *= 0.5
+    return height
+
+
+@pytest.mark.parametrize("eps", [0.05, 0.1, 0.2])
+def test_the_surface_reaches_as_far_as_a_fine_search_says(eps, random):
+    """The swelling is that of the support function to second order: the error is one of the third."""
+    worst = 0.0
+    for seed in range(20):
+        F = rotation_of_frame(random) @ np.diag([1.3, 0.95, 0.81]) @ rotation_of_frame(random)
+        B = random_third(seed)
+        B = tuple(eps / bullet_amplitude(B) * b for b in B)
+        n = random.standard_normal(3)
+        n /= np.linalg.norm(n)
+        flat_F, inverse_F = tuple(F.ravel()), tuple(np.linalg.inv(F).ravel())
+        p = F.T @ n
+        length = np.linalg.norm(p)
+        mode = (B, turn_of(flat_F))
+        swollen = swelling(mode, inverse_F, tuple(p / length))
+        assert abs(swollen) <= largest_swelling(mode, inverse_F)
+        worst = max(worst, abs(length * (1.0 + swollen) - farthest(F, B, n)))
+    assert worst < 4.0 * eps**3
+
+
+def rotation_of_frame(random):
+    Q = np.linalg.qr(random.standard_normal((3, 3)))[0]
+    return Q * np.sign(np.linalg.det(Q))

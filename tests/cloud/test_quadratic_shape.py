@@ -7,13 +7,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from foamprb.body.quadratic import bullet_amplitude, turned
+from foamprb.body.quadratic import bullet_amplitude, layers, turned
 from foamprb.cloud.block import ROWS, Medium, at, idle_lanes, load3, new_block, store3
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.measures import context, measure
-from foamprb.cloud.patches import Escape
-from foamprb.cloud.state import drops, set_rest_shape, spheres
+from foamprb.cloud.patches import Escape, Stick
+from foamprb.cloud.state import Status, drops, set_rest_shape, spheres
 from foamprb.cloud.surroundings import quadratic
 from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
@@ -108,6 +108,41 @@ def _waves(x, y, z):
         v * 0.3 * np.sin(k * y) * np.sin(k * x),
         0.1 * v * np.sin(k * y),
     )
+
+
+# --- Contact ------------------------------------------------------------------------------------------------
+
+
+def sinking(steps, stride=1):
+    """Return a body that sinks onto the lower wall of a slit, with a mode as large as its strain."""
+    models = Models(integrator="stokes", shape="quadratic", stride=stride)
+    p = spheres([(0.0, 0.0, 1.3 * R)], d=2.0 * R, rho=3000.0, mu=SOFT, poissons_ratio=0.4999)
+    medium = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
+    cloud = Cloud(p, analytic.slit(4.0 * R, 3e-3), medium, [Stick()] * 2, 1e-4, models)
+    for n in steps:
+        cloud.advance(n)
+    return p
+
+
+def test_the_surface_of_the_mode_meets_a_wall():
+    p = sinking([400])
+    assert p.status[0] == Status.STUCK
+    X = np.random.default_rng(0).standard_normal((200_000, 3))
+    X /= np.linalg.norm(X, axis=1, keepdims=True)
+    F = p.F[0].reshape(3, 3)
+    U, _, V = np.linalg.svd(F)
+    Y = X @ (U @ V).T
+    whole = np.array(layers(tuple(p.B[0]))).reshape(3, 3, 3)
+    lowest = p.x[0, 2] / R + (X @ F[2] + np.einsum("jk,vj,vk->v", whole[2], Y, Y)).min()
+    ellipsoid = p.x[0, 2] / R - np.linalg.norm(F[2])
+    assert abs(lowest) < 2e-3
+    assert abs(ellipsoid) > 0.015
+
+
+def test_contact_does_not_depend_on_calls():
+    one, many = sinking([400]), sinking([1] * 400)
+    assert one.x.tobytes() == many.x.tobytes()
+    assert one.t == many.t
 
 
 # --- Drift --------------------------------------------------------------------------------------------------

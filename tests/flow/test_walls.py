@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from foamprb.body.quadratic import bullet_amplitude, largest_swelling, swelling, turn_of
 from foamprb.flow.base import NEAR
 from foamprb.flow.mesh.arrays import no_mesh
 from foamprb.flow.walk import nearest_point
@@ -84,6 +85,38 @@ def test_the_gap_is_the_distance_from_the_ball_before_it_was_deformed(random):
             assert found == (np.inf, -1, -1)
     assert 10 < near < 60
     assert gap(arrays._replace(near_start=np.array([0, 0])), 0, tuple(x), flat, R) == (np.inf, -1, -1)
+
+
+def test_the_ball_of_a_quadratic_mode_is_swollen_towards_each_triangle(random, monkeypatch):
+    """A list and a tree find the smallest gap; the triangle need not be the nearest to the ball."""
+    monkeypatch.setattr("foamprb.flow.walls.swelling", swelling)
+    monkeypatch.setattr("foamprb.flow.walls.largest_swelling", largest_swelling)
+    corners, normals, arrays = soup(random)
+    tree = wall_tree(corners, normals)
+    arrays = arrays._replace(wall_boxes=tree.boxes, wall_leaves=tree.leaves)
+    changed = 0
+    for x, F, R in bodies(random, 200):
+        B = random.standard_normal(7)
+        B = tuple(0.3 / bullet_amplitude(tuple(B)) * B)
+        flat, inverse_F = tuple(F.ravel()), tuple(np.linalg.inv(F).ravel())
+        mode = B, turn_of(flat)
+        mapped = (corners - x) @ np.linalg.inv(F).T
+        nearest = np.array([nearest_point(*map(tuple, c)) for c in mapped])
+        away = np.linalg.norm(nearest, axis=1)
+        swollen = [swelling(mode, inverse_F, tuple(p / d)) for p, d in zip(nearest, away, strict=True)]
+        gaps = np.where(away < (1.0 + NEAR) * R, away - R - R * np.array(swollen), np.inf)
+        k = int(gaps.argmin())
+        expected = (gaps[k], k % 5, k) if gaps[k] < NEAR * R else (np.inf, -1, -1)
+        changed += np.isfinite(expected[0]) and k != away.argmin()
+        for seed in (None, 0, max(expected[2], 0)):
+            listing = arrays
+            if seed is not None:
+                listing = arrays._replace(near=np.array([-1 - seed]), near_start=np.array([0, 1]))
+            assert gap(listing, 0, tuple(x), flat, R, mode) == (
+                pytest.approx(expected[0], abs=1e-12),
+                *expected[1:],
+            )
+    assert changed > 2
 
 
 def test_a_tree_of_walls_finds_what_a_list_of_all_finds(random):

@@ -23,6 +23,7 @@ from foamprb.body.quadratic import (
     drift_by_shift,
     drift_of_drop,
     drift_of_solid,
+    largest_swelling,
     parts,
     relaxation_of_drop,
     relaxation_of_shift,
@@ -31,6 +32,8 @@ from foamprb.body.quadratic import (
     shift,
     source,
     square,
+    swelling,
+    turn_of,
     turned,
     weights,
 )
@@ -53,6 +56,8 @@ from foamprb.body.tensor import (
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3, store9, viscosity_at
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.motion import clearance_of
+from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits, add3
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import curvature_linear as curvature
@@ -170,8 +175,10 @@ def advance_shift(block: Any, i: int, pull: Vector, rate: float, spin: Vector, s
     store3(block, mode.shift_drift, i, drift_by_shift(spin, q, change))
 
 
-def close_update(block: Any, i: int, spin: Vector) -> None:
-    """Store that the mode of lane i is that of its time."""
+def close_update(flow: Any, s: Scratch, i: int, spin: Vector) -> None:
+    """Store that the mode of lane i is that of its time, and the gap of its surface from the walls."""
+    block = s.block
+    block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
     store3(block, mode.fluid_spin, i, spin)
     block[mode.sampled * LANES + i], block[mode.reached * LANES + i] = 1.0, block[at.t * LANES + i]
 
@@ -193,7 +200,7 @@ def update_solid(
     advance_mode(block, i, combine(c, S, 0.0, S), relaxation_of_solid(mu_f, mu_s, eta, tension), spin, step)
     rate = relaxation_of_shift(mu_f, mu_s, eta)
     advance_shift(block, i, scale_vector(rate, shift(a, mu_f, mu_s, v)), rate, spin, step)
-    close_update(block, i, spin)
+    close_update(flow, s, i, spin)
 
 
 def update_drop(
@@ -209,7 +216,7 @@ def update_drop(
     # The modulus of a drop is its tension over the radius.
     rate = relaxation_of_drop(mu_f, ratio, block[at.mu * LANES + i])
     advance_mode(block, i, combine(c, S, 0.0, S), rate, spin, ahead(block, i, remaining))
-    close_update(block, i, spin)
+    close_update(flow, s, i, spin)
     store7(block, second.S, i, S)
     store9(block, second.T, i, T)
     store3(block, second.laplacian, i, v)
@@ -250,6 +257,17 @@ def stays_resolved(flow: Any, s: Scratch, i: int, medium: Medium, _coefficients:
     return float(min(1.0, allowed / (change + 1e-300)))
 
 
+def mode_of_lane(block: Any, i: int, F: Tensor) -> tuple[Third, Tensor]:
+    """Return B of lane i and the rotation of F, for contact."""
+    return load7(block, mode.B, i), turn_of(F)
+
+
+def mode_of_row(p: Particles, k: int, F: Tensor) -> tuple[Third, Tensor]:
+    """Return B of particle k and the rotation of F, for contact."""
+    b = p.B
+    return (b[k, 0], b[k, 1], b[k, 2], b[k, 3], b[k, 4], b[k, 5], b[k, 6]), turn_of(F)
+
+
 def turn_mode(block: Any, i: int, turn: Tensor) -> None:
     """Turn or mirror the mode of lane i, and the flow where it was computed last."""
     store7(block, mode.B, i, turned(load7(block, mode.B, i), turn))
@@ -277,8 +295,15 @@ class QuadraticSolid(Surrounding):
     disturb: ClassVar = staticmethod(carry_solid)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
-        """Return the function by which mirrors turn the mode, and that it is advanced to the end of calls."""
-        return {"turn_along": turn_mode, "updates_end": 1}
+        """Return how mirrors turn the mode, and contact; and that it is advanced to the end of calls."""
+        return {
+            "turn_along": turn_mode,
+            "updates_end": 1,
+            "mode_in": mode_of_lane,
+            "mode_of": mode_of_row,
+            "swelling": swelling,
+            "largest_swelling": largest_swelling,
+        }
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse ``paper``, which has no update at the end of a call."""
