@@ -185,7 +185,11 @@ class CloudFunctions:
         for name, memory in self._memory.items():
             kinds = self.functions[name].arrays
             tables = [key for key in memory if kinds[key] is not per_particle]
-            memory.update({key: read(f"{name}/{key}") for key in tables})
+            for key in tables:
+                array, initial = read(f"{name}/{key}"), memory[key]
+                if array.dtype != initial.dtype or array.shape[1:] != initial.shape[1:]:
+                    raise InputError(f"cloudFunctions: {name}/{key} of the checkpoint has another type.")
+                memory[key] = array
 
 
 def _with_fates(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -62,6 +61,8 @@ class Reader(NamedTuple):
     text: str
 
 
+SMALLEST, LARGEST = 1e-100, 1e100
+"""Sizes of numbers whose squares and products can be computed."""
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 _INTEGER = re.compile(r"[-+]?\d{1,18}", re.ASCII)
 _DIMENSIONED = re.compile(
@@ -71,8 +72,12 @@ _SWITCHES = {"yes": True, "on": True, "true": True, "no": False, "off": False, "
 
 
 def _number(text: str) -> float | None:
-    number = float(text) if _NUMBER.fullmatch(text) else math.nan
-    return number if math.isfinite(number) else None
+    if not _NUMBER.fullmatch(text):
+        return None
+    number = float(text)
+    if number and not SMALLEST <= abs(number) <= LARGEST:
+        raise ValueError("whose size is not from 1e-100 to 1e100")
+    return number
 
 
 def _dimensioned(expected: Dimensions) -> Callable[[Stream], float | None]:

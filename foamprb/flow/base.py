@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from typing import Any, NamedTuple, Protocol, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Vector
+from foamprb.dictionary.patterns import matches
 from foamprb.flow.nodes import Ends, Function, NodeValues
 from foamprb.flow.patches import PatchKind, kind_of_type
 
@@ -44,14 +43,13 @@ class Patch(NamedTuple):
 
 def patches_named(patches: Sequence[Patch], word: str) -> list[int]:
     """Return the indices of the patches of a name, or else of a group, or whose names a pattern matches."""
-    for matches in (
+    for is_named in (
         lambda patch: patch.name == word,
         lambda patch: word in patch.groups,
-        lambda patch: re.fullmatch(word, patch.name) is not None,
+        lambda patch: matches(word, patch.name),
     ):
-        with suppress(re.error):
-            if found := [k for k, patch in enumerate(patches) if matches(patch)]:
-                return found
+        if numbers := [k for k, patch in enumerate(patches) if is_named(patch)]:
+            return numbers
     return []
 
 

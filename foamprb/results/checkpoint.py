@@ -23,7 +23,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
 import orjson
@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import atomic_write
+from foamprb.results.reading import checked, open_regular
 
 log = logging.getLogger("foamprb")
 
@@ -104,8 +105,8 @@ class Checkpoints:
         Parameters
         ----------
         fits
-            Returns whether the run can continue from a checkpoint. If it can from none, the latest
-            undamaged one is returned.
+            Returns whether the run can continue from a checkpoint, or raises DamagedError. If it can from
+            none, the latest undamaged one is returned.
 
         Returns
         -------
@@ -120,10 +121,11 @@ class Checkpoints:
         for time, file in sorted(files.items(), reverse=True):
             try:
                 checkpoint = StoredCheckpoint(file, verify=True)
+                is_usable = fits(checkpoint)
             except DamagedError as error:
                 log.warning("%s is damaged: %s. The checkpoint before it is used.", file, error)
                 continue
-            if fits(checkpoint):
+            if is_usable:
                 self.truncate(after=time)
                 return checkpoint
             intact = intact or checkpoint
@@ -324,9 +326,32 @@ class StoredCheckpoint:
         return Checkpoint(self.time, self.header, {name: self.read(name) for name in self.layout})
 
 
+class _PartHeader(TypedDict):
+    """Entries of the header of each file."""
+
+    time: float
+    arrays: list[str]
+    rows: dict[str, int]
+
+
+class _Header(_PartHeader, total=False):
+    """Entries of the header of a checkpoint."""
+
+    parts: list[tuple[int, str]]
+
+
 def _open(path: Path, verify: bool) -> tuple[_File, str]:
     """Read the header of one file; return also its checksum. See :class:`StoredCheckpoint`."""
-    with path.open("rb") as file:
+    try:
+        return _opened(path, verify)
+    except (DamagedError, InputError, FileNotFoundError, MemoryError):
+        raise
+    except Exception as error:
+        raise DamagedError(str(error) if isinstance(error, OSError | ValueError) else repr(error)) from error
+
+
+def _opened(path: Path, verify: bool) -> tuple[_File, str]:
+    with open_regular(path) as file:
         first = file.readline(_LONGEST_FIRST)
         version = first.removeprefix(_FORMAT).strip().decode(errors="replace")
         checksum = file.read(_SUM_BYTES)
@@ -343,16 +368,19 @@ def _open(path: Path, verify: bool) -> tuple[_File, str]:
                 f"{path}: a checkpoint of format {version}; this version of foamprb reads format {VERSION}."
             )
         file.seek(len(first) + _SUM_BYTES)
-        file.seek(int.from_bytes(file.read(_PLACE_BYTES), "little"))
-        header = json.loads(file.read())
+        place = file.seek(int.from_bytes(file.read(_PLACE_BYTES), "little"))
+        header = dict[str, Any](checked(json.loads(file.read()), _Header, "its header"))
         file.seek(len(first) + _SUM_BYTES + _PLACE_BYTES)
         rows, places = header.pop("rows"), {}
         for name in header.pop("arrays"):
             np.lib.format.read_magic(file)
             stored, _, dtype = np.lib.format.read_array_header_1_0(file)
             shape = (rows[name], *stored[1:]) if name in rows else stored
+            if dtype.hasobject or min(shape, default=0) < 0:
+                raise ValueError(f"the array {name} has the type {dtype} and the shape {shape}")
             places[name] = _Place(file.tell(), shape, dtype, name in rows)
-            file.seek(math.prod(stored) * dtype.itemsize, os.SEEK_CUR)
+            if file.seek(math.prod(stored) * dtype.itemsize, os.SEEK_CUR) > place:
+                raise ValueError(f"the array {name} is cut short")
     return _File(path, header.pop("time"), header, places), checksum.hex()
 
 

@@ -20,7 +20,6 @@ __all__ = [
     "FAILURES",
     "FATES",
     "MANIFEST",
-    "RECORD_FORMAT",
     "ResultsFolder",
     "fault_of_function",
     "fault_of_word",
@@ -31,8 +30,6 @@ DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES = "fates", "failed"
 """Tables of a run: a row per particle, and a row per failed particle."""
 MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
-RECORD_FORMAT = 2
-"""Version of the entries of the record."""
 _ROOT = "postProcessing"
 _MOST_BYTES = 200
 """Longest name: file systems allow 255, and suffixes and temporary names need some."""

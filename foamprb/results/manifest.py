@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Literal, TypedDict
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import replace_end, write_text
 from foamprb.results.folder import MANIFEST
+from foamprb.results.reading import checked, read_bytes, reading
 
-FORMAT = 1
 _NEXT, _END = "\n ,", "\n ]\n}\n"
 """Text between two names, and after the last name."""
 
@@ -54,12 +55,11 @@ class Manifest:
             If the manifest is damaged or has another format.
         """
         manifest = cls(folder)
-        if manifest.path.exists():
-            try:
-                manifest.files = {folder / name for name in _names(_content(manifest.path.read_bytes()))}
+        if manifest.path.exists() or manifest.path.is_symlink():
+            with reading(manifest.path):
+                names = _content(read_bytes(manifest.path))["files"]
+                manifest.files = {folder / name for name in names if _is_inside(name)}
                 _refuse_links(folder, manifest.files)
-            except (OSError, TypeError, ValueError, RecursionError) as error:
-                raise InputError(f"{manifest.path} is damaged: {error}") from error
         return manifest
 
     def expect(self, files: Iterable[Path]) -> None:
@@ -107,7 +107,7 @@ class Manifest:
         self._write({file for file in Manifest.read(self.folder).files if file.exists()} | {*files})
 
     def _write(self, files: Iterable[Path]) -> None:
-        write_text(self.path, f'{{\n "format": {FORMAT},\n "files": [\n  {self._lines(files)}{_END}')
+        write_text(self.path, f'{{\n "format": 1,\n "files": [\n  {self._lines(files)}{_END}')
 
     def _lines(self, files: Iterable[Path]) -> str:
         return _NEXT.join(map(json.dumps, sorted(file.relative_to(self.folder).as_posix() for file in files)))
@@ -128,12 +128,29 @@ class Manifest:
                     (self.folder / parent).rmdir()
 
 
-def _content(data: bytes) -> Any:
+class _List(TypedDict):
+    """Contents of a manifest."""
+
+    format: Literal[1]
+    files: list[str]
+
+
+def _content(data: bytes) -> _List:
     """Return the contents of a manifest; without the last lines if they were not written completely."""
     try:
-        return json.loads(data)
+        content = json.loads(data)
     except ValueError:
-        return json.loads(data.rpartition(_NEXT.encode())[0] + _END.encode())
+        content = json.loads(data.rpartition(_NEXT.encode())[0] + _END.encode())
+    return checked(content, _List)
+
+
+def _is_inside(name: str) -> bool:
+    """Return True; raise ValueError if a name cannot be that of a file in the folder."""
+    path = PurePosixPath(name)
+    if path.is_absolute() or ".." in path.parts or not path.parts or "\0" in name:
+        raise ValueError(f"it names '{name}', which is not in its folder")
+    os.fsencode(name)
+    return True
 
 
 def _refuse_links(folder: Path, files: Iterable[Path]) -> None:
@@ -142,17 +159,3 @@ def _refuse_links(folder: Path, files: Iterable[Path]) -> None:
     for parent in {path for path in folders for path in (path, *path.parents) if path.parts}:
         if (folder / parent).is_symlink():
             raise ValueError(f"the folder '{parent}' is a link.")
-
-
-def _names(content: Any) -> list[str]:
-    """Return the names in a manifest; raise ValueError if it was changed."""
-    if not isinstance(content, dict) or not isinstance(content.get("files"), list):
-        raise ValueError("it is not a list of files.")
-    if content.get("format") != FORMAT:
-        raise ValueError(f"its format is {content.get('format')}, not {FORMAT}.")
-    names: list[str] = content["files"]
-    for name in names:
-        path = PurePosixPath(name)
-        if path.is_absolute() or ".." in path.parts or not path.parts:
-            raise ValueError(f"it names '{name}', which is not in its folder.")
-    return names

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from functools import cache
@@ -10,9 +11,9 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
-from foamprb.errors import InputError
 from foamprb.results.atomic import write_text
 from foamprb.results.folder import ResultsFolder
+from foamprb.results.reading import read_bytes, reading
 from foamprb.results.vtk import Parts, PointCloud, write_snapshot
 
 
@@ -20,8 +21,13 @@ def files_of(path: Path) -> tuple[Path, ...]:
     """Return the file of a snapshot and the files of its pieces, whether they exist or not."""
     if path.suffix != ".pvtp" or not path.exists():
         return (path,)
-    root = ElementTree.fromstring(path.read_bytes())
-    return (path, *(path.parent / piece.attrib["Source"] for piece in root.iter("Piece")))
+    with reading(path):
+        pieces = ElementTree.fromstring(read_bytes(path)).iter("Piece")
+        files = [Path(piece.attrib["Source"]) for piece in pieces]
+        for file in files:
+            if file.is_absolute() or ".." in file.parts or file.suffix != ".vtp":
+                raise ValueError(f"it names the piece '{file}', which is not a .vtp file in its folder")
+        return (path, *(path.parent / file for file in files))
 
 
 class SnapshotFile(NamedTuple):
@@ -136,14 +142,12 @@ def read_pvd(path: Path) -> tuple[SnapshotFile, ...]:
     InputError
         If the file cannot be read, is not such a list, or names a file outside its own folder.
     """
-    try:
-        root = ElementTree.fromstring(path.read_bytes())
+    with reading(path, "is no list of VTK files"):
+        root = ElementTree.fromstring(read_bytes(path))
         entries = [SnapshotFile(float(e.attrib["timestep"]), e.attrib["file"]) for e in root.iter("DataSet")]
-    except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
-        raise InputError(f"{path}: not a readable list of VTK files ({error}).") from error
-    for entry in entries:
-        if Path(entry.file).name != entry.file or not entry.file.endswith((".vtp", ".pvtp")):
-            raise InputError(
-                f"{path}: names '{entry.file}', which is not a .vtp or .pvtp file in its own folder."
-            )
+        for time, file in entries:
+            if Path(file).name != file or not file.endswith((".vtp", ".pvtp")) or "\0" in file:
+                raise ValueError(f"it names '{file}', which is not a .vtp or .pvtp file in its own folder")
+            if not math.isfinite(time):
+                raise ValueError(f"the time of {file} is {time}")
     return tuple(sorted(entries))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from io import TextIOWrapper
 from itertools import groupby, islice
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,8 +14,8 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
-from foamprb.errors import InputError
 from foamprb.results.atomic import atomic_write
+from foamprb.results.reading import open_regular, reading
 
 Column = Sequence[object] | NDArray[Any]
 
@@ -133,22 +134,17 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
     InputError
         If the file is missing or is no table.
     """
-    columns: list[list[NDArray[Any]]] = []
-    try:
-        with path.open(encoding="utf-8", newline="") as file:
-            reader = csv.reader(file)
-            names = next(reader, [])
-            columns = [[] for _ in names]
-            while rows := list(islice(reader, _CHUNK)):
-                if any(len(row) != len(names) for row in rows):
-                    names = []
-                    break
-                for name, parts, cells in zip(names, columns, zip(*rows, strict=True), strict=True):
-                    parts.append(_typed(cells, name in words))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{path}: not a readable table ({error}).") from error
-    if not names:
-        raise InputError(f"{path}: not a table: its lines have different numbers of columns.")
+    with reading(path, "is no table"), open_regular(path) as file:
+        reader = csv.reader(TextIOWrapper(file, encoding="utf-8", newline=""))
+        names = next(reader, [])
+        columns: list[list[NDArray[Any]]] = [[] for _ in names]
+        while rows := list(islice(reader, _CHUNK)):
+            if any(len(row) != len(names) for row in rows):
+                raise ValueError("its lines have different numbers of columns")
+            for name, parts, cells in zip(names, columns, zip(*rows, strict=True), strict=True):
+                parts.append(_typed(cells, name in words))
+        if not names or len({*names}) < len(names):
+            raise ValueError("its first line is not one of different names of columns")
     kinds = [{part.dtype.kind for part in parts} for parts in columns]
     mixed = {name for name, letters in zip(names, kinds, strict=True) if "U" in letters and len(letters) > 1}
     if mixed:

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import BinaryIO
 from xml.etree import ElementTree
 
+from foamprb.results.reading import open_regular
+
 __all__ = ["is_compressed", "require_sizes"]
 
 _HEAD, _DATA = b'compressor="vtkLZ4DataCompressor"', b'<AppendedData encoding="raw">'
@@ -18,7 +20,7 @@ _CELLS = ("Verts", "Lines", "Strips", "Polys")
 
 def is_compressed(path: Path) -> bool:
     """Return whether a file has the form in which foamprb writes VTK's files."""
-    with path.open("rb") as file:
+    with open_regular(path) as file:
         return _HEAD in file.read(300)
 
 
@@ -36,10 +38,7 @@ def require_sizes(path: Path) -> None:
         first = head.find(b"_", start + len(_DATA)) + 1
         if start < 0 or first == 0:
             raise ValueError("it has no data")
-        try:
-            root = ElementTree.fromstring(head[:start] + b"</VTKFile>")
-        except ElementTree.ParseError as error:
-            raise ValueError(f"its header cannot be read: {error}") from error
+        root = ElementTree.fromstring(head[:start] + b"</VTKFile>")
         order = {"LittleEndian": "<", "BigEndian": ">"}.get(root.get("byte_order", ""))
         word = {"UInt32": "I", "UInt64": "Q"}.get(root.get("header_type", ""))
         pieces = root.findall("PolyData/Piece")

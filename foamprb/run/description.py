@@ -25,7 +25,7 @@ from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.jumps import medians
 from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
-from foamprb.results.folder import RECORD_FORMAT
+from foamprb.results.record import RECORD_FORMAT
 from foamprb.run.checks import dimensionless_groups, extension_rates, validity_warnings
 from foamprb.settings.settings import Settings
 

@@ -15,8 +15,7 @@ from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, TypeAlias
-from xml.etree import ElementTree
+from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,12 +32,14 @@ from foamprb.results.checkpoint import (
     PARTICLES,
     Checkpoint,
     Checkpoints,
+    DamagedError,
     StoredCheckpoint,
 )
 from foamprb.results.folder import FATES, ResultsFolder
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd, with_ending
+from foamprb.results.reading import checked
 from foamprb.settings.settings import Settings
-from foamprb.settings.solution import StartFrom
+from foamprb.settings.solution import MOST_STEPS, StartFrom
 
 log = logging.getLogger("foamprb")
 
@@ -51,6 +52,34 @@ _PARTICLES, _LIBS = "particles at the start", "libs/"
 _MOST_NAMED = 6
 _RELATIVE, _OF_LARGEST = 1e-9, 1e-13
 _CHUNK = 1 << 18
+
+
+class _Header(TypedDict):
+    """Header of a checkpoint of a run."""
+
+    step: int
+    recovered: int
+    reach: float
+    stretch: int
+    series: list[tuple[float, str]]
+    fingerprint: dict[str, str | Sums]
+    times: list[float]
+
+
+class _HeaderInTime(_Header, total=False):
+    """Header of a checkpoint in a transient flow."""
+
+    around: list[Sums]
+
+
+def require_header(checkpoint: StoredCheckpoint) -> None:
+    """Raise DamagedError if a checkpoint has not the header of a run."""
+    try:
+        step = checked(checkpoint.header, _HeaderInTime, "its header")["step"]
+        if not 0 <= step < MOST_STEPS:
+            raise ValueError(f"its step is {step}")
+    except ValueError as error:
+        raise DamagedError(str(error)) from error
 
 
 def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
@@ -194,7 +223,7 @@ def refuse_other_times(checkpoint: StoredCheckpoint, flow: Flow, where: str) -> 
     """
     then = checkpoint.header.get("times")
     change = flow.change_until(checkpoint.time, then) if then and isinstance(flow, Timeline) else ""
-    before = checkpoint.header.get("around", [])
+    before: list[Sums] = checkpoint.header.get("around", [])
     now = sums_around(flow, checkpoint.time) if before and not change else before
     if not all(map(_agree, before, now)):
         change = f"the flow around t = {checkpoint.time:.12g} s has changed"
@@ -282,10 +311,7 @@ def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tupl
     else:
         entries = tuple(entry for entry in listed if entry.time <= checkpoint.time)
     fault = f"{pvd.name} lists other times" if _stems(entries) != expected else ""
-    try:
-        files = [file for entry in entries for file in files_of(pvd.parent / entry.file)]
-    except ElementTree.ParseError as error:
-        fault, files = f"a .pvtp file is damaged: {error}", []
+    files = [file for entry in entries for file in files_of(pvd.parent / entry.file)]
     missing = [file.relative_to(pvd.parent) for file in files if not file.exists()]
     fault = f"{missing[0]} is missing" if missing else fault
     if fault:

@@ -49,6 +49,7 @@ from foamprb.run.restart import (
     refuse_changes,
     refuse_other_times,
     require_choice,
+    require_header,
     restore,
     snapshots_until,
     sums_around,
@@ -320,6 +321,7 @@ class Results:
 
     def _is_at_step(self, checkpoint: StoredCheckpoint) -> bool:
         """Return whether a step of this run ends at a checkpoint; the last step of an earlier run may."""
+        require_header(checkpoint)
         cloud = self._job.cloud
         return abs(cloud.time_of(checkpoint.header["step"]) - checkpoint.time) <= _ROUND_OFF * cloud.dt
 

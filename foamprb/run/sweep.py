@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import logging
 import math
 import os
@@ -19,6 +18,8 @@ from foamprb.errors import InputError, RunStopped, suggestion
 from foamprb.flow.base import Flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.folder import ResultsFolder
+from foamprb.results.reading import read_bytes, reading
+from foamprb.results.record import read_record
 from foamprb.run.job import Job, prepare, time_of_fluid
 from foamprb.run.loop import execute_until_signal
 from foamprb.settings.settings import read_settings
@@ -31,7 +32,7 @@ log = logging.getLogger("foamprb")
 _KEYS = ("case", "dict", "time", "region", "entries")
 _RANGE = ("from", "to", "number", "spacing")
 _SPACINGS = ("linear", "log")
-_MOST_RUNS = 100_000
+_MOST_RUNS, _MOST_BYTES = 100_000, 16 << 20
 
 
 @dataclass(frozen=True)
@@ -99,12 +100,12 @@ def read_study(path: Path) -> Study:
     InputError
         If the file cannot be read, or is not a study.
     """
-    try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror or error}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: {error}") from error
+    with reading(path, "is no study"):
+        return _study(path, tomllib.loads(read_bytes(path, _MOST_BYTES).decode()))
+
+
+def _study(path: Path, document: dict[str, Any]) -> Study:
+    """Return the study of a document; see :func:`read_study`."""
     for key in document:
         if key not in _KEYS:
             raise InputError(f"{path}: {key} is not known. {suggestion(key, _KEYS)}")
@@ -256,10 +257,11 @@ def require_entries(study: Study, outside_libs: bool = False) -> None:
 def _require_same(folder: ResultsFolder, job: Job) -> None:
     """Refuse to continue a run whose entries had other values."""
     try:
-        before = json.loads(folder.record.read_text(encoding="utf-8"))["settings"]["overrides"]
-    except (OSError, ValueError, LookupError, TypeError):
+        before = read_record(folder.record).get("settings", {}).get("overrides")
+    except InputError:
+        # It is written again.
         return
-    if before != job.settings.overrides:
+    if before is not None and before != job.settings.overrides:
         raise InputError(
             f"{folder.path}: a run with other values of the entries is here ({before}). "
             "-overwrite replaces it; or give the study another name."

@@ -16,6 +16,7 @@ from typing import Annotated, Literal, TypeAlias
 from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound, Stick
 from foamprb.dictionary.constraints import Bounds, Choice, Meaning
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
+from foamprb.dictionary.patterns import matches
 from foamprb.dictionary.schema import read_entries, read_entry, read_model
 from foamprb.dictionary.tree import Dictionary, DictionaryList, unquoted
 from foamprb.errors import InputError, suggestion
@@ -53,7 +54,7 @@ class PatchRule:
 
     def matches(self, word: str) -> bool:
         """Return whether the whole ``word`` equals or matches the pattern."""
-        return re.fullmatch(self.pattern, word) is not None if self.regex else self.pattern == word
+        return matches(self.pattern, word) if self.regex else self.pattern == word
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import logging
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -10,7 +9,6 @@ from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +22,8 @@ from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.optional import load
 from foamprb.results.folder import FATES, HOW, ResultsFolder
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
+from foamprb.results.reading import reading
+from foamprb.results.record import Record, read_record
 from foamprb.results.shapes import DERIVED, SOURCES, derived
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
@@ -104,18 +104,9 @@ class Run:
         return np.array([entry.time for entry in self.entries])
 
     @cached_property
-    def record(self) -> dict[str, Any]:
+    def record(self) -> Record:
         """Contents of ``run.json``: settings, versions, mesh, warnings. Empty without that file."""
-        file = self.results.record
-        if not file.exists():
-            return {}
-        try:
-            record = json.loads(file.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
-            raise InputError(f"{file} is damaged: {error}") from error
-        if not isinstance(record, dict):
-            raise InputError(f"{file} is damaged: it is not the record of a run.")
-        return record
+        return read_record(self.results.record)
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -171,11 +162,8 @@ class Run:
         if not self.has_fates:
             return None
         table = self.table("fates")
-        try:
+        with reading(self.file("fates"), "is not the table that foamprb run writes"):
             return table | {name: table[name].astype(kind) for name, kind in _OF_FATES.items()}
-        except (KeyError, ValueError) as error:
-            file = self.file("fates")
-            raise InputError(f"{file}: not the table that foamprb run writes ({error}).") from error
 
     def nearest(self, time: float) -> int:
         """Return the index of the written time that is nearest to ``time``, s."""
@@ -382,15 +370,13 @@ def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
 
 def _require_sound(path: Path) -> None:
     """Refuse a file on which VTK could crash."""
-    try:
+    with reading(path, remedy=_AGAIN):
         for file in files_of(path):
-            if file.suffix == ".vtp" and is_compressed(file):
+            if is_compressed(file) and file.suffix == ".vtp":
                 require_sizes(file)
             else:
                 # Of a cloud in pieces, or written by another program.
                 require_survival(file)
-    except (OSError, ValueError, KeyError, ElementTree.ParseError) as error:
-        raise InputError(f"{path}: damaged ({error}). {_AGAIN}") from error
 
 
 def _points(data: Any) -> NDArray[np.float64]:

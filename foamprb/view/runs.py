@@ -51,8 +51,8 @@ class Runs(Mapping[str, Run]):
         """Entries of the settings that were replaced in each run, by path, as texts without semicolons."""
         return {
             name: {
-                path: _plain(str(text).strip().removesuffix(";"))
-                for path, text in dict(run.record.get("settings", {}).get("overrides", {})).items()
+                path: _plain(text.strip().removesuffix(";"))
+                for path, text in run.record.get("settings", {}).get("overrides", {}).items()
             }
             for name, run in self.runs.items()
         }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -236,15 +237,9 @@ def _values(bodies: Bodies, name: str, part: str) -> Floats:
     return np.asarray(values[np.isfinite(values)])
 
 
-def main_direction(mean: object) -> Floats:
-    """Return the unit vector of a mean velocity that is relative to the mean speed, or zero.
-
-    The argument comes from ``run.json`` and may be anything.
-    """
-    try:
-        v = np.asarray(mean, dtype=np.float64)
-    except (TypeError, ValueError):
-        return np.zeros(3)
+def main_direction(mean: Sequence[float] | None) -> Floats:
+    """Return the unit vector of a mean velocity that is relative to the mean speed, or zero."""
+    v = np.array(mean or (), dtype=np.float64)
     size = float(np.linalg.norm(v)) if v.shape == (3,) else 0.0
     return v / size if COHERENT <= size < math.inf else np.zeros(3)
 

@@ -23,6 +23,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.flows import read_flow, read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
+from foamprb.results.record import Record
 from foamprb.results.vtk import Tracks
 from foamprb.settings.fluid import read_gravity
 from foamprb.view.bodies import Bodies, fates_of, fields_of_fates, gather, require_array, survey
@@ -290,9 +291,8 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
         record = run.record
     except InputError as error:
         log.warning("The direction of the flow is not shown: %s", error)
-        record = {}
-    flow = record.get("flow")
-    direction = main_direction(flow.get("direction") if isinstance(flow, dict) else None)
+        record = Record()
+    direction = main_direction(record.get("flow", {}).get("direction"))
     return _Background(
         request,
         run,
@@ -307,19 +307,17 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
     )
 
 
-def groups_of(record: dict[str, Any]) -> str:
+def groups_of(record: Record) -> str:
     """Return Ca, the particle Reynolds number and the fluid of a run, as far as its record has them."""
-    parts = []
-    with suppress(AttributeError, TypeError, ValueError):
-        for label, key in (("Ca", "capillary"), ("Re", "reynolds")):
-            values = [float(v) for injection in record.get("injections", ()) for v in injection.get(key, ())]
-            ends = (
-                sorted({_short(value) for value in (min(values), max(values))}, key=float) if values else ()
-            )
-            parts += [f"{label} {' to '.join(ends)}"] if ends else []
-        fluid = record.get("fluid", {})
-        parts += [f"fluid {_short(1e3 * fluid['mu'])} mPa s"] if fluid.get("mu") else []
-        parts += [f"{_short(fluid['rho'])} kg/m³"] if fluid.get("rho") else []
+    parts, models = [], [dict[str, Any](injection) for injection in record.get("injections", ())]
+    for label, key in (("Ca", "capillary"), ("Re", "reynolds")):
+        values = [value for model in models for value in model.get(key, ()) if value is not None]
+        ends = sorted({_short(value) for value in (min(values), max(values))}, key=float) if values else ()
+        parts += [f"{label} {' to '.join(ends)}"] if ends else []
+    fluid = record.get("fluid", {})
+    if isinstance(mu := fluid.get("mu"), int | float):
+        parts.append(f"fluid {_short(1e3 * mu)} mPa s")
+    parts += [f"{_short(fluid['rho'])} kg/m³"] if fluid.get("rho") else []
     return ", ".join(parts)
 
 

@@ -66,7 +66,7 @@ def write_stress(target: Path, run: Run, case: Path, mesh: Mesh, fraction: float
         )
     factor = 1.0 if fraction is None else fraction / mean
     rho = run.record.get("fluid", {}).get("rho")
-    if not isinstance(rho, int | float) or not rho > 0.0:
+    if rho is None or not rho > 0.0:
         raise InputError(f"{run.folder}: run.json has no density of the fluid, fluid/rho.")
     sigma = -factor / rho * stress[:, np.argsort(SYMMETRIC)]
     on_faces = _continued(mesh, sigma)

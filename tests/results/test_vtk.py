@@ -129,7 +129,7 @@ def test_crash_between_cloud_and_list_keeps_the_list(tmp_path: Path, monkeypatch
 @pytest.mark.parametrize("text", ["", "<VTKFile>", '<a><DataSet file="x.vtp"/></a>', "\x00"])
 def test_broken_list_is_one_clear_message(tmp_path: Path, text: str) -> None:
     (tmp_path / "softCloud.pvd").write_text(text)
-    with pytest.raises(InputError, match=r"softCloud.pvd: not a readable list of VTK files \(.*\)\.$"):
+    with pytest.raises(InputError, match=r"softCloud.pvd is no list of VTK files: .*\.$"):
         read_pvd(tmp_path / "softCloud.pvd")
 
 

@@ -62,7 +62,7 @@ def test_names_of_entries_are_as_long_as_they_must_be(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[entries", "study.toml: "),
+        ("[entries", "study.toml is no study: "),
         ("cases = 1", "cases is not known. Did you mean 'case'?"),
         ("case = 1", "case is 1. Allowed: a text in quotes"),
         ("", r"no entries. Needed: \[entries\]"),

@@ -147,8 +147,9 @@ class RosinRammler(_Bounded):
 
     def quantile(self, share: Floats) -> Floats:
         """Return the inverse of the share."""
-        share_below_maximum = -np.expm1(-(((self.maxValue - self.minValue) / self.d) ** self.n))
-        x = self.minValue + self.d * (-np.log1p(-share_below_maximum * share)) ** (1.0 / self.n)
+        with np.errstate(over="ignore", divide="ignore"):
+            share_below_maximum = -np.expm1(-np.float_power((self.maxValue - self.minValue) / self.d, self.n))
+            x = self.minValue + self.d * (-np.log1p(-share_below_maximum * share)) ** (1.0 / self.n)
         return np.asarray(np.clip(x, self.minValue, self.maxValue))
 
 
@@ -173,6 +174,8 @@ class General(Distribution):
     def quantile(self, share: Floats) -> Floats:
         """Return the inverse of the integral of the density, a quadratic in each interval."""
         x, w = np.transpose(self.distribution)
+        # So that no product underflows.
+        w = w / w.max()
         h = np.diff(x)
         area = 0.5 * h * (w[1:] + w[:-1])
         total = np.concatenate([[0.0], np.cumsum(area)])
@@ -182,8 +185,7 @@ class General(Distribution):
         remaining = np.maximum(sought - total[i], 0.0) / h[i]
         rise = w[i + 1] - w[i]
         root = np.sqrt(np.maximum(w[i] ** 2 + 2.0 * rise * remaining, 0.0))
-        with np.errstate(invalid="ignore"):
-            part = np.where(remaining > 0.0, 2.0 * remaining / (w[i] + root), 0.0)
+        part = np.divide(2.0 * remaining, w[i] + root, out=np.zeros_like(root), where=w[i] + root > 0.0)
         return np.asarray(x[i] + np.clip(part, 0.0, 1.0) * h[i])
 
 

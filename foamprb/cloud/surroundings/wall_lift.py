@@ -8,7 +8,6 @@ causes.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -83,6 +82,7 @@ from foamprb.cloud.surroundings.base import (
 )
 from foamprb.compile.link import link, read_by
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
+from foamprb.dictionary.patterns import matches
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.analytic import walls_free as walls
 from foamprb.flow.base import Floats, Flow, Ints, Patch
@@ -553,7 +553,7 @@ class WallLift(Surrounding):
     def walls(self, patches: Sequence[Patch]) -> tuple[float, Sequence[int]]:
         """Return ``cutOff``, and the patches that count; raise InputError if a pattern matches no patch."""
         for pattern in self.patches or ():
-            if not any(re.fullmatch(pattern, patch.name) for patch in patches):
+            if not any(matches(pattern, patch.name) for patch in patches):
                 names = [patch.name for patch in patches]
                 text = f"wallLift/patches is {pattern}, which is no patch. {suggestion(pattern, names)}"
                 raise InputError(text.removesuffix("."))
@@ -563,7 +563,7 @@ class WallLift(Surrounding):
         """Return 1 for each patch that counts, else 0."""
         if self.patches is None:
             return np.array([patch.kind is PatchKind.WALL for patch in patches], dtype=np.int8)
-        named = [any(re.fullmatch(p, patch.name) for p in self.patches) for patch in patches]
+        named = [any(matches(p, patch.name) for p in self.patches) for patch in patches]
         return np.array(named, dtype=np.int8)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:

@@ -23,6 +23,7 @@ from foamprb.dictionary.dimensions import (
     written,
 )
 from foamprb.dictionary.grammar import parse_dictionary
+from foamprb.dictionary.patterns import matches
 from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
 from foamprb.dictionary.values import factor_of, unit_of
 from foamprb.errors import InputError
@@ -87,7 +88,7 @@ class FoamField(NamedTuple):
             if not entry.pattern and name in patch.groups:
                 return entry
         for name, entry in backwards:
-            if entry.pattern and _fits(name, patch.name):
+            if entry.pattern and matches(name, patch.name):
                 return entry
         return None
 
@@ -243,10 +244,3 @@ class _Reader:
             return np.array([numbers_of_entry], dtype=np.float64)
         except ValueError:
             return None
-
-
-def _fits(pattern: str, name: str) -> bool:
-    try:
-        return re.fullmatch(pattern, name) is not None
-    except re.error:
-        return False

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.dictionary.patterns import matches
 from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats
@@ -87,8 +88,7 @@ def with_rotating_walls(
     patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
     for rotation, zone in zip(rotations, zones, strict=True):
         turning = [
-            patch.kind is PatchKind.WALL
-            and not any(re.fullmatch(word, patch.name) for word in rotation.still)
+            patch.kind is PatchKind.WALL and not any(matches(word, patch.name) for word in rotation.still)
             for patch in mesh.patches
         ]
         inside = np.zeros(mesh.n_cells, dtype=bool)

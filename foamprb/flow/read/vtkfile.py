@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import io
-import json
 import math
 import os
 import re
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 from xml.etree import ElementTree
 
 import numpy as np
@@ -26,6 +25,7 @@ from foamprb.flow.read.times import listed, pick_time
 from foamprb.flow.read.vtk_guard import load_pyvista, read_vtk, require_survival, times_of
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.optional import load
+from foamprb.results.reading import read_json
 
 _PIECES = frozenset({".pvtu", ".pvti", ".pvtr", ".pvts"})
 VTK_SUFFIXES = _PIECES | {
@@ -236,13 +236,21 @@ def _quiet(path: Path) -> Iterator[None]:
         os.close(original)
 
 
+class _Entry(TypedDict):
+    name: str
+    time: float
+
+
+class _Series(TypedDict):
+    """Contents of a series of files."""
+
+    files: list[_Entry]
+
+
 def _series(path: Path) -> dict[str, str]:
     """Return the files of a series by the names of their times, rising."""
-    try:
-        files = json.loads(path.read_text(encoding="utf-8"))["files"]
-        times = {f"{float(entry['time']):.12g}": str(entry["name"]) for entry in files}
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError(f"{path}: not a list of files with their times: {error!r}") from None
+    files = read_json(path, _Series)["files"]
+    times = {f"{entry['time']:.12g}": entry["name"] for entry in files}
     if not times:
         raise InputError(f"{path}: the list of files is empty.")
     if len(times) < len(files):

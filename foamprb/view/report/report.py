@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
 import numpy as np
@@ -19,8 +20,10 @@ from foamprb.errors import InputError
 from foamprb.flow.read.flows import read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
-from foamprb.results.folder import RECORD_FORMAT, file_name
+from foamprb.results.folder import file_name
 from foamprb.results.manifest import Manifest
+from foamprb.results.reading import reading
+from foamprb.results.record import RECORD_FORMAT
 from foamprb.view.colours import DARK, LIGHT, written
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
@@ -108,7 +111,7 @@ def write_report(
         scene, geometry = error, _geometry(case, source)
     report = _Report(run, fates, geometry, tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
-    try:
+    with reading(run.folder, "is not as foamprb run wrote it", "Run the particles again: foamprb run."):
         sections = [
             _scene(report, scene, target),
             _fates(report),
@@ -128,11 +131,6 @@ def write_report(
             [*run.record.get("warnings", ()), *_leftovers(run)],
             [section for section in sections if section is not None],
         )
-    except (AttributeError, LookupError, TypeError, ValueError) as error:
-        raise InputError(
-            f"{run.folder}: run.json or a table is not as foamprb run wrote it "
-            f"({type(error).__name__}: {error}). Run the particles again: foamprb run."
-        ) from error
     for name, plot in report.made.items():
         for ending, data in ((".svg", plot.svg_file), (".png", plot.png)):
             with atomic_write(beside / f"{name}{ending}") as temporary:
@@ -390,14 +388,14 @@ def _record(report: _Report) -> PageSection:
     if record.get("format") != RECORD_FORMAT:
         text = "<p>The run has no run.json, or one of another version of foamprb.</p>"
         return PageSection("run", "Record", text)
-    fluid, models, time, mesh = (record[key] for key in ("fluid", "models", "time", "mesh"))
+    fluid, models, time, mesh = record["fluid"], record["models"], record["time"], record["mesh"]
     nu = _range(fluid["nu"]) if isinstance(fluid["nu"], list) else f"{fluid['nu']:g}"
     g = " ".join(f"{c:g}" for c in fluid["gravity"])
     facts = [
         ("versions", ", ".join(f"{name} {number}" for name, number in record["versions"].items())),
         ("mesh", ", ".join(f"{n} {part}" for part, n in mesh.items()) or "none"),
         ("flow", "changes in time" if time["transient"] else "steady"),
-        ("∇u between cells", _jumps(record["flow"].get("gradientJump", ()))),
+        ("∇u between cells", _jumps(record["flow"].get("gradientJump") or ())),
         ("fluid", f"ρ = {fluid['rho']:g} kg/m³, ν = {nu} m²/s, g = ({g}) m/s²"),
         ("time", f"{time['start']:g} to {time['end']:g} s, {time['steps']} steps of {time['deltaT']:g} s"),
         ("solid", models["solid"]),
@@ -412,9 +410,10 @@ def _record(report: _Report) -> PageSection:
     body = table("Settings", ("", ""), facts, numbers=False)
     groups = {"shear_rate": "γ̇ [1/s]", "capillary": "Ca", "reynolds": "Re", "stokes": "shape Stokes number",
               "size": "size/cell"}  # fmt: skip
+    models_of = [dict[str, Any](model) for model in record["injections"]]
     rows = [
         (model["name"], model["type"], model["particles"], *(_range(model.get(key, ())) for key in groups))
-        for model in record["injections"]
+        for model in models_of
     ]
     body += table("Injection models, at release", ("name", "type", "particles", *groups.values()), rows)
     if text := record["settings"]["text"]:

@@ -53,6 +53,16 @@ NAMES = ["normal", "RosinRammler", "uniform", "general"]
 EACH = pytest.mark.parametrize("distribution", [case[0] for case in CASES], ids=NAMES)
 
 
+def test_extreme_numbers_give_values_between_the_limits():
+    """The exponential of a large power, and the square of a small density, are no numbers."""
+    share = np.linspace(0.0, 1.0, 11)
+    rosin = RosinRammler(minValue=1e-6, maxValue=9.1e-5, d=1e-6, n=400.0)
+    # The values lie close to d.
+    np.testing.assert_allclose(rosin.quantile(share)[1:-1], 2e-6, rtol=0.01)
+    small = General(((1.0, 1e-200), (2.0, 1e-200)))
+    np.testing.assert_allclose(small.quantile(share), 1.0 + share)
+
+
 def integral(density, a, b):
     kinks = [x for x in (4e-6, 5e-6, 6e-6) if a < x < b]
     value, _ = quad(density, a, b, points=kinks or None, epsabs=0.0, epsrel=1e-12)
