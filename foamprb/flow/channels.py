@@ -256,14 +256,15 @@ def walk_duct(flow: DuctArrays, host: int, x0: Vector, x1: Vector) -> tuple[int,
     return host, fraction, patch, patch
 
 
-def gap_duct(flow: DuctArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """Return the clearance between the ellipsoid and the wall that it is nearest to, m."""
-    low, high, left, right = distances_in_duct(flow, x)
-    patch = _UPPER if high < low else _LOWER
-    gap = min(low, high) - reach(R, F, _UP)
-    beside = min(left, right) - reach(R, F, _ASIDE)
-    if beside < gap:
-        gap, patch = beside, _RIGHT if right < left else _LEFT
+def gap_duct(
+    flow: DuctArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+) -> tuple[float, int, int]:
+    """Return the clearance between the body and the wall that it is nearest to, m."""
+    gap, patch, distances = math.inf, _LOWER, distances_in_duct(flow, x)
+    for k in range(4):
+        clearance = distances[k] - extent(R, F, mode, normal_duct(flow, k, x))
+        if clearance < gap:
+            gap, patch = clearance, k
     return gap, patch, patch
 
 
