@@ -10,7 +10,7 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from foamprb import analytic
-from foamprb.body.quadratic import tube_deformation, tube_velocity
+from foamprb.body.quadratic import tube_amplitude, tube_deformation, tube_velocity
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Cyclic, Escape, Rebound
@@ -201,6 +201,10 @@ def test_walls_of_a_channel_act_on_bodies_near_the_axis(tmp_path, caplog):
         bullets = 25.0 / 32.0 * column(free, "bulletAmplitude")[other] ** 2
         expected = before[other] + (tube_deformation(b) ** 2 - 1.0) * bullets
         np.testing.assert_allclose(ours[order], expected, rtol=1e-3)
+        ratio = column(rows, "shiftx")[order] / column(free, "shiftx")[other]
+        np.testing.assert_allclose(ratio, tube_amplitude(b), rtol=1e-9)
+        lost = 1.0 - column(rows, "area")[order][0] / (np.pi * a[0] ** 2)
+        assert lost == pytest.approx(0.75 * column(rows, "bulletAmplitude")[order][0] ** 2, rel=1e-4)
         np.testing.assert_array_equal(column(rows, "channel")[order], (b > 0.0).astype(int))
         speed = U * (1.0 - (y[:n] / TUBE) ** 2) * tube_velocity(b)
         np.testing.assert_allclose(column(rows, "speed")[order], speed, rtol=2e-2)
