@@ -1,4 +1,4 @@
-"""Deformability cytometry: stiffness of bodies in a narrow channel from the outlines in a camera image."""
+"""Deformability cytometry: lines of equal stiffness of cells on the axis of a square channel."""
 
 from __future__ import annotations
 
@@ -10,32 +10,35 @@ from matplotlib import pyplot as plt
 import foamprb
 from foamprb.cloudfunctions.deformability_cytometry import outline
 
-HEIGHT, SPEED, MU = 3e-5, 0.05, 15e-3  # height of the channel, m; mean velocity, m/s; viscosity, Pa s
-RADIUS = 5e-6
+WIDTH, FLOW_RATE, MU = 20e-6, 0.04e-9, 15e-3  # width of the channel, m; m³/s; viscosity, Pa s
+# Young's modulus, kPa, and areas, µm², with deformations of outlines: some rows of LE-2D-FEM-19 of dclab,
+# finite elements by Mokbel et al., ACS Biomater. Sci. Eng. 3 (2017) 2962.
+PUBLISHED = {
+    2.17667: (
+        [34.0, 46.43, 60.93, 77.65, 94.88, 114.6],
+        [0.00906, 0.0125, 0.01709, 0.02301, 0.03044, 0.04054],
+    ),
+    3.78053: ([73.19, 94.87, 115.4, 128.9], [0.00688, 0.00965, 0.01287, 0.0154]),
+}
 
-stiffness = np.geomspace(200.0, 5000.0, 9)  # shear moduli, Pa
-heights = np.full(9, 0.25 * HEIGHT)  # midway between centre and wall
-flow = foamprb.analytic.slit(HEIGHT, SPEED)
-x = np.stack([np.zeros(9), np.zeros(9), heights], axis=1)
-bodies = foamprb.spheres(x, d=2.0 * RADIUS, rho=1000.0, mu=stiffness)
-water = foamprb.Medium(mu=MU, rho=1000.0, gravity=(0.0, 0.0, 0.0))
+diameters = np.linspace(6.5e-6, 13e-6, 14)
+flow = foamprb.analytic.duct(WIDTH, WIDTH, FLOW_RATE / WIDTH**2)
+buffer = foamprb.Medium(mu=MU, rho=1000.0, gravity=(0.0, 0.0, 0.0))
 walls = [foamprb.Rebound()] * len(flow.patches)
-cloud = foamprb.Cloud(bodies, flow, water, walls, 1e-6, foamprb.Models(integrator="stokes"))
-cloud.advance(1000)
+models = foamprb.Models(integrator="stokes", shape="quadratic")
+axis = np.tile([0.0, 0.0, 0.5 * WIDTH], (len(diameters), 1))
 
-seen = outline(bodies, np.array([0.0, 1.0, 0.0]))
-rate = np.abs(flow.sample(bodies.x, bodies.host, cloud.time)[1][:, 0, 2])
-# D = 5/4 Ca for small deformations, and 1 − 2 √(πA)/P = 3/4 D² for a nearly circular ellipse.
-expected = 0.75 * (1.25 * MU * rate / stiffness) ** 2
-measured = 1.25 * MU * rate / np.sqrt(seen.deformation / 0.75)
-print("shear modulus from the outline over the true one:", (measured / stiffness).round(3))
-assert abs(measured[-1] / stiffness[-1] - 1.0) < 0.002
-
-figure, axes = plt.subplots(figsize=(6.4, 3.2), layout="constrained")
-axes.loglog(stiffness, seen.deformation, "o", color="#0072b2", label="foamprb")
-axes.loglog(stiffness, expected, "--", color="#d55e00", label="small deformations, 3/4 (5/4 Ca)²")
-axes.set(xlabel="shear modulus [Pa]", ylabel="1 − 2 √(πA)/P")
-axes.set_xticks([200, 500, 1000, 2000, 5000], ["200", "500", "1000", "2000", "5000"])
-axes.minorticks_off()
-axes.legend(frameon=False)
+figure, axes = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
+for colour, (modulus, (areas, published)) in zip(("#0072b2", "#d55e00"), PUBLISHED.items(), strict=True):
+    cells = foamprb.spheres(axis, d=diameters, rho=1000.0, mu=1e3 * modulus / 3.0, poissons_ratio=0.4999)
+    foamprb.Cloud(cells, flow, buffer, walls, 1e-6, models).advance(200)
+    # A square channel acts on a cell on its axis as a tube of 0.547 of the width does.
+    seen = outline(cells, np.array([0.0, 1.0, 0.0]), 0.5 * diameters / (0.547 * WIDTH))
+    expected = np.interp(areas, 1e12 * seen.area, seen.deformation)
+    print(f"{modulus:.2f} kPa: over the published deformation", (expected / published).round(3))
+    assert (np.abs(expected / published - 1.0) < 0.04).all()
+    axes.plot(1e12 * seen.area, seen.deformation, color=colour, label=f"{modulus:.2f} kPa")
+    axes.plot(areas, published, "o", color=colour)
+axes.set(xlabel="area of the outline [µm²]", ylabel="1 − 2 √(πA)/P", ylim=(0.0, None))
+axes.legend(frameon=False, title="Young's modulus")
 figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "cytometry.png", dpi=120)
