@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from view_run import PATCHES, motion, write_run
 
 from foamprb.cli import main
@@ -110,9 +111,26 @@ def test_links_lead_to_files(case, page):
 
 
 def test_the_numbers_are_those_of_the_table(page):
-    for number, what in ((N, "injected"), (N // 3, "active"), (N // 3, "stuck"), (N // 3, "escaped")):
+    """Wilson's interval of 20 of 60 is (p + z²/2n ± z √(p(1 − p)/n + z²/4n²))/(1 + z²/n), z = 1.96."""
+    p, z = 1.0 / 3.0, 1.959964
+    middle, half = p + z * z / (2 * N), z * np.sqrt(p * (1 - p) / N + z * z / (4 * N * N))
+    low, high = (100.0 * (middle + side * half) / (1 + z * z / N) for side in (-1, 1))
+    share = f"33.3 % ({low:.3g}–{high:.3g} %)"
+    for number, what in (
+        (N, "injected"),
+        *((N // 3, f"{fate}, {share}") for fate in ("active", "stuck", "escaped")),
+    ):
         assert f'<span class="figures">{number}</span>{what}' in page
+    assert f'<td class="n">{share}</td>' in page
     assert re.search(r'<th scope="row">floor</th><td class="n">20</td><td class="n">1</td>', page)
+
+
+def test_no_section_says_only_that_there_is_nothing(page):
+    """Neither particleTracks nor particleHistogram ran, and the results have no record."""
+    sections = re.findall(r'<section id="(\w+)"', page)
+    assert sections == ["scene", "fates", "deposition", "residence", "deformation", "files"]
+    assert "did not have" not in page
+    assert "No record: the run has no run.json" in page.partition("<main>")[0]
 
 
 def luminance(colour: str) -> float:
@@ -251,6 +269,26 @@ def test_the_flow_of_a_large_mesh_is_not_reconstructed(case, tmp_path, monkeypat
     monkeypatch.setattr("foamprb.view.show.MOST_CELLS", 0)
     write_report(case, tmp_path / "report.html")
     assert (tmp_path / "reportPlots/deposits-floor.svg").exists()
+
+
+@pytest.mark.parametrize(("length", "strips"), [(2.0, 1), (16.0, 1), (60.0, 4), (900.0, 6)])
+def test_deposits_keep_their_proportions(length, strips, monkeypatch):
+    """A millimetre is as long along a pipe as around it, however long the pipe is."""
+    figures = []
+    monkeypatch.setattr(plots, "_plot", lambda draw, height=3.2: figures.append((draw, height)))
+    x = np.column_stack([np.linspace(0.1, 0.9, 100), np.full(100, 0.5), np.zeros(100)])
+    plots.unrolled(deposits(tube(length=length), x))
+    (draw, height), figure = figures[0], Figure(figsize=(6.4, figures[0][1]), layout="constrained")
+    draw(figure, figure.add_subplot())
+    figure.draw_without_rendering()
+    assert 1.8 <= height <= 4.4
+    *panels, _bar = figure.axes
+    assert len(panels) == strips
+    assert panels[0].get_xlim()[0] == pytest.approx(-panels[-1].get_xlim()[1], abs=0.2 * length)
+    for panel in panels:
+        box = panel.get_window_extent()
+        scales = box.width / np.ptp(panel.get_xlim()), box.height / np.ptp(panel.get_ylim())
+        assert scales[0] == pytest.approx(scales[1], rel=1e-3)
 
 
 def test_few_deposits_are_dots():

@@ -39,6 +39,8 @@ _HATCHES = dict(zip(FATES, ("", "///", "...", "xxx", "ooo", "\\\\\\"), strict=Tr
 _MARKERS = dict(zip(FATES, "o^s*Dv", strict=True))
 _MOST_DOTS = 5000
 """Dots of each fate, about, in a plot of places."""
+_LONGEST_STRIP, _MOST_STRIPS = 6.0, 6
+"""Length over width of a strip of an unrolled wall, about, and number of strips."""
 _ROLES = {_INK: "currentColor", _SOFT: "var(--soft)", _PAPER: "var(--paper)"}
 _STYLE: Any = {
     "font.size": 10.0,
@@ -131,7 +133,7 @@ def _scaled(values: Floats, unit: str) -> tuple[float, str]:
 
 
 def _colour_bar(figure: Any, drawn: Any, axes: Any) -> None:
-    bar = figure.colorbar(drawn, ax=axes)
+    bar = figure.colorbar(drawn, ax=axes, aspect=12)
     bar.set_label("particles per area [1/m²]")
     bar.outline.set_visible(False)
 
@@ -280,24 +282,36 @@ def by_origin(x: Floats, fates: NDArray[np.str_]) -> Plot:
 
 
 def unrolled(wall: Deposits) -> Plot:
-    """Return the particles per area of a wall, unrolled."""
-    factor, name = readable("m", float(max(np.ptp(edges) for edges in wall.edges)))
+    """Return the particles per area of an unrolled wall in true proportions; a long one is in strips."""
+    sides = [float(np.ptp(edges)) for edges in wall.edges]
+    factor, name = readable("m", max(sides))
+    ratio = sides[0] / max(sides[1], 1e-300)
+    n = int(np.clip(np.ceil(ratio / _LONGEST_STRIP), 1, _MOST_STRIPS))
+    ends = np.linspace(wall.edges[0][0], wall.edges[0][-1], n + 1) / factor
 
     def draw(figure: Any, axes: Any) -> None:
-        if wall.few:
-            axes.plot(*(wall.points / factor).T, "o", color=FATES["stuck"], markersize=4.0)
-            axes.set(xlim=wall.edges[0][[0, -1]] / factor, ylim=wall.edges[1][[0, -1]] / factor)
-        else:
-            image = axes.pcolormesh(
-                wall.edges[0] / factor, wall.edges[1] / factor, wall.density.T, rasterized=True, vmin=0.0
-            )
-            _colour_bar(figure, image, axes)
-        if FEW <= wall.number <= 2000:
-            axes.plot(*(wall.points / factor).T, ".", color="#ffffff", markersize=1.4, markeredgewidth=0.0)
-        axes.grid(False)
-        ratio = np.ptp(wall.edges[0]) / max(np.ptp(wall.edges[1]), 1e-300)
-        axes.set_aspect("equal" if 0.2 < ratio < 5.0 else "auto")
-        axes.xaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(6))
-        axes.set(xlabel=f"{wall.across[0]} {wall.name} [{name}]", ylabel=f"{wall.across[1]} [{name}]")
+        axes.remove()
+        strips = figure.subplots(n, 1, squeeze=False)[:, 0]
+        for strip, *span in zip(strips, ends[:-1], ends[1:], strict=True):
+            if wall.few:
+                strip.plot(*(wall.points / factor).T, "o", color=FATES["stuck"], markersize=4.0)
+            else:
+                image = strip.pcolormesh(
+                    wall.edges[0] / factor, wall.edges[1] / factor, wall.density.T, rasterized=True, vmin=0.0
+                )
+            if FEW <= wall.number <= 2000:
+                strip.plot(
+                    *(wall.points / factor).T, ".", color="#ffffff", markersize=1.4, markeredgewidth=0.0
+                )
+            strip.grid(False)
+            strip.set_aspect("equal")
+            strip.xaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(6))
+            strip.yaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(3))
+            strip.set(xlim=span, ylim=wall.edges[1][[0, -1]] / factor)
+        strips[-1].set_xlabel(f"{wall.across[0]} {wall.name} [{name}]")
+        strips[n // 2].set_ylabel(f"{wall.across[1]} [{name}]")
+        if not wall.few:
+            _colour_bar(figure, image, list(strips))
 
-    return _plot(draw)
+    width = 5.0
+    return _plot(draw, float(np.clip(n * (width * n / ratio + 0.3) + 0.6, 1.8, 4.4)))

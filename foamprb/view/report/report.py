@@ -103,17 +103,20 @@ def write_report(
     fates = run.fates()
     if fates is None:
         raise InputError(f"{run.folder}: no fates, the run has not ended. To continue: foamprb run -resume.")
-    scene: Scene | InputError
+    geometry: Geometry | None = None
+    body, missing = "", _missing_record(run)
     try:
         scene = make_still(Request(case, cloud, source, results=results), run, _MOST_BODIES)
         geometry = scene.geometry
+        body = _drawn(scene)
     except InputError as error:
-        scene, geometry = error, _geometry(case, source)
+        missing.append(f"No picture: {error}")
+        geometry = geometry or _geometry(case, source)
     report = _Report(run, fates, geometry, tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
     with reading(run.folder, "is not as foamprb run wrote it", "Run the particles again: foamprb run."):
         sections = [
-            _scene(report, scene, target),
+            _scene(report, body, target),
             _fates(report),
             _deposition(report),
             _residence(report),
@@ -128,7 +131,7 @@ def write_report(
             f"{title_of(case)}: {run.name}",
             _subtitle(run),
             _cards(fates),
-            [*run.record.get("warnings", ()), *_leftovers(run)],
+            [*run.record.get("warnings", ()), *_leftovers(run), *missing],
             [section for section in sections if section is not None],
         )
     for name, plot in report.made.items():
@@ -159,6 +162,12 @@ def _leftovers(run: Run) -> Iterator[str]:
         )
 
 
+def _missing_record(run: Run) -> list[str]:
+    """Return why the page lacks the record of the run, if it does."""
+    recorded = run.record.get("format") == RECORD_FORMAT
+    return [] if recorded else ["No record: the run has no run.json, or one of another version of foamprb."]
+
+
 def _geometry(case: Path, source: FlowSource) -> Geometry | None:
     try:
         return boundary(read_mesh(case, "latestTime", source))
@@ -177,7 +186,11 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
     """Return the numbers at the top of the page, each with its meaning."""
     counts = {name: int((fates["fate"] == name).sum()) for name in ("pending", *plots.FATES)}
     cards = [(f"{len(fates['id']) - counts.pop('pending')}", "injected")]
-    cards += [(f"{count}", name) for name, count in counts.items() if count]
+    cards += [
+        (f"{count}", f"{name}, {_share(count, sum(counts.values()))}")
+        for name, count in counts.items()
+        if count
+    ]
     if "D" in fates:
         D = fates["D"][np.isfinite(fates["D"]) & (fates["fate"] != "pending")]
         if len(D):
@@ -185,53 +198,64 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
     return cards
 
 
-def _scene(report: _Report, scene: Scene | InputError, target: Path) -> PageSection:
+def _share(count: int, total: int) -> str:
+    """Return the share of some particles and its interval of 95 %, after Wilson."""
+    from scipy.stats import binomtest
+
+    ends = binomtest(count, total).proportion_ci(method="wilson")
+    return f"{100.0 * count / total:.3g} % ({100.0 * ends.low:.3g}–{100.0 * ends.high:.3g} %)"
+
+
+def _drawn(scene: Scene) -> str:
+    """Return the picture of a scene for light and dark pages; raise InputError if none can be drawn."""
+    require_graphics()
+    drawn = []
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "scene.png"
+        for style in (LIGHT, DARK):
+            picture(scene, file, _PICTURE, style)
+            drawn.append(file.read_bytes())
+    caption = (
+        f"Bodies at {scene.bodies.times[scene.first]:g} s, drawn {scene.enlargement:.3g} times larger, "
+        f"coloured by {scene.colour[0]}."
+    )
+    return image(drawn[0], drawn[1], caption)
+
+
+def _scene(report: _Report, body: str, target: Path) -> PageSection | None:
+    """Return the section of the picture, which ``body`` is, with a link to the interactive view."""
     live = report.run.results.page
-    try:
-        if isinstance(scene, InputError):
-            raise scene
-        require_graphics()
-        drawn = []
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / "scene.png"
-            for style in (LIGHT, DARK):
-                picture(scene, file, _PICTURE, style)
-                drawn.append(file.read_bytes())
-        caption = (
-            f"Bodies at {scene.bodies.times[scene.first]:g} s, drawn {scene.enlargement:.3g} times larger, "
-            f"coloured by {scene.colour[0]}."
-        )
-        body = image(drawn[0], drawn[1], caption)
-    except InputError as error:
-        body = f"<p>No picture: {html.escape(str(error))}</p>"
     if live.exists():
         body += f'<p><a href="{_link(live, target)}">Interactive view</a> (foamprb view)</p>'
-    else:
+    elif body:
         body += "<p>foamprb view writes an interactive view.</p>"
-    return PageSection("scene", "Bodies", body)
+    return PageSection("scene", "Bodies", body) if body else None
 
 
 _ALWAYS = 4
 """Fates that the table shows if no particle has them, too."""
 
 
-def _fates(report: _Report) -> PageSection:
+def _fates(report: _Report) -> PageSection | None:
     counts: dict[str, dict[str, int]] = {}
     for patch, fate in zip(report.fates["patch"].tolist(), report.fates["fate"].tolist(), strict=True):
         if fate != "pending":
             place = counts.setdefault(patch or "in the flow", {})
             place[fate] = place.get(fate, 0) + 1
+    if not counts:
+        return None
     sums = {place: sum(by_fate.values()) for place, by_fate in counts.items()}
     counts = {place: counts[place] for place in sorted(counts, key=lambda place: -sums[place])}
     total = sum(sums.values())
     met = {fate for by_fate in counts.values() for fate in by_fate}
     shown = [fate for k, fate in enumerate(plots.FATES) if k < _ALWAYS or fate in met]
     rows = [
-        (place, *(by_fate.get(fate, 0) for fate in shown), f"{100 * sums[place] / total:.1f} %")
+        (place, *(by_fate.get(fate, 0) for fate in shown), _share(sums[place], total))
         for place, by_fate in counts.items()
     ]
-    listed = table("Particles by place and fate", ("where", *shown, "share"), rows)
-    drawn = report.figure("fates", plots.shares(counts), "Particles by patch and fate.") if counts else ""
+    caption = "Particles by place and fate; in parentheses the 95 % interval of the share, after Wilson"
+    listed = table(caption, ("where", *shown, "share"), rows)
+    drawn = report.figure("fates", plots.shares(counts), "Particles by patch and fate.")
     drawn += _origins(report)
     return PageSection("fates", "Fates", grid(drawn, listed))
 
@@ -283,9 +307,11 @@ def _by_fate(fates: NDArray[np.str_], values: Floats) -> dict[str, Floats]:
     return {fate: values[fates == fate] for fate in plots.FATES if (fates == fate).any()}
 
 
-def _residence(report: _Report) -> PageSection:
+def _residence(report: _Report) -> PageSection | None:
     fates = report.fates
     ended = _by_fate(fates["fate"], fates["t1"] - fates["t0"])
+    if not ended:
+        return None
     rows = [
         (
             fate,
@@ -299,7 +325,9 @@ def _residence(report: _Report) -> PageSection:
         plots.histogram(ended, "residence time t", "s"),
         "Time from release to the end of each particle, or of the run.",
     )
-    listed = table("Residence time", ("fate", "particles", "1 in 10 below", "median", "9 in 10 below"), rows)
+    listed = table(
+        "Time from release, by fate", ("fate", "particles", "1 in 10 below", "median", "9 in 10 below"), rows
+    )
     return PageSection("residence", "Residence time", grid(drawn, listed))
 
 
@@ -328,11 +356,10 @@ def _deformation(report: _Report) -> PageSection | None:
     return PageSection("deformation", "Deformation", grid(drawn)) if drawn else None
 
 
-def _exposure(report: _Report) -> PageSection:
+def _exposure(report: _Report) -> PageSection | None:
     tables = [name for name in report.run.tables if name.endswith("/exposure")]
     if not tables:
-        text = "<p>The run did not have the cloud function particleHistogram, which integrates γ̇.</p>"
-        return PageSection("shear", "Shear exposure", text)
+        return None
     exposure = report.run.table(tables[0])
     shear = report.figure(
         "shearExposure",
@@ -347,12 +374,12 @@ def _exposure(report: _Report) -> PageSection:
     return PageSection("shear", "Shear exposure", grid(shear, deformation))
 
 
-def _along_paths(report: _Report) -> PageSection:
+def _along_paths(report: _Report) -> PageSection | None:
     paths = report.run.paths(("taylorDeformation", "shearRate"))
-    title = "Deformation along paths"
     if paths is None:
-        text = "<p>The run did not have the cloud function particleTracks, which records paths.</p>"
-        return PageSection("paths", title, text)
+        if report.paths:
+            raise InputError("-paths: the run did not have the cloud function particleTracks.")
+        return None
     ids = paths.tracks["origId"]
     # A path through a coupled patch has several parts.
     tracked = np.unique(ids)
@@ -373,7 +400,7 @@ def _along_paths(report: _Report) -> PageSection:
     D_plot, rate_plot = plots.curves(lines, x, ("D", "1")), plots.curves(rates, x, ("γ̇", "1/s"))
     drawn = report.figure("deformationAlongPaths", D_plot, f"D of single particles, {which}.")
     drawn += report.figure("shearAlongPaths", rate_plot, "The fluid's shear rate at the same particles.")
-    return PageSection("paths", title, grid(drawn))
+    return PageSection("paths", "Deformation along paths", grid(drawn))
 
 
 def _jumps(medians: Sequence[float | None]) -> str:
@@ -383,11 +410,10 @@ def _jumps(medians: Sequence[float | None]) -> str:
     return ", ".join(shown) + " (median)" if shown else "not known"
 
 
-def _record(report: _Report) -> PageSection:
+def _record(report: _Report) -> PageSection | None:
     record = report.run.record
     if record.get("format") != RECORD_FORMAT:
-        text = "<p>The run has no run.json, or one of another version of foamprb.</p>"
-        return PageSection("run", "Record", text)
+        return None
     fluid, models, time, mesh = record["fluid"], record["models"], record["time"], record["mesh"]
     nu = _range(fluid["nu"]) if isinstance(fluid["nu"], list) else f"{fluid['nu']:g}"
     g = " ".join(f"{c:g}" for c in fluid["gravity"])
@@ -407,7 +433,7 @@ def _record(report: _Report) -> PageSection:
         ("patches", ", ".join(f"{p['name']} ({p['type']}): {p['interaction']}" for p in record["patches"])),
         ("functions", ", ".join(f"{name} ({kind})" for name, kind in record["functions"].items()) or "none"),
     ]
-    body = table("Settings", ("", ""), facts, numbers=False)
+    body = table("Settings", ("setting", "value"), facts, numbers=False)
     groups = {"shear_rate": "γ̇ [1/s]", "capillary": "Ca", "reynolds": "Re", "stokes": "shape Stokes number",
               "size": "size/cell"}  # fmt: skip
     models_of = [dict[str, Any](model) for model in record["injections"]]
