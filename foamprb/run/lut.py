@@ -9,6 +9,7 @@ import re
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -135,17 +136,16 @@ def inflow(job: Job) -> float:
     Raises
     ------
     InputError
-        If the openings of the flow have no faces, or nothing enters.
+        If the fluxes are unknown, or nothing enters.
     """
-    flow, total = job.cloud.flow, 0.0
-    for patch in flow.patches:
-        if patch.kind == PatchKind.OPENING:
-            try:
-                faces = flow.patch_faces(patch.name, job.cloud.start)
-            except InputError:
-                continue
-            u = faces.velocity.mean(axis=1)
-            total += max(0.0, float((faces.areas * np.einsum("ij,ij->i", u, faces.normals)).sum()))
+    flow: Any = job.cloud.flow
+    mesh: Any = getattr(flow, "mesh", None)
+    phi = np.empty(0) if mesh is None else flow.arrays(0.0, ()).phi
+    if not len(phi):
+        raise InputError("the fluxes through the openings of the flow are unknown. Needed: -flowRate, m3/s.")
+    ends = mesh.n_internal + mesh.patch_start
+    openings = [k for k, patch in enumerate(flow.patches) if patch.kind == PatchKind.OPENING]
+    total = sum(max(0.0, -float(phi[ends[k] : ends[k + 1]].sum())) for k in openings)
     if total <= 0.0:
         raise InputError("nothing flows in through the openings of the flow. Needed: -flowRate, m3/s.")
     return total

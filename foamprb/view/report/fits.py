@@ -47,6 +47,9 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
         y = (name, _UNITS[name])
         plot = plots.dots(columns["d"][fitted], columns[name][fitted], ("d", "m"), y, log=True)
         over_size.append(drawn(f"{name}OverSize", plot, f"{name} over the diameter."))
+        if np.ptp(columns[axis][fitted]) < 0.1 * np.median(columns["d"][fitted]):
+            # All pass at the same place.
+            continue
         plot = plots.dots(columns[axis][fitted], columns[name][fitted], (axis, "m"), y, log=True)
         over_place.append(drawn(f"{name}OverPlace", plot, f"{name} over the place in the plane."))
     for name in fits.shapes if fitted.any() else ():
@@ -63,7 +66,7 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
     sections = [
         PageSection("population", "Population", table("Medians, with 95 % intervals", heads, numbers)),
         PageSection("size", "Size", grid(*over_size)),
-        PageSection("place", "Place", grid(*over_place)),
+        *([PageSection("place", "Place", grid(*over_place))] if over_place else []),
         PageSection("shapes", "Shapes", grid(*compared)),
         PageSection("reasons", "Not fitted", reasons if fits.reasons else "<p>None.</p>"),
     ]

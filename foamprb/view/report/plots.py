@@ -251,9 +251,13 @@ def dots(
             ends = np.array([np.nanmin(x), np.nanmax(x)])
             axes.plot(ends / fx, ends / fy, "--", color=NAMES[5], label="equal")
             _legend(axes)
-        axes.set(
-            xlabel=_label(x_axis[0], nx), ylabel=_label(y_axis[0], ny), yscale="log" if log else "linear"
-        )
+        axes.set(xlabel=_label(x_axis[0], nx), ylabel=_label(y_axis[0], ny))
+        if log:
+            axes.set_yscale("log")
+            # Powers would be formulas, which labels do not have.
+            plain = load("matplotlib.ticker").FuncFormatter(lambda value, _: f"{value:g}")
+            axes.yaxis.set_major_formatter(plain)
+            axes.yaxis.set_minor_formatter(plain)
 
     return _plot(draw)
 
