@@ -138,6 +138,46 @@ REBOUND_NUMBERS = 21
 """Numbers that are recorded of a rebound (:func:`foamprb.cloud.contact.note`)."""
 
 
+class Instants(NamedTuple):
+    """Instants at which a loop stores the state of particles, see :mod:`foamprb.cloud.instants`."""
+
+    times: Any
+    """(w,) s, rising."""
+    state: Any
+    """(n, w, k) states of the particles of the cloud."""
+    marks: Any
+    """(n, w, 2) their status, 0 where none is stored, and patch."""
+    table: Any
+    """Steps of all lanes, (:data:`foamprb.cloud.paths.COLUMNS`, LANES)."""
+    begun: Any
+    """(1,) 1 if their starts are recorded, else 0."""
+    crossed: Any
+    """(LANES,) when a step last went through a coupled patch, s."""
+    starts: Any
+    """(k, 2) rows that are recorded before a step is accepted, and those of the table."""
+    ends: Any
+    """The same after it."""
+    more: Any
+    """(k, 2) further rows, and their columns of ``state``."""
+    slack: float
+    """Time by which a step may be longer than intended, s."""
+    in_frame: int
+    """See :class:`foamprb.cloud.paths.RecordedRows`."""
+    rate: int
+    """First column of dF/dt, −1 if it is not stored."""
+    mode: int
+    """First column of the quadratic mode, −1 without it."""
+
+
+def no_instants() -> Instants:
+    """Return no instant."""
+    rows = np.empty((0, 2), dtype=np.int64)
+    state, marks = np.empty((0, 0, 0)), np.empty((0, 0, 2), dtype=np.int32)
+    begun, crossed = np.zeros(1, dtype=np.int64), np.zeros(LANES)
+    table = np.empty((0, LANES))
+    return Instants(np.empty(0), state, marks, table, begun, crossed, rows, rows, rows, 0.0, 0, -1, -1)
+
+
 @record
 class Scratch(NamedTuple):
     """Working memory of a loop, so that the cloud's arrays are written only for finished particles.
@@ -200,6 +240,8 @@ class Scratch(NamedTuple):
     """The same after it."""
     watched: Any
     """1 for each particle of the cloud whose steps are recorded, else 0; empty for all."""
+    instants: Any
+    """:class:`Instants` at which states are stored."""
     fields: Any = ()
     """Arrays of the fields of the case that forces need, see :func:`foamprb.flow.fields.blend_fields`."""
 
@@ -260,6 +302,7 @@ def new_scratch(
         starts=np.empty((0, 2), dtype=np.int64),
         ends=np.empty((0, 2), dtype=np.int64),
         watched=np.empty(0, dtype=np.bool_),
+        instants=no_instants(),
     )
 
 

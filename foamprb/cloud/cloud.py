@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import warnings
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -20,14 +20,17 @@ from foamprb.cloud.communicator import (
     Communicator,
     Value,
     applied,
+    count_at,
     in_flow,
     normals_at,
     particles_of,
     same,
+    store_at,
     take_rebounds,
     values_of,
 )
 from foamprb.cloud.contact import in_order
+from foamprb.cloud.instants import MARKS, STATE, moments_of
 from foamprb.cloud.integrators.adaptive import stretch_in
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
@@ -214,9 +217,10 @@ class Cloud:
         self.publish()
         return self.comm.call(in_flow, function, self.time, *arguments)
 
-    def publish(self) -> None:
-        """Give all ranks the flow at the present time."""
-        self.flow.load(self.time, self.time)
+    def publish(self, time: float | None = None) -> None:
+        """Give all ranks the flow at a time, s, by default the present one."""
+        time = self.time if time is None else time
+        self.flow.load(time, time)
         self.comm.publish(self.flow_arrays(), self.flow)
 
     def of(self, numbers: NDArray[np.int64]) -> Particles:
@@ -251,6 +255,33 @@ class Cloud:
     def time_of(self, step: int) -> float:
         """Return the time after a number of steps, s."""
         return min(self.start + step * self.dt, self.end)
+
+    def store_at(self, times: Sequence[float], with_rates: bool = False) -> None:
+        """Let the next steps store the state at some instants, s, see :mod:`foamprb.cloud.instants`.
+
+        Parameters
+        ----------
+        times
+            Rising times.
+        with_rates
+            Whether dF/dt is needed there.
+        """
+        self.comm.call(store_at, moments_of(times, self.tracker.changing, with_rates))
+
+    @property
+    def stored(self) -> Mapping[str, NDArray[Any]]:
+        """States at instants that the first rank writes to checkpoints, by their names."""
+        here = self.comm.arrays_here()
+        return {name: here[name] for name in (STATE, MARKS) if name in here}
+
+    def counts_at(self, time: float) -> dict[Status, int]:
+        """Return the number of particles of each status at an instant of the last steps, s, or now."""
+        return dict(zip(Status, np.sum(self.comm.call(count_at, time), axis=0).tolist(), strict=True))
+
+    @property
+    def last_end(self) -> float:
+        """Time to which the particles have come that were released, the latest, s; the start without any."""
+        return max(self.start, *self.map_ranks(_last_end))
 
     @property
     def medium_there(self) -> Medium:
@@ -335,6 +366,10 @@ class Cloud:
     def steps_until(self, t: float) -> int:
         """Return the number of steps from the start to a time, s; the last may exceed it by round-off."""
         return self.most_steps if t >= self.end else math.floor((t - self.start) / self.dt + _ROUND_OFF)
+
+    def steps_before(self, t: float) -> int:
+        """Return the number of steps that end before a time, s, from the start."""
+        return math.ceil((t - self.start) / self.dt - _ROUND_OFF) - 1
 
     @property
     def most_steps(self) -> int:
@@ -536,7 +571,8 @@ class Stepper:
         stop
             Called several times a second; the steps end early if it returns True, as after Ctrl-C. Then
             ``cloud.step`` is the step that all particles have reached. Particles ahead of it stay there until
-            the others have caught up in a later call.
+            the others have caught up in a later call. They also end after an instant at which the state is
+            stored, as soon as all particles are at the same step.
 
         Raises
         ------
@@ -554,6 +590,8 @@ class Stepper:
                 cloud.extend_reach()
             elif outcome.finished:
                 cloud.step += ready
+                if any(time <= cloud.time for time in cloud.comm.rank.moments.times):
+                    return
             elif not outcome.crowded or stop():
                 return
 
@@ -647,6 +685,11 @@ def _longer_than(p: Particles, most: float) -> tuple[NDArray[np.int64], NDArray[
     longest = p.R * longest_stretch(tuple(p.F.T))
     wrong = (longest > most) & (p.status <= Status.ACTIVE)
     return p.number[wrong], longest[wrong]
+
+
+def _last_end(p: Particles) -> float:
+    """Return the latest time of particles that were released, s; −∞ without any."""
+    return float(p.t[p.status != Status.PENDING].max(initial=-np.inf))
 
 
 def find_hosts(p: Particles, flow: Flow) -> None:

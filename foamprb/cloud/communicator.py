@@ -13,13 +13,14 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.instants import MARKS, STATE, Moments, hosts_at, state_at, status_at
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.state import Particles, Status, concatenate, empty
 from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.flow.base import Flow
 from foamprb.flow.loaded import LoadedFlow, loaded_fields
 
-__all__ = ["Communicator", "Rank", "Share", "applied", "parts_of", "same"]
+__all__ = ["Communicator", "Rank", "Share", "applied", "parts_of", "same", "store_at"]
 
 Value = TypeVar("Value")
 Arrays = Mapping[str, NDArray[Any]]
@@ -77,6 +78,8 @@ class Rank:
         """Arguments of the flow's kernels."""
         self.sampled: Any = None
         """Fields of the flow that are sampled."""
+        self.moments = Moments()
+        """Instants at which the next steps store the state."""
 
     @property
     def particles(self) -> Particles:
@@ -101,12 +104,27 @@ class Rank:
         """Return which of the given particles this rank owns, and the rows of these."""
         return np.ones(len(numbers), dtype=bool), numbers
 
+    def at_instant(self, time: float, in_flow: bool, now: Particles | None = None) -> Particles:
+        """Return the particles at an instant of the last steps, s; at any other time, as they are.
+
+        ``in_flow`` tells whether they are needed with their hosts. ``now`` is a copy of the particles.
+        """
+        p, moments = self.particles if now is None else now, self.moments
+        if time not in moments.times:
+            return p
+        then = state_at(p, self.share.memory, moments.times.index(time), moments)
+        if not in_flow:
+            return then
+        hosts = hosts_at(self.tracker.kernels, self.flow, p, then.x)
+        return then._replace(host=hosts.astype(p.host.dtype))
+
     def advance(self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool]) -> Outcome:
         """Advance the particles by some steps in the loaded flow."""
         until = self.tracker.start + (step + steps) * self.tracker.dt
         observers = None if self.sampling is None else self.sampling.observers(self, until)
         arguments = self.flow, self.particles, step, steps, self.threads, bounds, stop, self.sampled
-        return self.tracker.advance(*arguments, observers)
+        stored = (self.moments, self.share.memory) if self.moments.times else None
+        return self.tracker.advance(*arguments, observers, stored)
 
 
 class Communicator:
@@ -256,6 +274,26 @@ def normals_at(rank: Rank, numbers: NDArray[np.int64]) -> tuple[NDArray[Any], ..
 def take_rebounds(rank: Rank) -> NDArray[np.float64]:
     """Return the rebounds on a rank since the last call."""
     return rank.tracker.take_rebounds()
+
+
+def store_at(rank: Rank, moments: Moments) -> None:
+    """Let the next steps of a rank store the state at some instants; those of the same are kept."""
+    if moments == rank.moments:
+        return
+    memory = {name: array for name, array in rank.share.memory.items() if name not in (STATE, MARKS)}
+    rank.moments, rank.share = moments, rank.share._replace(memory=memory)
+    if moments.times:
+        add_arrays(rank, moments.layout())
+
+
+def count_at(rank: Rank, time: float) -> NDArray[np.int64]:
+    """Return the number of particles of each status on a rank, see :meth:`Rank.at_instant`."""
+    p, moments = rank.particles, rank.moments
+    if time in moments.times:
+        status = status_at(p, rank.share.memory, moments.times.index(time), moments)[1]
+    else:
+        status = p.status
+    return np.bincount(status, minlength=len(Status))
 
 
 def add_arrays(rank: Rank, layout: Arrays) -> None:

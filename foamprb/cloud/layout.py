@@ -7,8 +7,10 @@ the first row of each quantity (:func:`offsets`), so that a line of a kernel rea
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from itertools import accumulate
+from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 import numpy as np
@@ -66,10 +68,11 @@ class Layout(NamedTuple):
 Declared = TypeVar("Declared", bound=tuple[int, ...])
 
 
-def rows_of(declaration: type[tuple[int, ...]]) -> dict[str, Row]:
+@cache
+def rows_of(declaration: type[tuple[int, ...]]) -> Mapping[str, Row]:
     """Return the rows of a declaration by name, in order."""
     hints = get_type_hints(declaration, include_extras=True)
-    return {name: hint.__metadata__[0] for name, hint in hints.items()}
+    return MappingProxyType({name: hint.__metadata__[0] for name, hint in hints.items()})
 
 
 def offsets(declaration: type[Declared], first: int = 0) -> Declared:

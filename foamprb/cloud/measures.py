@@ -454,6 +454,8 @@ fluid at the centre and the particle's velocity relative to it, and ``muc`` is t
 ``swimmingDirection`` is 0 without swimming, as are the components 111 112 113 122 123 222 223 of the
 ``quadraticShape``, and its ``bulletAmplitude`` ε, without that mode.
 """
+OF_RATES = ("stresslet", "angularVelocity")
+"""Measures that depend on dF/dt."""
 _TAKEN = frozenset(MEASURES) | frozenset(
     (
         "id", "d", "rho", "Ca", "t0", "x0", "y0", "z0", "t1", "x1", "y1", "z1", "fate", "patch",

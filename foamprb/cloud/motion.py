@@ -330,7 +330,7 @@ def cross_patch(
     if code == MIRROR:
         y0, turn = x0, mirror_body(block, i, normal(flow, triangle, x0))
     else:
-        s.passed[i] = 1
+        s.passed[i], s.instants.crossed[i] = 1, t
         record_contact(s, i, patch, t, x0, _NO_NORMAL)
         host, y0, turn = cross(flow, triangle, x0)
         s.host[i] = host

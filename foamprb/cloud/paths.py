@@ -104,6 +104,8 @@ class RecordedRows(NamedTuple):
     """Whether ``A`` is the body's velocity gradient in the frame Q, in place of dF/dt."""
     end_l: int = -1
     """−1 if the fluid is not sampled at the end of a step."""
+    v: int = at.v
+    """The velocity with which steps start: without inertia not always that of the state."""
 
     def starts(self, needs: Collection[str], mode: Mapping[str, int]) -> NDArray[np.int64]:
         """Return the rows that are recorded before a step is accepted, and those of the table, (k, 2).
@@ -115,7 +117,7 @@ class RecordedRows(NamedTuple):
         mode
             Rows of the quadratic mode in the block; empty without it.
         """
-        rows = {"t": at.t, "x": at.x, "v": at.v, "F": at.F, "Q": self.Q, "l": self.l, "A": self.A, **mode}
+        rows = {"t": at.t, "x": at.x, "v": self.v, "F": at.F, "Q": self.Q, "l": self.l, "A": self.A, **mode}
         return _pairs({f"{name}0": row for name, row in rows.items()}, needs)
 
     def ends(self, needs: Collection[str]) -> NDArray[np.int64]:

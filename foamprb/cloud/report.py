@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.measures import (
     MEASURES,
+    OF_RATES,
     WRITTEN,
     FlowSamples,
     contexts,
@@ -35,6 +36,16 @@ class Contents(NamedTuple):
     """Whether numbers have single precision."""
     single_places: bool = False
     """Whether positions have single precision."""
+
+    @property
+    def of_flow(self) -> bool:
+        """Whether a measure depends on the flow."""
+        return any(MEASURES[name].of_flow for name in self.arrays)
+
+    @property
+    def of_rates(self) -> bool:
+        """Whether a measure depends on dF/dt."""
+        return not set(self.arrays).isdisjoint(OF_RATES)
 
 
 def report(

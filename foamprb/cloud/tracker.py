@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import InitVar, dataclass
 from functools import partial
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,13 +30,14 @@ from foamprb.cloud.block import Medium, Scratch, new_scratch
 from foamprb.cloud.contact import CROWDED, contact_normals, in_order
 from foamprb.cloud.drops import DROP_BINDINGS
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
+from foamprb.cloud.instants import Moments, instants_of
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.base import track_share
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.lanes import PAUSED
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import LoopLimits
-from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, interrupted
+from foamprb.cloud.motion import RARE, SHORTEST_STEP, UNLISTED, PatchTable, interrupted
 from foamprb.cloud.needs import needed_by, reader_of
 from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, Adhere, Interaction, Rebound
 from foamprb.cloud.paths import COLUMNS, COLUMNS_OF_ELLIPSOIDS, MODE, ROOM, Steps, steps_of
@@ -288,18 +289,24 @@ class Tracker:
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
         fields: Fields | None = None,
         observers: Observers | None = None,
+        stored: Stored | None = None,
     ) -> Scratch:
         lasting = self.layout.lasting, self.layout.fresh
         scratch = new_scratch(self.layout.rows, stop, bounds, self._room, lasting)
+        recorded = self.integrator.recorded
+        parts = [part for part in self.layout.parts if isinstance(part, QuadraticRows)]
+        mode = {name: row for part in parts for name, row in part._asdict().items()}
         if observers is not None:
-            recorded, needs = self.integrator.recorded, observers.needs
-            parts = [part for part in self.layout.parts if isinstance(part, QuadraticRows)]
-            mode = {name: row for part in parts for name, row in part._asdict().items()}
+            needs = observers.needs
             columns = COLUMNS if mode and needs & MODE else COLUMNS_OF_ELLIPSOIDS
             scratch = scratch._replace(
                 paths=np.empty((ROOM, columns, LANES)), starts=recorded.starts(needs, mode),
                 ends=recorded.ends(needs), watched=observers.watched,
             )  # fmt: skip
+        if stored is not None:
+            slack = 2.0 * SHORTEST_STEP * self.dt
+            at_instants = instants_of(*stored, recorded, self.layout, mode, slack)
+            scratch = scratch._replace(instants=at_instants)
         return scratch._replace(fields=fields.arrays) if self._columns and fields is not None else scratch
 
     def advance(
@@ -313,6 +320,7 @@ class Tracker:
         stop: Callable[[], bool] = never,
         fields: Fields | None = None,
         observers: Observers | None = None,
+        stored: Stored | None = None,
     ) -> Outcome:
         """Advance particles from step ``step`` by ``steps`` steps, in place.
 
@@ -329,6 +337,8 @@ class Tracker:
             Fields of the case at the loaded times, if the flow was read with some.
         observers
             Functions to which the steps are given.
+        stored
+            Instants within the steps, and the arrays in which the state there is stored.
         """
         last = step + steps
         dt, start = times = self._times(step)
@@ -340,7 +350,7 @@ class Tracker:
         for end in sorted({*np.unique(reached[(reached > step) & (reached < last)]).tolist(), last}):
             rows = np.flatnonzero(np.isin(p.status, self.movable) & (reached <= step))
             part = self._carry(
-                flow, p, rows, (step, end - step), times, threads, bounds, stop, fields, observers
+                flow, p, rows, (step, end - step), times, threads, bounds, stop, fields, observers, stored
             )
             outcome += part
             if not part.finished:
@@ -368,12 +378,13 @@ class Tracker:
         stop: Callable[[], bool],
         fields: Fields | None,
         observers: Observers | None,
+        stored: Stored | None,
     ) -> Outcome:
         """Advance the particles of some rows from a step by a number of steps."""
         halt = np.zeros(1, dtype=np.int64)
 
         def work(task: Task) -> Outcome:
-            scratch = self._scratch(halt, bounds, fields, observers)
+            scratch = self._scratch(halt, bounds, fields, observers, stored)
             mended = 0
             for part in task.parts(self.integrator.adaptive or observers is None):
                 going_on = 1
@@ -425,6 +436,10 @@ class Tracker:
         """Return the records since the last call, as :func:`foamprb.cloud.contact.in_order` does."""
         records, self.rebounds = self.rebounds, []
         return in_order(records)
+
+
+Stored: TypeAlias = tuple[Moments, Mapping[str, NDArray[Any]]]
+"""Instants, and the arrays in which the state there is stored, see :mod:`foamprb.cloud.instants`."""
 
 
 class Observers(NamedTuple):

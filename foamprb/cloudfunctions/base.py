@@ -180,7 +180,7 @@ class CloudFunction:
         return False
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
-        """Write the data into the function's own folder, at each write time."""
+        """Write the data into the function's own folder, after each write time."""
         raise NotImplementedError
 
     def fates(self, memory: Memory, fields: Sequence[FieldColumns]) -> Mapping[str, Column]:  # noqa: ARG002

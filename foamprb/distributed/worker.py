@@ -465,12 +465,11 @@ class Worker(Rank):
         contents
             The arrays to write.
         """
-        if self.number and not len(injected(self.particles)):
+        p = self.at_instant(time, contents.of_flow or len(self.seen.field_columns) > 0)
+        if self.number and not len(injected(p)):
             return None
-        file, mu = piece_file(folder, self.number), self.tracker.mu
-        return file, write_snapshot(
-            file, report(self.particles, self.seen, mu, time, contents, self.particles.number)
-        )
+        file = piece_file(folder, self.number)
+        return file, write_snapshot(file, report(p, self.seen, self.tracker.mu, time, contents, p.number))
 
     def serve(self, signals: Sequence[int]) -> int:
         """Execute the calls of the first process until it dismisses all; return the exit status.

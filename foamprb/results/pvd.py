@@ -72,8 +72,8 @@ class Series:
         self.add(cloud.time, file)
         return file
 
-    def next(self, time: float) -> Path:
-        """Return the file for the snapshot of a time, s, without its ending.
+    def next(self, time: float, ahead: int = 0) -> Path:
+        """Return the file for the snapshot of a time, s, without its ending, after some that are not listed.
 
         Raises
         ------
@@ -84,7 +84,7 @@ class Series:
             raise ValueError(f"Time {time!r} s does not follow {self.entries[-1].time!r} s.")
         last = re.search(r"_(\d+)\.p?vtp$", self.entries[-1].file) if self.entries else None
         index = int(last[1]) + 1 if last else len(self.entries)
-        return self.folder.snapshot(index)
+        return self.folder.snapshot(index + ahead)
 
     def add(self, time: float, file: Path) -> None:
         """List a complete file, named by :meth:`next`.

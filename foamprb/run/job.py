@@ -106,6 +106,13 @@ class Job:
         interval = max(1, round(solution.writeInterval / solution.deltaT))
         return min(self.steps, (step // interval + 1) * interval)
 
+    def writes(self, first: int, last: int) -> list[int]:
+        """Return the steps after ``first`` up to ``last`` at which results are written."""
+        steps, step = [], first
+        while step < min(last, self.steps) and (step := self.next_write(step)) <= last:
+            steps.append(step)
+        return steps
+
     @property
     def injector_names(self) -> tuple[str, ...]:
         """Names of the injection models, in the order of the codes in ``Particles.injector``."""

@@ -138,10 +138,20 @@ class RunLog:
         """Log the start of the time loop."""
         log.info("\nStarting time loop\n")
 
-    def write_time(self) -> None:
-        """Log the numbers of particles at a write time, and the failures since the time before."""
-        cloud, counts = self._job.cloud, self._job.cloud.counts()
-        log.info("Time = %.12g\n", cloud.time)
+    def write_times(self, steps: Sequence[int]) -> None:
+        """Log the numbers of particles at write times, the ends of some steps, and the failures until now."""
+        for step in steps:
+            self._log_numbers(self._job.cloud.time_of(step))
+        self._log_steps()
+        self._log_clocks()
+        self._log_failures()
+        self._log_unstable()
+        self._log_slip()
+
+    def _log_numbers(self, time: float) -> None:
+        """Log the numbers of particles at a write time, s."""
+        cloud, counts = self._job.cloud, self._job.cloud.counts_at(time)
+        log.info("Time = %.12g\n", time)
         log.info("Cloud: %s", self._job.settings.name)
         log.info("    Current number of parcels       = %d", counts[Status.ACTIVE])
         log.info("    injected                        = %d", sum(counts.values()) - counts[Status.PENDING])
@@ -150,11 +160,6 @@ class RunLog:
         if cloud.models.has_fates:
             log.info("    ruptured, released              = %d, %d",
                      counts[Status.RUPTURED], counts[Status.RELEASED])  # fmt: skip
-        self._log_steps()
-        self._log_clocks()
-        self._log_failures()
-        self._log_unstable()
-        self._log_slip()
 
     def end(self, finished: bool) -> None:
         """Log the fates of the particles, the folder of the results, and End if the run has ``finished``."""

@@ -29,9 +29,11 @@ def execute(
 ) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
 
-    A checkpoint is written with the results of every write time, after them. The particles advance while the
-    files are written, until the next are due. Whatever ends a run, another one started from ``latestTime``
-    ends with the same state and the same files, bit for bit, as an uninterrupted run.
+    No step ends for a write time: the particles advance to the end of their stretch of steps, and their state
+    at the write times within it is stored on the way. A checkpoint of the end of the stretch is written after
+    the results. The particles advance while the files are written, until the next are due. Whatever ends a
+    run, another one started from ``latestTime`` ends with the same state and the same files, bit for bit, as
+    an uninterrupted run.
 
     Parameters
     ----------
@@ -68,26 +70,26 @@ def execute(
             raise RunStopped(f"stopped before the first step{following.reason}.")
         results.write_start()
         stepper = Stepper(cloud)
-        schedule = _Schedule(stepper, job.compilation)
+        schedule = _Schedule(stepper, job.compilation, results.store_between)
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
             while cloud.step < job.steps and (cloud.step == 0 or _moving(cloud)) and not _failing(job):
                 before = cloud.step
                 try:
-                    reached = _advance_to_write(job, results, schedule, stop, show)
+                    due = _advance_to_write(job, results, schedule, stop, show)
                 finally:
                     # This explains errors of reading better.
                     if following is not None:
                         following.require_unchanged(cloud.time)
-                if not reached:
+                if due is None:
                     results.save()
                     reason = following.reason if following is not None else ""
                     raise RunStopped(f"stopped at t = {cloud.time:.12g} s{reason}. {HOW_TO_GO_ON}")
                 if cloud.step == before:
                     # The solver has ended meanwhile.
                     break
-                results.write()
-                log.write_time()
+                log.write_times(due)
+                results.write(due)
                 if cloud.step < job.steps:
                     cloud.comm.regroup()
         if following is not None:
@@ -156,21 +158,28 @@ def _advance_to_write(
     schedule: _Schedule,
     stop: Callable[[], bool],
     show: Callable[[float], None],
-) -> bool:
-    """Advance to the next write time; return whether it was reached before ``stop`` returned True."""
+) -> list[int] | None:
+    """Advance to the end of the stretch of steps with the next write time.
+
+    Returns
+    -------
+    The steps that end at the write times until there; None if ``stop`` returned True before.
+    """
     cloud, first, following = job.cloud, job.cloud.step, job.following
     # The target is an earlier one if the solver of the flow has ended meanwhile.
-    while cloud.step < job.next_write(first) and _moving(cloud):
+    while cloud.step < (due := job.next_write(first)) and _moving(cloud):
         results.check()
         if stop() or (following is not None and not following.wait(cloud, stop)):
-            return False
-        until = job.next_write(first)
+            return None
+        until = min(job.steps, -(-due // cloud.stretch_steps) * cloud.stretch_steps)
         computed = until if following is None else min(until, cloud.steps_until(following.flow.span[1]))
         if computed > cloud.step:
             schedule.advance(computed, stop)
         show(cloud.time)
-    cloud.step = job.next_write(first)
-    return True
+    if not _moving(cloud):
+        # Later results would repeat those after the last end.
+        cloud.step = job.next_write(max(first, cloud.steps_before(cloud.last_end)))
+    return job.writes(first, cloud.step)
 
 
 MOST_STEPS = 200_000_000
@@ -187,15 +196,18 @@ _SLOWER, _FASTER = 0.1, 4.0
 class _Schedule:
     """Number of steps per call of the stepper, large enough that loading and storing particles is cheap."""
 
-    def __init__(self, stepper: Stepper, compilation: Compilation) -> None:
-        self.stepper, self.compilation = stepper, compilation
+    def __init__(
+        self, stepper: Stepper, compilation: Compilation, prepare: Callable[[int, int], None]
+    ) -> None:
+        self.stepper, self.compilation, self._prepare = stepper, compilation, prepare
         self._steps: float = 0.0
 
     def advance(self, target: int, stop: Callable[[], bool]) -> None:
         """Take some steps towards a target."""
-        steps = self._next_steps(target)
+        steps, cloud = self._next_steps(target), self.stepper.cloud
+        self._prepare(cloud.step, cloud.step + steps)
         # A call that includes compilation is no measure of the next.
-        compiled, started = self.stepper.cloud.tracker.compiled, clock.perf_counter()
+        compiled, started = cloud.tracker.compiled, clock.perf_counter()
         # Of several ranks, each compiles the loop with its first steps.
         with nullcontext() if compiled else self.compilation.shown():
             self.stepper.advance(steps, stop)

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.communicator import Rank
+from foamprb.cloud.instants import MARKS, STATE
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
@@ -137,6 +138,7 @@ def checkpoint_of(
     marks: Fingerprint,
     parts: Sequence[tuple[int, str]] = (),
     around: Sequence[Sums] = (),
+    stored: Sequence[float] = (),
 ) -> Checkpoint:
     """Return the checkpoint of a run, without the particles if several processes hold them.
 
@@ -154,6 +156,8 @@ def checkpoint_of(
         Numbers and checksums of the parts with the particles of several processes.
     around
         :func:`sums_around` at its time.
+    stored
+        Times, s, at which some particles have stored their state, in the arrays of ``functions``.
     """
     header = {
         "step": cloud.step,
@@ -165,6 +169,7 @@ def checkpoint_of(
         "times": _times_until(cloud.flow, cloud.time),
         **({"around": list(around)} if around else {}),
         "parts": list(parts),
+        **({"stored": list(stored)} if stored else {}),
     }
     return Checkpoint(cloud.time, header, _arrays_of(cloud.particles, functions))
 
@@ -245,11 +250,15 @@ def _times_until(flow: Flow, t: float) -> tuple[float, ...]:
     return flow.times_until(t) if isinstance(flow, Timeline) and flow.period is None else ()
 
 
-def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoint, where: str) -> None:
+def restore(
+    cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoint, with_rates: bool, where: str
+) -> None:
     """Put a cloud that has not been advanced, and its functions, into the state that a checkpoint holds.
 
     Parameters
     ----------
+    with_rates
+        See :meth:`foamprb.cloud.cloud.Cloud.store_at`.
     where
         What a message begins with.
 
@@ -269,7 +278,9 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: StoredCheckpoin
             "Start over: -overwrite, or startFrom startTime."
         )
     stored = [name.removeprefix(FUNCTIONS) for name in checkpoint.layout if name.startswith(FUNCTIONS)]
-    functions.restore(stored, lambda name: checkpoint.read(f"{FUNCTIONS}{name}"))
+    of_functions = [name for name in stored if name not in (STATE, MARKS)]
+    functions.restore(of_functions, lambda name: checkpoint.read(f"{FUNCTIONS}{name}"))
+    cloud.store_at(header.get("stored", ()), with_rates)
     cloud.comm.call(_restore_rank, checkpoint.path)
     cloud.step, cloud.recovered, cloud.reach = header["step"], header["recovered"], header["reach"]
     if cloud.tracker.stride is None:

@@ -31,6 +31,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Sampled
+from foamprb.flow.fields import columns_of
 from foamprb.memory import OutOfMemory, ran_out
 from foamprb.results.atomic import before_each_file, only_writer, remove_unfinished
 from foamprb.results.background import Writer
@@ -168,10 +169,17 @@ class Results:
         """Raise OSError if the thread could not write a file."""
         self._writer.check()
 
-    def write(self) -> None:
-        """Write the files of a write time: snapshot, tables of the cloud functions, checkpoint.
+    def store_between(self, first: int, last: int) -> None:
+        """Let the steps from ``first`` to ``last`` store the state at the write times between these."""
+        cloud = self._job.cloud
+        times = [cloud.time_of(step) for step in self._job.writes(first, last - 1)]
+        cloud.store_at(times, self._contents.of_rates)
 
-        Snapshot and checkpoint are written from a copy while the cloud advances.
+    def write(self, steps: Sequence[int]) -> None:
+        """Write snapshots of the ends of some steps, tables of the cloud functions, and a checkpoint.
+
+        Snapshots and checkpoint are written from a copy while the cloud advances. Tables and checkpoint are
+        those of the present time.
 
         Raises
         ------
@@ -183,13 +191,19 @@ class Results:
         with before_each_file(self._manifest.expect_table):
             self._job.functions.write(self._job.folder.path)
         memory = {name: array.copy() for name, array in self._job.functions.state().items()}
-        stem = self._series.next(cloud.time)
-        files = cloud.comm.piece_files(stem)
-        expected = [self._job.folder.pvd, *(files or [with_ending(stem, ".vtp")])]
-        self._manifest.expect([*expected, *self._checkpoint_files(now=True)])
-        write_cloud = self._begin_pieces(stem) if files else self._begin_cloud(snapshot)
+        times = [cloud.time_of(step) for step in steps]
+        stems = {time: self._series.next(time, ahead) for ahead, time in enumerate(times)}
+        pieces = {time: cloud.comm.piece_files(stem) for time, stem in stems.items()}
+        files = [file for time, stem in stems.items() for file in pieces[time] or [with_ending(stem, ".vtp")]]
+        expected = [self._job.folder.pvd, *files, *self._checkpoint_files(now=True)]
+        self._manifest.expect(expected)
+        begun = [
+            self._begin_pieces(stem, time) if pieces[time] else self._begin_cloud(snapshot, time)
+            for time, stem in stems.items()
+        ]
+        cloud.store_at(())
         parts = self._write_parts()
-        self._writer.submit(partial(self._end_write, write_cloud, snapshot, memory, parts))
+        self._writer.submit(partial(self._end_write, begun, snapshot, memory, parts))
 
     def save(self) -> None:
         """Write only a checkpoint, for a run that is stopped between two write times.
@@ -201,7 +215,9 @@ class Results:
         """
         cloud = self._ready()
         self._manifest.settle(self._checkpoint_files(now=True))
-        self._write_checkpoint(cloud, self._job.functions.state(), self._write_parts())
+        # Particles that are ahead of the others have passed write times.
+        memory = {**self._job.functions.state(), **cloud.stored}
+        self._write_checkpoint(cloud, memory, self._write_parts(), cloud.comm.rank.moments.times)
 
     def end(self) -> None:
         """Write ``fates``, a row per particle, and ``failed`` if a particle failed.
@@ -232,14 +248,18 @@ class Results:
         self._around = sums_around(cloud.flow, cloud.time)
         return cloud
 
-    def _begin_cloud(self, snapshot: Snapshot) -> Callable[[], object]:
-        """Return a function that writes and lists a snapshot while the cloud advances."""
-        p, flow, time = snapshot.particles, snapshot.flow, snapshot.time
+    def _begin_cloud(self, snapshot: Snapshot, time: float) -> Callable[[], object]:
+        """Return a function that writes and lists a snapshot of a time, s, while the cloud advances."""
+        cloud, flow = self._job.cloud, snapshot.flow
+        in_flow = self._contents.of_flow or len(columns_of(flow)) > 0
+        if in_flow:
+            cloud.publish(time)
+        p = cloud.comm.rank.at_instant(time, in_flow, snapshot.particles)
         # A transient flow may have gone on to other times by then.
-        mu, steady = self._job.cloud.medium.mu, flow.span == (-np.inf, np.inf)
+        mu, steady = cloud.medium.mu, flow.span == (-np.inf, np.inf)
         seen = flow if steady else flow_samples(p, flow, time, mu, self._contents.arrays)
-        cloud = self._report(p, seen, time)
-        return lambda: self._series.append(cloud)
+        points = self._report(p, seen, time)
+        return lambda: self._series.append(points)
 
     def _report(
         self,
@@ -251,21 +271,22 @@ class Results:
         """Return a cloud with the arrays of the run, see :func:`foamprb.cloud.report.report`."""
         return report(particles, flow, self._job.cloud.medium.mu, time, self._contents, ids)
 
-    def _begin_pieces(self, stem: Path) -> Callable[[], object]:
-        """Let all ranks write their pieces; return a function that lists them."""
-        cloud, time = self._job.cloud, self._job.cloud.time
-        cloud.publish()
+    def _begin_pieces(self, stem: Path, time: float) -> Callable[[], object]:
+        """Let all ranks write their pieces of a time, s; return a function that lists them."""
+        cloud = self._job.cloud
+        cloud.publish(time)
         list_pieces = cloud.comm.write_pieces(stem, time, self._contents)
         return lambda: self._series.add(time, list_pieces())
 
     def _end_write(
         self,
-        write_cloud: Callable[[], object],
+        snapshots: Sequence[Callable[[], object]],
         snapshot: Snapshot,
         memory: Mapping[str, NDArray[Any]],
         parts: Sequence[tuple[int, str]],
     ) -> None:
-        write_cloud()
+        for write_snapshot in snapshots:
+            write_snapshot()
         self._write_checkpoint(snapshot, memory, parts)
 
     def _write_parts(self) -> list[tuple[int, str]]:
@@ -274,10 +295,14 @@ class Results:
         return cloud.comm.write_parts(self._checkpoints.file(cloud.time), cloud.time)
 
     def _write_checkpoint(
-        self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]], parts: Sequence[tuple[int, str]]
+        self,
+        cloud: Cloud | Snapshot,
+        memory: Mapping[str, NDArray[Any]],
+        parts: Sequence[tuple[int, str]],
+        stored: Sequence[float] = (),
     ) -> None:
         entries = self._series.entries
-        entries_of_run = self._fingerprint, parts, self._around
+        entries_of_run = self._fingerprint, parts, self._around, stored
         self._checkpoints.write(checkpoint_of(cloud, memory, entries, *entries_of_run))
 
     def _checkpoint_files(self, *, now: bool = False) -> list[Path]:
@@ -348,7 +373,7 @@ class Results:
             )
         refuse_other_times(checkpoint, job.cloud.flow, where)
         entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
-        restore(job.cloud, job.functions, checkpoint, where)
+        restore(job.cloud, job.functions, checkpoint, self._contents.of_rates, where)
         if self.finished:
             log.info("The run has ended at t = %.12g s: there is nothing to continue.", job.cloud.time)
             return

@@ -21,7 +21,7 @@ def calls(wanted: float, target: int, most: float = 1e9, stretch: int = 1, step:
     tracker = SimpleNamespace(stretch_steps=stretch, movable=(Status.PENDING, Status.ACTIVE))
     cloud = SimpleNamespace(step=step, tracker=tracker, counts=lambda: {Status.PENDING: 1, Status.ACTIVE: 3})
     stepper = SimpleNamespace(cloud=cloud)
-    schedule, found = _Schedule(cast("Any", stepper), Compilation()), []
+    schedule, found = _Schedule(cast("Any", stepper), Compilation(), lambda *_: None), []
     schedule._steps = wanted
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(loop, "MOST_STEPS", 4 * most)
@@ -61,6 +61,6 @@ def test_compilation_with_the_first_steps_is_logged(monkeypatch, caplog) -> None
     cloud = SimpleNamespace(step=0, tracker=tracker, counts=lambda: {Status.ACTIVE: 1})
     stepper = SimpleNamespace(cloud=cloud, advance=advance)
     with caplog.at_level(logging.INFO, "foamprb"):
-        _Schedule(cast("Any", stepper), Compilation()).advance(1, lambda: False)
+        _Schedule(cast("Any", stepper), Compilation(), lambda *_: None).advance(1, lambda: False)
     assert caplog.messages[0].startswith("Compiling the formulas, once")
     assert caplog.messages[-1] == "Compiled in 0 s"

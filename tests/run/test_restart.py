@@ -23,9 +23,11 @@ from pipe_case import EARLIER, END, edit, fates, message, results, stop_after, t
 
 from foamprb import execute, prepare
 from foamprb.cli import main
+from foamprb.cloud.instants import MARKS
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
 from foamprb.results.background import Writer
+from foamprb.results.checkpoint import StoredCheckpoint
 from foamprb.results.pvd import read_pvd
 from foamprb.run import restart
 
@@ -90,6 +92,28 @@ def test_steps_through_several_tracking_steps_do_not_depend_on_where_a_run_stops
     go_on(case, "-threads", "2")
     assert results(case) == expected
     assert stopped.tracker.stretch_steps > 1
+
+
+def test_a_run_that_stops_within_a_call_keeps_what_passed_write_times(case, monkeypatch):
+    """Some particles are then ahead of others, beyond write times."""
+    edit(case, r"shape\s+paper;", "shape rosenbrock;")
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.00014;")
+    assert main(["run", "-case", str(case)]) == 0
+    expected = results(case)
+    shutil.rmtree(case / "postProcessing")
+    monkeypatch.setattr("foamprb.cloud.tracker._PATIENCE", 0.0)
+    for _ in range(3):
+        job = prepare(case)
+
+        def passed(rank=job.cloud.comm.rank) -> bool:
+            return MARKS in rank.share.memory and bool(rank.share.memory[MARKS].any())
+
+        with pytest.raises(RunStopped):
+            execute(job, "latestTime", passed)
+        checkpoint = max((case / "postProcessing/softCloud/checkpoint").iterdir())
+        assert len(StoredCheckpoint(checkpoint).header["stored"]) > 0
+    go_on(case)
+    assert results(case) == expected
 
 
 def test_a_later_end_time_continues_the_run(case, truth):

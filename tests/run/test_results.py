@@ -18,7 +18,7 @@ import pyvista
 from pipe_case import edit, message, results
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-from foamprb import execute, prepare
+from foamprb import execute, open_run, prepare
 from foamprb.cli import main
 from foamprb.cloud.measures import WRITTEN
 from foamprb.cloud.state import Status
@@ -398,7 +398,7 @@ def test_the_cost_of_a_write_is_linear_in_the_number_of_snapshots(case):
         sys.setprofile(count)
         try:
             for job.cloud.step in range(1, 61):
-                written.write()
+                written.write([job.cloud.step])
                 thread.finish()
                 calls.append(0)
         finally:
@@ -406,3 +406,47 @@ def test_the_cost_of_a_write_is_linear_in_the_number_of_snapshots(case):
             threading.setprofile(None)
     # The lines of earlier snapshots are kept: without that they took twenty calls for each.
     assert sum(calls[50:60]) - sum(calls[20:30]) < 10 * 30 * 2
+
+
+def test_no_step_ends_for_a_write_time(case):
+    """Fates are the same to the last bit for any interval, and so is the cloud at times that two have."""
+    edit(case, r"shape\s+paper;", "shape auto;")
+    seen: dict[float, dict[float, Any]] = {}
+    tables = set()
+    for interval in (0.006, 0.002, 0.0005, 0.00014):
+        edit(case, r"writeInterval\s+\S+;", f"writeInterval {interval};")
+        assert main(["run", "-case", str(case), "-overwrite", "-threads", "2"]) == 0
+        run = open_run(case)
+        tables.add((case / "postProcessing/softCloud/fates.csv").read_bytes())
+        seen[interval] = {round(at, 9): run.snapshot(at) for at in run.times}
+    assert len(tables) == 1
+    assert len(seen[0.00014]) == 44
+    for coarse, fine in ((0.006, 0.002), (0.002, 0.0005)):
+        for at, snapshot in seen[coarse].items():
+            other = seen[fine][at]
+            np.testing.assert_array_equal(snapshot.points, other.points)
+            for name in ("U", "glyph", "status", "origId", "age"):
+                np.testing.assert_array_equal(snapshot[name], other[name])
+
+
+def test_a_snapshot_within_steps_is_that_of_steps_which_end_there(case):
+    """Within the tolerance, with all that depends on the flow there."""
+    edit(case, r"shape\s+paper;", "shape stokes;")
+    edit(
+        case, r"(writeInterval)\s+\S+;", r"\1 0.00154; writeFields (stresslet shearRate angularVelocity Uc);"
+    )
+    assert main(["run", "-case", str(case)]) == 0
+    within = open_run(case).snapshot(0.00462)
+    edit(case, r"endTime\s+\S+;", "endTime 0.00462;")
+    assert main(["run", "-case", str(case), "-overwrite"]) == 0
+    ended = open_run(case).snapshot(0.00462)
+    np.testing.assert_array_equal(within["origId"], ended["origId"])
+    np.testing.assert_array_equal(within["status"], ended["status"])
+    # The tolerance of 1e-4 is that of the way of a step, some 0.4 mm.
+    assert np.abs(within.points - ended.points).max() < 1e-4 * 1e-3
+    for name, tolerance in (("Uc", 1e-5), ("shearRate", 1e-4), ("glyph", 1e-3), ("U", 1e-3)):
+        difference = np.abs(within[name] - ended[name]).max()
+        assert difference < tolerance * np.abs(ended[name]).max(), name
+    for name in ("stresslet", "angularVelocity"):
+        difference = np.abs(within[name] - ended[name])
+        assert np.quantile(difference, 0.95) < 0.02 * np.abs(ended[name]).max(), name

@@ -193,8 +193,13 @@ def writings(case: str, file: str, window: int) -> list[float]:
 
     execute(job, "startTime", observe)
     shutil.rmtree(job.folder.path)
+    # Several snapshots are written after a stretch of steps.
     last = max(clocks)
-    return [(clocks[step] - clocks[step - window]) / window for step in (5 + window, last)]
+    ends = [
+        [min(step for step in clocks if step >= sought) for sought in (first, first + window)]
+        for first in (5, last - window)
+    ]
+    return [(clocks[after] - clocks[before]) / (after - before) for before, after in ends]
 
 
 def _openfoam(case: Path, size: Size) -> dict[str, Callable[[], float]]:

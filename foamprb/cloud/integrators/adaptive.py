@@ -60,6 +60,7 @@ from foamprb.cloud.block import (
     store9,
     store_fluid,
 )
+from foamprb.cloud.instants import capture, record_before
 from foamprb.cloud.integrators.base import (
     apply_surroundings,
     held_for,
@@ -483,6 +484,7 @@ def track_adaptive(
         for i in range(LANES):
             approach(flow, patches, scratch, i, dt, tolerance)
         record_starts(scratch)
+        record_before(scratch)
         accept_stage(block, tolerance)
 
         for i in range(LANES):
@@ -520,6 +522,7 @@ def track_adaptive(
             if at_end and block[during.held_until * LANES + i] >= current[i] + scratch.stride[i]:
                 end_tracking_steps(scratch, i)
         record_ends(scratch)
+        capture(scratch)
     end_block(scratch)
     return walks_relocated(scratch)
 
@@ -709,5 +712,7 @@ def update_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) 
             leave(p, s, i)
 
 
-RARE = (fill_lanes, set_thirds_aside, swap_lanes, update_ends, record_starts, record_ends)
+RARE = (
+    fill_lanes, set_thirds_aside, swap_lanes, update_ends, record_starts, record_ends, record_before, capture
+)  # fmt: skip
 """Functions that few steps call, compiled as separate functions to keep the loop short."""

@@ -376,7 +376,9 @@ STOKES = Integrator(
         end_inertialess,
     ),
     layout=layout(at, during, work),
-    recorded=RecordedRows(during.start_Q, during.start_l, work.l_s, in_frame=True, end_l=during.end_l),
+    recorded=RecordedRows(
+        during.start_Q, during.start_l, work.l_s, in_frame=True, end_l=during.end_l, v=during.start_v
+    ),
     rare=RARE,
     bindings={
         **ADAPTIVE_BINDINGS,
