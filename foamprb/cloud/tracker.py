@@ -216,6 +216,7 @@ class Tracker:
         # The flow and the models offer more than every loop reads.
         read = read_by(track_share, {**bindings, "track": integrator.track})
         self.kernels = kernels
+        self._of_normals = read_by(contact_normals, bindings)
         self.bindings = {name: bindings[name] for name in bindings if name in read or name in required}
         self.separate: tuple[Callable[..., Any], ...] = (
             *integrator.stages,
@@ -428,8 +429,7 @@ class Tracker:
     def contact_normals(self, flow: Any, p: Particles, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""
         normals = np.empty((len(rows), 3))
-        bindings = read_by(contact_normals, {**self.kernels, **self.bindings})
-        link(contact_normals, bindings, self.separate)(flow, p, rows, normals)
+        link(contact_normals, self._of_normals, self.separate)(flow, p, rows, normals)
         return normals
 
     def take_rebounds(self) -> NDArray[np.float64]:
