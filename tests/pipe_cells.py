@@ -6,36 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from validation.fits import MEAN, RADIUS, SETTINGS
 
 from foamprb import analytic
 from foamprb.run.device import Bodies, Device, plane_of, view_of
 from foamprb.run.job import Job, assemble
 from foamprb.run.measured import Measured, read_measured
 from foamprb.settings.settings import read_settings
-
-RADIUS, MEAN, MU = 1e-4, 5e-3, 1.0
-SETTINGS = """
-solution { deltaT 2e-3; endTime 2; integrationSchemes { shape stokes; } }
-constantProperties { rho0 1000; rhoInf 1000; mu 1; solid { type neoHooke; shearModulus 300; viscosity 1; } }
-subModels
-{
-    particleForces { ellipsoidDrag; }
-    injectionModels
-    {
-        cells
-        {
-            type lineInjection;
-            start (1e-6 -9e-5 0); end (1e-6 9e-5 0); number 37;
-            sizeDistribution { type fixedValue; fixedValueDistribution { value 15e-6; } }
-        }
-    }
-    patchInteractionModel localInteraction;
-    localInteractionCoeffs
-    {
-        patches ( wall { type rebound; } "(inlet|outlet)" { type escape; } );
-    }
-}
-"""
 
 
 def pipe_job(folder: Path, text: str = SETTINGS, flow=None, threads: int = 1) -> Job:
