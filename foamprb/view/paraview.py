@@ -115,7 +115,9 @@ colours.RescaleTransferFunction(*COLOURS)
 shown.SetScalarBarVisibility(view, True)
 bar = simple.GetScalarBar(colours, view)
 bar.Title, bar.ComponentTitle, bar.Orientation = "Taylor deformation", "", "Horizontal"
-bar.WindowLocation, bar.Position, bar.ScalarBarLength = "Any Location", [0.03, 0.04], 0.28
+# Beside the axes. Labels at round numbers only: those of the ends are 0.0e+00 and 6.0e-01.
+bar.WindowLocation, bar.Position, bar.ScalarBarLength = "Any Location", [0.17, 0.04], 0.28
+bar.AddRangeLabels = 0
 bar.TitleColor = bar.LabelColor = INK
 bar.TitleFontSize = bar.LabelFontSize = 14
 

@@ -30,9 +30,9 @@ Floats = NDArray[np.float64]
 
 FATES = {
     "active": NAMES[0], "stuck": NAMES[5], "escaped": NAMES[2], "failed": NAMES[3],
-    "ruptured": NAMES[7], "released": "#9467bd",
+    "ruptured": "#8800ff", "released": "#dd0044",
 }  # fmt: skip
-"""Colour of each fate, with a contrast of about 3 to light and dark backgrounds."""
+"""Colour of each fate: a contrast of about 3 to light and dark, distances also for the colour-blind."""
 _INK, _SOFT, _PAPER = "#17202a", "#4c5966", "#ffffff"
 _BINS = 40
 _HATCHES = dict(zip(FATES, ("", "///", "...", "xxx", "ooo", "\\\\\\"), strict=True))
