@@ -33,7 +33,7 @@ _UNITS = {
 """Factors to SI units of each quantity, by unit."""
 SHAPES = ("strain", "deformation", "angle", "treading")
 """Measured quantities that depend on the shape."""
-_WITH_ERRORS = ("d", "area", *SHAPES)
+_WITH_ERRORS = ("area", *SHAPES)
 _HEAD = re.compile(r"\s*([^\[\]]*?)\s*(?:\[\s*(.*?)\s*\])?\s*")
 
 
@@ -48,8 +48,8 @@ class Measured:
     columns
         Values in SI units by name, (n,): x, y, z (place), d (diameter at rest), area (of the outline),
         strain ((a − b)/√(ab) of its semi-axes), deformation (1 − 2√(πA)/P), angle (of its long axis with the
-        normal of the plane) and treading (angular velocity of the surface); each but the place with its
-        standard error, ``strainError``. NaN where a value is missing.
+        normal of the plane) and treading (angular velocity of the surface); area and
+        shapes with their standard errors, ``strainError``. NaN where a value is missing.
     ids
         Numbers or names of the bodies, (n,).
     """

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -95,3 +97,10 @@ def test_a_measurement_of_dclab_is_read(tmp_path):
     np.testing.assert_allclose(measured.of("deformation"), [0.02, 0.03])
     with pytest.raises(InputError, match="not a file of dclab"):
         read_measured(table(tmp_path, "", "empty.rtdc"))
+
+
+def test_a_measurement_names_its_extra(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "dclab", None)
+    path = table(tmp_path, "", "cells.rtdc")
+    with pytest.raises(InputError, match=r"files of dclab need dclab: pip install 'foamprb\[cytometry\]'"):
+        read_measured(path)
