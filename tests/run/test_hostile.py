@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import shutil
 import signal
 from collections.abc import Callable, Iterator
@@ -13,9 +14,16 @@ from typing import Any
 
 import pytest
 import xxhash
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from pipe_case import edit, short_case
 
+from foamprb import InputError, open_run
 from foamprb.cli import main
+from foamprb.results.checkpoint import Checkpoints
+from foamprb.results.manifest import Manifest
+from foamprb.run.restart import require_header
+from foamprb.view.show import groups_of
 
 LONGEST = 60
 """Time after which a command counts as one that never ends, s."""
@@ -81,19 +89,25 @@ def in_pieces(piece: str) -> Change:
     return change
 
 
+def with_header(file: Path, change: Callable[[Any], Any]) -> None:
+    """Change the header of a checkpoint, whose checksum is right then."""
+    data = file.read_bytes()
+    first = data[: data.index(b"\n") + 1]
+    n = len(first)
+    place = int.from_bytes(data[n + 8 : n + 16], "little")
+    body = data[n + 8 : place] + json.dumps(change(json.loads(data[place:]))).encode()
+    file.write_bytes(first + xxhash.xxh3_64(first + body).digest() + body)
+
+
 def header(**entries: Any) -> Change:
-    """Entries of the headers of all checkpoints replaced, or removed if None; their checksums are right."""
+    """Entries of the headers of all checkpoints replaced, or removed if None."""
+
+    def changed(document: dict[str, Any]) -> dict[str, Any]:
+        return {key: value for key, value in {**document, **entries}.items() if value is not None}
 
     def change(case: Path) -> None:
         for file in (results_of(case) / "checkpoint").iterdir():
-            data = file.read_bytes()
-            first = data[: data.index(b"\n") + 1]
-            n = len(first)
-            place = int.from_bytes(data[n + 8 : n + 16], "little")
-            found = {**json.loads(data[place:]), **entries}
-            found = {key: value for key, value in found.items() if value is not None}
-            body = data[n + 8 : place] + json.dumps(found).encode()
-            file.write_bytes(first + xxhash.xxh3_64(first + body).digest() + body)
+            with_header(file, changed)
 
     return change
 
@@ -184,15 +198,15 @@ STUDIES: dict[str, tuple[str, str]] = {
 
 
 @pytest.fixture(scope="session")
-def _finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def ended(tmp_path_factory: pytest.TempPathFactory) -> Path:
     case = short_case(tmp_path_factory.mktemp("finished"))
     assert main(["run", "-case", str(case), "-threads", "1"]) == 0
     return case
 
 
 @pytest.fixture
-def finished(_finished: Path, tmp_path: Path) -> Path:
-    return shutil.copytree(_finished, tmp_path / "pipe")
+def finished(ended: Path, tmp_path: Path) -> Path:
+    return shutil.copytree(ended, tmp_path / "pipe")
 
 
 def said(capsys: pytest.CaptureFixture[str], *words: str) -> str:
@@ -206,8 +220,6 @@ def said(capsys: pytest.CaptureFixture[str], *words: str) -> str:
 
 
 def expect(pattern: str, text: str) -> None:
-    import re
-
     assert re.search(pattern, text), text[-2000:]
 
 
@@ -250,3 +262,66 @@ def test_pipes_and_devices_are_no_studies(tmp_path, capsys):
     os.mkfifo(tmp_path / "study.toml")
     for file in (tmp_path / "study.toml", Path("/dev/zero")):
         expect("is no study: it is not a regular file", said(capsys, "sweep", str(file), "-list"))
+
+
+N_EXAMPLES = 100_000 if os.environ.get("HYPOTHESIS_PROFILE") == "nightly" else 200
+VALUES: list[Any] = [None, True, -1, 0, 10**18, 10**400, 1e308, "", "x", "../x", "/dev/zero"]
+VALUES += [[], {}, [[]], [None], {"a": []}]
+TEXTS = [b"", b"nan", b"-1", b"9" * 400, b"1e999", b"<a>", b"&b;", b"\0", b"\xff", b'"', b",", b"../x"]
+TEXTS += [b"[" * 2000]
+
+
+def places(value: Any) -> list[tuple[Any, Any]]:
+    """Containers and keys of all values in a document."""
+    if isinstance(value, dict):
+        return [place for key in value for place in [(value, key), *places(value[key])]]
+    if isinstance(value, list):
+        return [place for k in range(len(value)) for place in [(value, k), *places(value[k])]]
+    return []
+
+
+def changed_value(draw: Any, document: Any) -> Any:
+    container, key = draw(st.sampled_from(places(document)))
+    container[key] = draw(st.sampled_from(VALUES))
+    return document
+
+
+def changed_bytes(draw: Any, data: bytes) -> bytes:
+    at = draw(st.integers(0, len(data)))
+    length = draw(st.sampled_from([0, 1, 2, 8, len(data)]))
+    return data[:at] + draw(st.sampled_from(TEXTS) | st.binary(max_size=4)) + data[at + length :]
+
+
+def read_all(case: Path) -> None:
+    """Read what commands read of a run."""
+    run = open_run(case)
+    groups_of(run.record)
+    for index in range(len(run.times)):
+        run.cloud(index)
+    run.fates()
+    Manifest.read(results_of(case))
+    checkpoints = Checkpoints(results_of(case) / "checkpoint")
+    latest = checkpoints.latest(lambda stored: require_header(stored) is None)
+    if latest is not None:
+        latest.read_all()
+
+
+@settings(max_examples=N_EXAMPLES)
+@given(data=st.data())
+def test_changed_results_are_read_or_refused(data, ended):
+    """A value in a document, with right checksums, or some bytes of a file."""
+    # On clouds VTK could crash: tools/hardening/attacks changes them, in processes of their own.
+    files = [file for file in sorted(results_of(ended).rglob("*")) if file.suffix not in ("", ".vtp")]
+    file = data.draw(st.sampled_from(files))
+    before = file.read_bytes()
+    try:
+        if file.suffix == ".json" and data.draw(st.booleans()):
+            file.write_text(json.dumps(changed_value(data.draw, json.loads(before))))
+        elif file.suffix == ".checkpoint" and data.draw(st.booleans()):
+            with_header(file, lambda document: changed_value(data.draw, document))
+        else:
+            file.write_bytes(changed_bytes(data.draw, before))
+        with contextlib.suppress(InputError), ended_in_time():
+            read_all(ended)
+    finally:
+        file.write_bytes(before)
