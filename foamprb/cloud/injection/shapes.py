@@ -54,14 +54,14 @@ class Ellipsoid(Shape):
     e2: Annotated[Vector3, Meaning("the second lies in the plane of `e1` and `e2`", "1")] = (0.0, 1.0, 0.0)
 
     def __post_init__(self) -> None:
-        first, second = np.array(self.e1), np.array(self.e2)
+        first, second = _scaled(self.e1), _scaled(self.e2)
         sine = np.linalg.norm(np.cross(first, second))
         if not sine > 1e-6 * np.linalg.norm(first) * np.linalg.norm(second):
             raise InputError("gives no orientation: e1 and e2 are parallel")
 
     def axes(self) -> Floats:
         """Return unit vectors along the semi-axes as rows of a rotation, (3, 3)."""
-        first, second = np.array(self.e1), np.array(self.e2)
+        first, second = _scaled(self.e1), _scaled(self.e2)
         third = np.cross(first, second)
         rows = np.array([first, np.cross(third, first), third])
         unit: Floats = rows / np.linalg.norm(rows, axis=1, keepdims=True)
@@ -77,6 +77,11 @@ class Ellipsoid(Shape):
         else:
             axes = self.axes()
         set_rest_shape(p, self.axisRatios, axes)
+
+
+def _scaled(v: Vector3) -> Floats:
+    """Return a vector with 1 for its largest component, whose powers do not overflow; zero stays zero."""
+    return np.array(v) / (max(map(abs, v)) or 1.0)
 
 
 SHAPES: dict[str, type[Shape]] = {"sphere": Sphere, "ellipsoid": Ellipsoid}

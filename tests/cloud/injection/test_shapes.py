@@ -39,3 +39,9 @@ def test_random_directions_are_each_as_likely():
 
 def test_spheres_stay_as_they_are():
     np.testing.assert_array_equal(formed(Sphere()), np.tile(np.eye(3), (5, 1, 1)))
+
+
+def test_directions_of_any_length_are_the_same_axes():
+    axes = Ellipsoid(axisRatios=(2.0, 1.0, 1.0), e1=(1e100, 1e100, 0.0), e2=(0.0, 0.0, -1e-100)).axes()
+    expected = Ellipsoid(axisRatios=(2.0, 1.0, 1.0), e1=(1.0, 1.0, 0.0), e2=(0.0, 0.0, -1.0)).axes()
+    np.testing.assert_array_equal(axes, expected)
