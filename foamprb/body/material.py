@@ -67,6 +67,8 @@ class Material(NamedTuple):
     """Whether it is a drop, whose shape follows :mod:`foamprb.body.morphology`; μ is then σ/R."""
     membrane: bool = False
     """Whether it is a capsule, whose μ is that of :func:`modulus_of_capsule`."""
+    compared: float = 0.94
+    """Largest D in a comparison of the model with other results: for solids, Roscoe's exact ones in shear."""
     stress: Stress | None = None
     """Kirchhoff stress τ(b, J, μ, λ, k), Pa, in place of the energy: nine numbers row by row, from the
     elastic b and J = det F. An incompressible form has the same stress up to a pressure, at J = 1."""
@@ -150,8 +152,10 @@ MATERIALS: dict[str, Material] = {
         saint_venant_kirchhoff_energy, saint_venant_kirchhoff_derivatives, isochoric=False
     ),
     "gent": Material(gent_energy, gent_derivatives, Parameter("stretchLimit", 0.0, inf)),
-    "drop": Material(drop_energy, drop_derivatives, liquid=True),
-    "capsule": Material(neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, membrane=True),
+    "drop": Material(drop_energy, drop_derivatives, liquid=True, compared=0.34),
+    "capsule": Material(
+        neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, membrane=True, compared=0.3
+    ),
 }
 """Solids by their names in the settings."""
 

@@ -25,6 +25,8 @@ from __future__ import annotations
 
 from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
 from foamprb.body.exponential_runge_kutta import group_exponential
 from foamprb.body.faxen import Curvature
 from foamprb.body.relaxation import phi_functions
@@ -39,6 +41,7 @@ from foamprb.body.tensor import (
     dot_vector,
     inner,
     inverse,
+    norm,
     plus,
     plus_scaled,
     scale,
@@ -93,7 +96,22 @@ def square(B: Third) -> Scalar:
 
 def bullet_amplitude(B: Third) -> Scalar:
     """Return ε of the shape r = a (1 + ε P₃) with as large a B: B_ijk B_ijk = ⁵⁄₂ ε²."""
-    return (0.4 * square(B)) ** 0.5
+    return np.sqrt(0.4 * square(B))
+
+
+def resolved_strain(a: Scalar, E: Tensor, u: Vector) -> Scalar:
+    """Return |E|, 1/s, as one of 10⁻⁵ |u|/a at least: the velocities of a case have about six digits."""
+    return np.maximum(np.sqrt(ddot(E, E)), 1e-5 * norm(u) / a)
+
+
+def steady_amplitude(mu_f: Scalar, mu_s: Scalar, eta: Scalar, tension: Scalar, aS: Scalar) -> Scalar:
+    """Return ε of the steady shape of a solid by a |S|, 1/s; ``tension`` is γ/a, Pa."""
+    return 0.4**0.5 * source(eta / mu_f) * aS / relaxation_of_solid(mu_f, mu_s, eta, tension)
+
+
+def steady_amplitude_of_drop(mu_f: Scalar, ratio: Scalar, tension: Scalar, aS: Scalar) -> Scalar:
+    """Return ε of the steady shape of a drop by a |S|, 1/s; ``tension`` is σ/a, Pa."""
+    return 0.4**0.5 * source(ratio) * aS / relaxation_of_drop(mu_f, ratio, tension)
 
 
 def turned(B: Third, Q: Tensor) -> Third:

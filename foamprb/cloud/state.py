@@ -165,6 +165,13 @@ class Particles(NamedTuple):
         Variable((3,), "f8", "m", "displacement of the surface of a solid with that mode", optional=True),
     ]
 
+    largest: Annotated[
+        Array, Variable((5,), "f4", "", "largest values on its path: D, 1/s, Pa, 1/(1 + gap/a), ε")
+    ]
+    curved: Annotated[
+        Array, Variable((3,), "f8", "1/s", "sums of a |S| and |E| on its path, and their number")
+    ]
+
     @property
     def size(self) -> int:
         """Number of particles n, the pending included."""

@@ -45,6 +45,7 @@ from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import Fates
+from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticRows, QuadraticSolid
 from foamprb.cloud.viscosity import model_of
 from foamprb.compile.link import is_compiled, link, linked, read_by
@@ -205,7 +206,10 @@ class Tracker:
         # The others may read the viscosity.
         needed = needed_by(models.forces, columns)
         self._columns = needed[0].columns if needed else ()
-        around = (*model_of(medium.mu), *needed, *models.surroundings, *((Adhesion(),) if adheres else ()))
+        # The first of those that change the fluid's gradient, which it reads.
+        largest = LargestValues(quadratic=models.has_quadratic)
+        others = (*models.surroundings, *((Adhesion(),) if adheres else ()))
+        around = (*model_of(medium.mu), *needed, largest, *others)
         self.layout = layout = surroundings.with_rows(integrator.layout, around)
         bindings["prefetch_rows"] = layout.prefetch
         required: dict[str, Any] = {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}

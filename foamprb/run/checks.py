@@ -188,9 +188,4 @@ def validity_warnings(g: Groups, integrator: str, where: str, liquid: bool = Fal
             else f"{share} the capillary number is beyond {STEADY_CAPILLARY:g} in extension, where a body "
             "has no steady shape: one that stays there is stretched on and on, and fails at maxStretch."
         )
-    if g.size[1] > 1.0:
-        sentences.append(
-            f"{where}: a particle is {g.size[1]:.3g} times as large as the cell that it starts in; the flow "
-            "is taken as linear over the particle."
-        )
     return sentences

@@ -27,6 +27,7 @@ from foamprb.results.folder import FAILURES
 from foamprb.run.checks import SMALL_REYNOLDS
 from foamprb.run.job import Job
 from foamprb.run.slip import SlipRecord, drag_excess
+from foamprb.run.validity import PathRecord
 
 log = logging.getLogger("foamprb")
 
@@ -164,6 +165,7 @@ class RunLog:
     def end(self, finished: bool) -> None:
         """Log the fates of the particles, the folder of the results, and End if the run has ``finished``."""
         self._log_fates()
+        self._log_paths()
         log.info("\nResults in %s", self._job.folder.path)
         self._log_clocks()
         if finished:
@@ -248,6 +250,21 @@ class RunLog:
                 counts[Status.FAILED],
                 job.folder.table(FAILURES),
             )
+
+    def _log_paths(self) -> None:
+        """Log the largest values on the paths, and the particles for which they are beyond the model."""
+        models, rho = self._job.cloud.models, self._job.settings.fluid.rho
+        parts = [*self._job.cloud.map_by_id(PathRecord.of, rho, models)]
+        record = PathRecord.total(parts)
+        if record.n == 0:
+            return
+        log.info("Largest values on the paths")
+        for line in record.lines(affine=not models.has_quadratic):
+            log.info("    %s", line)
+        for warning in record.warnings(models.material):
+            log.warning("%s", warning)
+        if not models.has_quadratic and (advice := record.advice()):
+            log.info("%s", advice)
 
 
 def _steps_of(p: Particles, _flow: Sampled, _t: float, dt: float) -> tuple[int, float, float, int]:

@@ -55,6 +55,7 @@ from foamprb.run.restart import (
     snapshots_until,
     sums_around,
 )  # fmt: skip
+from foamprb.run.validity import path_values
 from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
@@ -238,7 +239,8 @@ class Results:
             if failed:
                 write_rows(self._failures, cloud.map_by_id(_failures_of, cloud.models, cloud.limits))
 
-        rows = self._job.functions.with_fates(_fates_of, self._job.patch_names)
+        rho, quadratic = self._job.settings.fluid.rho, cloud.models.has_quadratic
+        rows = self._job.functions.with_fates(_fates_of, self._job.patch_names, rho, quadratic)
         write_rows(self._fates, rows, finish)
 
     def _ready(self) -> Cloud:
@@ -440,8 +442,13 @@ def _due_at(p: Particles, time: float) -> Particles:
     return p.take(np.flatnonzero((p.status != Status.PENDING) | (p.t0 <= time)))
 
 
-def _fates_of(p: Particles, further: Mapping[str, Column], patch_names: Sequence[str]) -> Rows:
-    """Return rows of ``fates``; ``further`` are columns of cloud functions."""
+def _fates_of(
+    p: Particles, further: Mapping[str, Column], patch_names: Sequence[str], rho: float, quadratic: bool
+) -> Rows:
+    """Return rows of ``fates``; ``further`` are columns of cloud functions.
+
+    For ``rho`` and ``quadratic`` see :func:`foamprb.run.validity.path_values`.
+    """
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last name belongs to the code −1.
     patches = np.array((*patch_names, ""), dtype=object)
@@ -452,7 +459,8 @@ def _fates_of(p: Particles, further: Mapping[str, Column], patch_names: Sequence
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
             "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
             "fate": fates[p.status], "patch": patches[p.patch],
-            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **further,
+            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D,
+            **path_values(p, rho, quadratic, D), **further,
         }
     )  # fmt: skip
 

@@ -9,12 +9,14 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import STEADY_CAPILLARY
+from foamprb.body.quadratic import parts, resolved_strain, square
+from foamprb.body.tensor import sym
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.dictionary.constraints import Vector3
@@ -41,6 +43,8 @@ from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.openfoam import transient_times
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
+from foamprb.flow.walk import curvature
+from foamprb.run.validity import CURVED, are_curved
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.help import meaning, plain
 
@@ -148,6 +152,7 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     rotating = _rotating(case, flow, source)
     d = diameter(scales, fluid.nu or math.inf, rho0 / fluid.rho if fluid.rho and len(rotating) > 1 else 0.0)
     step, interval, end = times(scales)
+    paths = rates_on_paths(flow, scales, 0.5 * d) if scales.speed > 0.0 else None
     scale = [f"scale {source.scale:g}; // {_said('solution', 'scale')}"] if source.scale else []
     text = f"""\
 // Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{source.options}.
@@ -174,7 +179,7 @@ constantProperties
     solid
     {{
         type neoHooke; // all types: foamprb help solid
-{_lines(_stiffness(flow, scales, fluid.mu), 8)}    }}
+{_lines(_stiffness(flow, scales, fluid.mu, paths), 8)}    }}
 }}
 
 subModels
@@ -185,7 +190,7 @@ subModels
         {_gravity(case, source.region)}
     }}
 
-{_lines(_dispersion(case, flow, source))}    injectionModels
+{_lines(_shape_model(paths))}{_lines(_dispersion(case, flow, source))}    injectionModels
     {{
 {_lines(_injection(scales, end, d), 8)}    }}
 
@@ -273,6 +278,8 @@ class _Paths(NamedTuple):
 
     shear: Floats
     """(n,), the largest on each path."""
+    curvature: Floats
+    """(n,), the curvature number of a body on each path, 1."""
     extension: Floats
     """(moves, n), the rate of extension times √3, the shear rate in uniaxial extension; 0 behind the end."""
     duration: Floats
@@ -283,8 +290,11 @@ class _Paths(NamedTuple):
         return float((np.maximum(self.extension - limit, 0.0) * self.duration).sum(axis=0).max())
 
 
-def rates_on_paths(flow: MeshFlow, scales: FlowScales) -> _Paths:
-    """Return the rates on some paths of the fluid, from the inlet or from all cells."""
+def rates_on_paths(flow: MeshFlow, scales: FlowScales, radius: float) -> _Paths:
+    """Return the rates on some paths of the fluid, from the inlet or from all cells.
+
+    The curvature numbers are those of bodies of a radius, m.
+    """
     random = np.random.default_rng(1)
     if scales.inlet:
         faces = flow.patch_faces(scales.inlet, 0.0)
@@ -294,19 +304,24 @@ def rates_on_paths(flow: MeshFlow, scales: FlowScales) -> _Paths:
     else:
         x = flow.mesh.centres[random.integers(flow.mesh.n_cells, size=_PATHS)]
         hosts = flow.locate(x)
-    paths = _Paths(np.zeros(len(x)), *np.zeros((2, _MOVES, len(x))))
-    moving = np.flatnonzero(hosts >= 0)
+    paths = _Paths(*np.zeros((2, len(x))), *np.zeros((2, _MOVES, len(x))))
+    moving, strain = np.flatnonzero(hosts >= 0), np.zeros(len(x))
     for move in range(_MOVES):
         u, l = flow.sample(x[moving], hosts[moving], 0.0)
         rate = np.asarray(shear_rate(tuple(l.reshape(-1, 9).T)))  # type: ignore[arg-type]
         paths.shear[moving] = np.maximum(paths.shear[moving], rate)
+        second: Any = curvature(flow.arrays(), hosts[moving], tuple(x[moving].T), 0.0)  # type: ignore[arg-type]
+        E: Any = sym(tuple(l.reshape(-1, 9).T))  # type: ignore[arg-type]
         speed = np.linalg.norm(u, axis=1)
         step = _MOVE * flow.cell_size(hosts[moving]) / np.maximum(speed, 1e-300)
+        paths.curvature[moving] += step * radius * np.sqrt(square(parts(second).S))
+        strain[moving] += step * resolved_strain(radius, E, tuple(u.T))
         paths.extension[move, moving] = math.sqrt(3.0) * np.linalg.eigvals(l).real.max(axis=1)
         paths.duration[move, moving] = np.where(speed > 0.0, step, 0.0)
         x[moving] += step[:, None] * u
         hosts[moving] = flow.locate(x[moving])
         moving = moving[(hosts[moving] >= 0) & (speed > 0.0)]
+    paths.curvature[:] /= np.maximum(strain, 1e-300)
     return paths
 
 
@@ -564,10 +579,20 @@ def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     ]
 
 
-def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float | None) -> list[str]:
+def _shape_model(paths: _Paths | None) -> list[str]:
+    """Return the entry of the quadratic mode if the flow is curved over the bodies on its paths."""
+    if paths is None or not are_curved(paths.curvature):
+        return []
+    share = 100.0 * np.mean(paths.curvature > CURVED)
+    return [
+        f"shapeModel quadratic; // curvature number over {CURVED:g} on {share:.2g} % of the paths; or affine",
+        "",
+    ]
+
+
+def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float | None, paths: _Paths | None) -> list[str]:
     """Return the entries of the stiffness by the rates on paths of the fluid; of a viscosity, Pa s."""
     length = float(np.linalg.norm(flow.bounds[1] - flow.bounds[0]))
-    paths = rates_on_paths(flow, scales) if scales.speed > 0.0 else None
     largest = np.zeros(0) if paths is None else paths.shear[paths.shear * length > _ROUND_OFF * scales.speed]
     rate, over_mu, where = 1.0, 1.0 / _CAPILLARIES[0.5], "as the fluid is at rest"
     if len(largest):

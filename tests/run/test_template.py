@@ -22,12 +22,12 @@ from foamprb.flow.base import Patch
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.fluid import apparent_viscosity
 from foamprb.flow.read.source import Division, FlowSource
-from foamprb.run import template as template_module
 from foamprb.run.job import prepare
 from foamprb.run.template import (
     FlowScales,
     _nice,
     _Paths,
+    _shape_model,
     _stiffness,
     diameter,
     rates_on_paths,
@@ -378,35 +378,44 @@ def scales(**changed):
 def test_stiffness_is_that_for_the_rates_where_the_fluid_goes(case):
     """In a pipe of wall rate γ̇_w half of the fluid passes where the rate is below γ̇_w √(1 − 1/√2)."""
     flow = read_flow(case)
-    found = rates_on_paths(flow, scales_of(flow)).shear
-    wall = scales_of(flow).most_shear
+    paths = rates_on_paths(flow, scales_of(flow), 1e-4)
+    found, wall = paths.shear, scales_of(flow).most_shear
     assert np.median(found) == pytest.approx(wall * np.sqrt(1.0 - np.sqrt(0.5)), rel=0.25)
     assert found.max() < 1.1 * wall
+    # κ = √0.8 a/r, and half of the fluid passes within r = R √(1 − √½).
+    assert np.median(paths.curvature) == pytest.approx(0.894e-4 / (2.1e-3 * 0.541), rel=0.2)
 
 
-def stiffness(monkeypatch, shear, extension, duration):
+def test_the_quadratic_mode_is_proposed_for_bodies_that_are_large_in_the_curved_flow(case):
+    """A body of 0.1 R has κ > 0.1 within 0.9 R of the axis of a pipe; one of 0.001 R, within 0.009 R."""
+    flow = read_flow(case)
+    large, small = (_shape_model(rates_on_paths(flow, scales_of(flow), a)) for a in (2.1e-4, 2.1e-6))
+    assert large[0].startswith("shapeModel quadratic; // curvature number over 0.1 on ")
+    assert small == _shape_model(None) == []
+
+
+def stiffness(shear, extension, duration):
     """The modulus over the viscosity by given rates on paths."""
-    paths = _Paths(*map(np.asarray, (shear, extension, duration)))
-    monkeypatch.setattr(template_module, "rates_on_paths", lambda *_: paths)
+    paths = _Paths(*map(np.asarray, (shear, 0.0 * shear, extension, duration)))
     flow = SimpleNamespace(bounds=np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]))
-    (line,) = (line for line in _stiffness(flow, scales(), 1.0) if "shearModulus" in line)
+    (line,) = (line for line in _stiffness(flow, scales(), 1.0, paths) if "shearModulus" in line)
     return float(line.split()[1].rstrip(";")), line
 
 
-def test_stiffness_is_that_for_the_worst_path(monkeypatch):
+def test_stiffness_is_that_for_the_worst_path():
     """Ca is at most 2 in shear; extension above Ca 0.3 may strain a body by 1 on its way."""
     still = np.zeros((1, 100)), np.zeros((1, 100))
     shear = np.full(100, 10.0)
-    assert stiffness(monkeypatch, shear, *still)[0] == 100.0
+    assert stiffness(shear, *still)[0] == 100.0
     shear[7] = 1000.0
-    assert stiffness(monkeypatch, shear, *still)[0] == 500.0
+    assert stiffness(shear, *still)[0] == 500.0
     extension, duration = still
     extension[0, 7], duration[0, 7] = 900.0, 0.01
     # (900 − 0.3 G) 0.01 = 1 for G = 2667, on a scale of steps of 10 %.
-    G, line = stiffness(monkeypatch, shear, extension, duration)
+    G, line = stiffness(shear, extension, duration)
     assert 2667.0 <= G <= 2667.0 * 1.15
     assert "at 10 1/s, the largest on half of the paths" in line
-    assert "as the flow is uniform" in stiffness(monkeypatch, np.full(100, 1e-9), *still)[1]
+    assert "as the flow is uniform" in stiffness(np.full(100, 1e-9), *still)[1]
 
 
 def put_uniform(case, u):

@@ -22,6 +22,11 @@ from foamprb.view.report.page import table
 from foamprb.view.report.report import write_report
 
 N = 60
+LARGEST = {
+    "maxD": 0.65, "maxShearRate": 100.0, "maxShearStress": 0.1, "maxReynolds": 0.01, "curvatureNumber": 0.2,
+    "maxBulletAmplitude": 0.1,
+}  # fmt: skip
+"""Largest values on the paths, and the largest of these."""
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +45,8 @@ def case(tmp_path_factory) -> Path:
             "id": np.arange(N), "Ca": np.full(N, 0.5), "t0": np.zeros(N), "t1": random.uniform(0.1, 0.3, N),
             **{f"{k}1": x[:, i] for i, k in enumerate("xyz")},
             "fate": fate.tolist(), "patch": [places[f] for f in fate], "D": random.uniform(0.0, 0.4, N),
+            **{name: np.linspace(0.0, most, N) for name, most in LARGEST.items()},
+            "minGap": np.full(N, np.inf),
         },
     )  # fmt: skip
     return case
@@ -73,6 +80,14 @@ class Reader(HTMLParser):
     def handle_endtag(self, tag: str) -> None:
         if tag not in ("path", "use", "rect", "image"):
             assert self.open.pop() == tag
+
+
+def test_the_headline_is_the_largest_deformation_on_the_paths(page):
+    """Not that at the end; the table has the shares beyond the limits."""
+    assert '<span class="figures">0.65</span>largest D on the paths' in page
+    text = re.sub("<[^>]+>", " ", page.split("Largest values on the paths</caption>")[1])
+    assert re.search(r"curvature number\s+0.1\s+0.198\s+0.2\s+50 % beyond 0.1", text)
+    assert re.search(r"Reynolds number\s+0.005\s+0.0099\s+0.01\s+0 % beyond 0.1", text)
 
 
 def test_the_page_needs_no_network(page):

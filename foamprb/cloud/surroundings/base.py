@@ -119,6 +119,8 @@ class Surrounding:
     disturb: ClassVar[Callable[..., None]] = staticmethod(no_disturbance)
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
+    stages: ClassVar[tuple[Callable[..., None], ...]] = ()
+    """Parts of ``disturb`` that are compiled once for all flows, as that is."""
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return the arguments of its functions: numbers and arrays, of the same types for any patches."""

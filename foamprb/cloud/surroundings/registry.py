@@ -118,7 +118,8 @@ def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) ->
 def stages(surroundings: Sequence[Surrounding], inertia: bool) -> list[Callable[..., Any]]:
     """Return the functions of these models that are compiled once for all flows."""
     prepared: list[Any] = [model.bindings(inertia).get("prepare") for model in surroundings]
-    return [*filter(None, prepared), *(type(model).disturb for model in surroundings)]
+    further = [stage for model in surroundings for stage in model.stages]
+    return [*filter(None, prepared), *further, *(type(model).disturb for model in surroundings)]
 
 
 def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> tuple[Any, ...]:

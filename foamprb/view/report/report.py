@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.state import Status
 from foamprb.errors import InputError
+from foamprb.flow.base import NEAR
 from foamprb.flow.read.flows import read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
@@ -24,6 +25,7 @@ from foamprb.results.folder import file_name
 from foamprb.results.manifest import Manifest
 from foamprb.results.reading import reading
 from foamprb.results.record import RECORD_FORMAT
+from foamprb.run.validity import COLUMNS, limits_of
 from foamprb.view.colours import DARK, LIGHT, written
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
@@ -191,10 +193,9 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
         for name, count in counts.items()
         if count
     ]
-    if "D" in fates:
-        D = fates["D"][np.isfinite(fates["D"]) & (fates["fate"] != "pending")]
-        if len(D):
-            cards.append((f"{np.median(D):.3g}", "median D at the end"))
+    D = fates.get("maxD", np.zeros(0))
+    if np.isfinite(D).any():
+        cards.append((f"{np.nanmax(D):.3g}", "largest D on the paths"))
     return cards
 
 
@@ -340,6 +341,13 @@ def _deformation(report: _Report) -> PageSection | None:
             plots.histogram(_by_fate(fates["fate"], fates["D"]), "D = (a − c)/(a + c)", "1"),
             "Taylor's deformation D of the longest and the shortest semi-axis, at the end of each particle.",
         )
+    if "maxD" in fates:
+        drawn += report.figure(
+            "largestDeformation",
+            plots.histogram(_by_fate(fates["fate"], fates["maxD"]), "largest D", "1"),
+            "The largest D on the path of each particle.",
+        )
+        drawn += _largest(report)
     indices = spread(len(run.times), _MOST_TIMES)
     quantiles = []
     for index in indices:
@@ -354,6 +362,24 @@ def _deformation(report: _Report) -> PageSection | None:
             "D of the moving particles over time: the median, and the range of nine in ten.",
         )
     return PageSection("deformation", "Deformation", grid(drawn)) if drawn else None
+
+
+def _largest(report: _Report) -> str:
+    """Return a table of the largest values on the paths, with the shares beyond the limits of the model."""
+    fates, limits = report.fates, limits_of(report.run.record.get("models", {}).get("solid", ""))
+    rows = []
+    for name, text in COLUMNS.items():
+        values, limit = fates[name][np.isfinite(fates[name])], limits.get(name)
+        if not len(values):
+            continue
+        beyond = f"{100.0 * np.mean(values > limit):.3g} % beyond {limit:g}" if limit else ""
+        rows.append((text, *(f"{q:.3g}" for q in np.quantile(values, (0.5, 0.99, 1.0))), beyond))
+    gap = fates["minGap"]
+    if (gap < NEAR).any():
+        gap = np.minimum(gap[fates["fate"] != "pending"], NEAR)
+        near = f"{100.0 * np.mean(gap < NEAR):.3g} % below {NEAR:g}"
+        rows.append(("smallest gap/radius", *(f"{q:.3g}" for q in np.quantile(gap, (0.5, 0.01, 0.0))), near))
+    return table("Largest values on the paths", ("", "median", "1 in 100 beyond", "extreme", "share"), rows)
 
 
 def _exposure(report: _Report) -> PageSection | None:
