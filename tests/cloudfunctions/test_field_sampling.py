@@ -55,6 +55,7 @@ def test_units_are_written_as_quotients():
         (1, -3, 0): "kg/m3",
     }
     assert {key: unit_text((*key, 0, 0, 0, 0)) for key in units} == units
+    assert unit_text((0, 0.5, -1.5, 0, 0, 0, 0)) == "m0.5/s1.5"
 
 
 def test_what_cannot_be_sampled_has_one_message(tmp_path):
