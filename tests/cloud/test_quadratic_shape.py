@@ -113,19 +113,20 @@ def _waves(x, y, z):
 # --- Contact ------------------------------------------------------------------------------------------------
 
 
-def sinking(steps, stride=1):
-    """Return a body that sinks onto the lower wall of a slit, with a mode as large as its strain."""
-    models = Models(integrator="stokes", shape="quadratic", stride=stride)
+def sinking(steps):
+    """Return the cloud of a soft body that sinks onto the lower wall of a slit."""
+    models = Models(integrator="stokes", shape="quadratic", stride=1)
     p = spheres([(0.0, 0.0, 1.3 * R)], d=2.0 * R, rho=3000.0, mu=SOFT, poissons_ratio=0.4999)
     medium = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
     cloud = Cloud(p, analytic.slit(4.0 * R, 3e-3), medium, [Stick()] * 2, 1e-4, models)
     for n in steps:
         cloud.advance(n)
-    return p
+    return cloud
 
 
 def test_the_surface_of_the_mode_meets_a_wall():
-    p = sinking([400])
+    cloud = sinking([400])
+    p = cloud.particles
     assert p.status[0] == Status.STUCK
     X = np.random.default_rng(0).standard_normal((200_000, 3))
     X /= np.linalg.norm(X, axis=1, keepdims=True)
@@ -137,10 +138,11 @@ def test_the_surface_of_the_mode_meets_a_wall():
     ellipsoid = p.x[0, 2] / R - np.linalg.norm(F[2])
     assert abs(lowest) < 2e-3
     assert abs(ellipsoid) > 0.015
+    assert cloud.contact_normals(p)[0].tolist() == [0.0, 0.0, 1.0]
 
 
 def test_contact_does_not_depend_on_calls():
-    one, many = sinking([400]), sinking([1] * 400)
+    one, many = (sinking(steps).particles for steps in ([400], [1] * 400))
     assert one.x.tobytes() == many.x.tobytes()
     assert one.t == many.t
 
