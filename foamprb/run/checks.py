@@ -14,13 +14,18 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import as_slice, path_stokes_number, shear_rate_at
 from foamprb.cloud.state import Particles
+from foamprb.cloud.tracker import Models
 from foamprb.cloud.viscosity import medium_at, viscosity_at_nodes
 from foamprb.flow.base import Flow
 from foamprb.flow.nodes import NodeValues
+from foamprb.settings.solution import Solution
 
 _MOST_NODES, _SMALL_SHARE = 20_000, 0.01
 _STIFF = 1e8
 """Approximate largest μ_s Δt/μ_f without shorter steps by round-off, without inertia."""
+_SHORT_STEPS, _SMALL_TOLERANCE, _OFTEN = (1, 2), 1e-6, 20
+"""``maxDeltaT`` in Δt, tolerance, and Δt between writes with which a run costs more than twice as much; from
+``tools/benchmark -only observed``."""
 SMALL_REYNOLDS = 0.1
 """Largest particle Reynolds number without a warning; the model assumes Stokes flow around the particle."""
 
@@ -139,6 +144,30 @@ def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> f
         growing = np.stack(np.broadcast_arrays(*growth), axis=-1).reshape(-1, 3, 3)
         return float(np.mean(np.linalg.eigvals(growing).real.max(axis=1) > limit))
     return float(np.mean(np.sqrt(3.0) * extension * times > STEADY_CAPILLARY))
+
+
+def costly_settings(solution: Solution, cloud: Cloud) -> list[str]:
+    """Return a sentence for each setting that more than doubles the cost of a run."""
+    sentences, tolerance = [], cloud.models.tolerance
+    adaptive = INTEGRATORS[cloud.models.integrator].adaptive
+    if adaptive and solution.stride in _SHORT_STEPS:
+        longest = solution.maxDeltaT / cloud.dt
+        sentences.append(
+            f"solution: maxDeltaT is {longest:.3g} deltaT, and no step is longer: a run costs several times "
+            "that without maxDeltaT, where the tolerance limits steps."
+        )
+    if adaptive and tolerance <= _SMALL_TOLERANCE:
+        more = (Models.tolerance / tolerance) ** (1.0 / 3.0)
+        sentences.append(
+            f"solution: with the tolerance {tolerance:g} steps are about {more:.2g} times as many as with "
+            f"the default, {Models.tolerance:g}."
+        )
+    if solution.writeInterval < _OFTEN * solution.deltaT:
+        sentences.append(
+            f"solution: results are written every {solution.writeInterval / solution.deltaT:.3g} deltaT, "
+            f"which costs more than the particles; from {_OFTEN} on it does not."
+        )
+    return sentences
 
 
 def validity_warnings(g: Groups, integrator: str, where: str, liquid: bool = False) -> list[str]:

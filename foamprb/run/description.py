@@ -26,7 +26,7 @@ from foamprb.flow.jumps import medians
 from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
 from foamprb.results.record import RECORD_FORMAT
-from foamprb.run.checks import dimensionless_groups, extension_rates, validity_warnings
+from foamprb.run.checks import costly_settings, dimensionless_groups, extension_rates, validity_warnings
 from foamprb.settings.settings import Settings
 
 __all__ = ["describe", "write_record"]
@@ -69,6 +69,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     remarks = [model.remarks(survey) for model in models.surroundings]
     notes = [line for remark in remarks for line in remark.notes]
     warnings += [line for remark in remarks for line in remark.warnings]
+    warnings += costly_settings(settings.solution, cloud)
     if cloud.size == 0:
         warnings.append("there is no particle: no injection model releases any.")
     scale = settings.solution.scale
