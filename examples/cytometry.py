@@ -8,7 +8,6 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 import foamprb
-from foamprb.cloudfunctions.deformability_cytometry import outline
 
 WIDTH, FLOW_RATE, MU = 20e-6, 0.04e-9, 15e-3  # width of the channel, m; m³/s; viscosity, Pa s
 # Young's modulus, kPa, and areas, µm², with deformations of outlines: some rows of LE-2D-FEM-19 of dclab,
@@ -33,7 +32,7 @@ for colour, (modulus, (areas, published)) in zip(("#0072b2", "#d55e00"), PUBLISH
     cells = foamprb.spheres(axis, d=diameters, rho=1000.0, mu=1e3 * modulus / 3.0, poissons_ratio=0.4999)
     foamprb.Cloud(cells, flow, buffer, walls, 1e-6, models).advance(200)
     # A square channel acts on a cell on its axis as a tube of 0.547 of the width does.
-    seen = outline(cells, np.array([0.0, 1.0, 0.0]), 0.5 * diameters / (0.547 * WIDTH))
+    seen = foamprb.outline(cells, np.array([0.0, 1.0, 0.0]), 0.5 * diameters / (0.547 * WIDTH))
     expected = np.interp(areas, 1e12 * seen.area, seen.deformation)
     print(f"{modulus:.2f} kPa: over the published deformation", (expected / published).round(3))
     assert (np.abs(expected / published - 1.0) < 0.04).all()

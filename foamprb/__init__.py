@@ -64,6 +64,7 @@ Particles in a flow:
     patch_interactions  the interaction of each patch of a flow
     context             prepare particles for measuring
     measure             shape, orientation, rotation and load of particles
+    outline             the outlines of particles in a picture: area, perimeter, deformation
 
 Models of users:
 

@@ -84,6 +84,7 @@ from .cloud.viscosity import (
 from .cloud.viscosity import (
     PowerLaw as PowerLaw,
 )
+from .cloudfunctions.deformability_cytometry import outline as outline
 from .errors import (
     FailedParticlesWarning as FailedParticlesWarning,
 )
@@ -163,6 +164,7 @@ __all__ = [
     "measure",
     "open_run",
     "open_runs",
+    "outline",
     "patch_interactions",
     "prepare",
     "read_case",

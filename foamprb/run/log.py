@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import time as clock
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 import numpy as np
@@ -139,26 +139,25 @@ class RunLog:
         """Log the start of the time loop."""
         log.info("\nStarting time loop\n")
 
-    def write_times(self, steps: Sequence[int]) -> None:
-        """Log the numbers of particles at write times, the ends of some steps, and the failures until now."""
-        for step in steps:
-            self._log_numbers(self._job.cloud.time_of(step))
+    def write_times(self, counts: Mapping[float, Mapping[Status, int]]) -> None:
+        """Log the numbers of particles at write times, s, and the failures until now."""
+        for time, numbers in counts.items():
+            self._log_numbers(time, numbers)
         self._log_steps()
         self._log_clocks()
         self._log_failures()
         self._log_unstable()
         self._log_slip()
 
-    def _log_numbers(self, time: float) -> None:
+    def _log_numbers(self, time: float, counts: Mapping[Status, int]) -> None:
         """Log the numbers of particles at a write time, s."""
-        cloud, counts = self._job.cloud, self._job.cloud.counts_at(time)
         log.info("Time = %.12g\n", time)
         log.info("Cloud: %s", self._job.settings.name)
         log.info("    Current number of parcels       = %d", counts[Status.ACTIVE])
         log.info("    injected                        = %d", sum(counts.values()) - counts[Status.PENDING])
         log.info("    stuck, escaped, failed          = %d, %d, %d",
                  counts[Status.STUCK], counts[Status.ESCAPED], counts[Status.FAILED])  # fmt: skip
-        if cloud.models.has_fates:
+        if self._job.cloud.models.has_fates:
             log.info("    ruptured, released              = %d, %d",
                      counts[Status.RUPTURED], counts[Status.RELEASED])  # fmt: skip
 

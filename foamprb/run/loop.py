@@ -88,8 +88,9 @@ def execute(
                 if cloud.step == before:
                     # The solver has ended meanwhile.
                     break
-                log.write_times(due)
+                counts = {time: cloud.counts_at(time) for time in map(cloud.time_of, due)}
                 results.write(due)
+                log.write_times(counts)
                 if cloud.step < job.steps:
                     cloud.comm.regroup()
         if following is not None:

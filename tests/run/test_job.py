@@ -297,6 +297,18 @@ def test_doubtful_numbers_are_warned_of_with_their_size(case, capsys):
     assert "particle Reynolds number is" in out
 
 
+def test_settings_that_cost_more_than_the_run_are_warned_of(case, capsys):
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    assert "solution: " not in capsys.readouterr().out
+    edit(case, r"shape\s+paper;", "shape stokes; tolerance 1e-7;")
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 2e-4; maxDeltaT 2e-5;")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    out = capsys.readouterr().out
+    assert "Warning : solution: maxDeltaT is 1 deltaT" in out
+    assert "with the tolerance 1e-07 steps are about 10 times as many" in out
+    assert "results are written every 10 deltaT" in out
+
+
 def test_first_example_of_the_python_page_runs():
     """The ten lines, as they stand."""
     text = (ROOT / "docs/python.md").read_text()
