@@ -62,21 +62,23 @@ class _Header(TypedDict):
     recovered: int
     reach: float
     stretch: int
+    ended: bool
     series: list[tuple[float, str]]
     fingerprint: dict[str, str | Sums]
     times: list[float]
 
 
-class _HeaderInTime(_Header, total=False):
-    """Header of a checkpoint in a transient flow."""
+class _HeaderOfSome(_Header, total=False):
+    """Header with the entries that only some have: in a transient flow, and of a run that was stopped."""
 
     around: list[Sums]
+    stored: list[float]
 
 
 def require_header(checkpoint: StoredCheckpoint) -> None:
     """Raise DamagedError if a checkpoint has not the header of a run."""
     try:
-        step = checked(checkpoint.header, _HeaderInTime, "its header")["step"]
+        step = checked(checkpoint.header, _HeaderOfSome, "its header")["step"]
         if not 0 <= step < MOST_STEPS:
             raise ValueError(f"its step is {step}")
     except ValueError as error:
@@ -139,6 +141,7 @@ def checkpoint_of(
     parts: Sequence[tuple[int, str]] = (),
     around: Sequence[Sums] = (),
     stored: Sequence[float] = (),
+    ended: bool = False,
 ) -> Checkpoint:
     """Return the checkpoint of a run, without the particles if several processes hold them.
 
@@ -158,12 +161,15 @@ def checkpoint_of(
         :func:`sums_around` at its time.
     stored
         Times, s, at which some particles have stored their state, in the arrays of ``functions``.
+    ended
+        Whether the run ends there, and a longer one may have no end of steps there.
     """
     header = {
         "step": cloud.step,
         "recovered": cloud.recovered,
         "reach": cloud.reach,
         "stretch": cloud.stretch_steps,
+        "ended": ended,
         "series": _stems(entries),
         "fingerprint": marks,
         "times": _times_until(cloud.flow, cloud.time),

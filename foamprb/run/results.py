@@ -32,6 +32,7 @@ from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Sampled
 from foamprb.flow.fields import columns_of
+from foamprb.flow.timeline import Timeline
 from foamprb.memory import OutOfMemory, ran_out
 from foamprb.results.atomic import before_each_file, only_writer, remove_unfinished
 from foamprb.results.background import Writer
@@ -134,7 +135,7 @@ class Results:
         self._fingerprint = fingerprint(job.settings, job.cloud)
         self._checkpoints = Checkpoints(job.folder.checkpoints)
         require_choice(job.folder, start_from)
-        checkpoint = self._checkpoints.latest(self._is_at_step) if start_from == "latestTime" else None
+        checkpoint = self._checkpoints.latest(self._continues) if start_from == "latestTime" else None
         if checkpoint is not None:
             self.finished = self._is_finished(checkpoint)
             self._resume(checkpoint)
@@ -304,7 +305,7 @@ class Results:
         stored: Sequence[float] = (),
     ) -> None:
         entries = self._series.entries
-        entries_of_run = self._fingerprint, parts, self._around, stored
+        entries_of_run = self._fingerprint, parts, self._around, stored, self._ends_within_a_stretch(cloud)
         self._checkpoints.write(checkpoint_of(cloud, memory, entries, *entries_of_run))
 
     def _checkpoint_files(self, *, now: bool = False) -> list[Path]:
@@ -351,6 +352,19 @@ class Results:
         require_header(checkpoint)
         cloud = self._job.cloud
         return abs(cloud.time_of(checkpoint.header["step"]) - checkpoint.time) <= _ROUND_OFF * cloud.dt
+
+    def _continues(self, checkpoint: StoredCheckpoint) -> bool:
+        """Return whether a checkpoint is not of the end of a shorter run, whose last steps may be shorter."""
+        ended = checkpoint.header["step"] < self._job.steps and checkpoint.header["ended"]
+        return self._is_at_step(checkpoint) and not ended
+
+    def _ends_within_a_stretch(self, cloud: Cloud | Snapshot) -> bool:
+        """Return whether the run ends where the steps of a longer one need not."""
+        flow: Any = cloud.flow
+        at_time = isinstance(flow, Timeline) and any(
+            abs(time - cloud.time) <= _ROUND_OFF * self._job.cloud.dt for time in flow.times_until(cloud.time)
+        )
+        return cloud.step >= self._job.steps and cloud.step % cloud.stretch_steps != 0 and not at_time
 
     def _is_finished(self, checkpoint: StoredCheckpoint) -> bool:
         """Return whether the run has ended at a checkpoint, and has written its tables."""

@@ -79,7 +79,7 @@ def test_log_says_for_how_many_particles_the_step_is_too_long(tmp_path, caplog):
     log = RunLog(job)
     job.cloud.particles.F[:3] = np.diag([12.0, 12.0**-0.5, 12.0**-0.5]).ravel()
     with caplog.at_level(logging.WARNING, "foamprb"):
-        log.write_time()
-        log.write_time()
+        log.write_times({})
+        log.write_times({})
     (record,) = [r for r in caplog.records if "stable" in r.message]
     assert "for the shapes of 3 particles" in record.message

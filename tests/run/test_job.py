@@ -119,17 +119,17 @@ def test_each_mistake_has_its_one_message(name, case, capsys):
 
 
 @pytest.mark.parametrize(
-    ("words", "expected"),
+    ("words", "status", "expected"),
     [
-        (["rnu"], "Did you mean 'run'"),
-        (["run", "-cas", "x"], "-cas"),
-        (["run", "-threads", "0"], ">= 1"),
-        (["run", "-threads", "many"], "many"),
-        (["run", "-time", "1", "-latestTime"], "latestTime"),
+        (["rnu"], 2, "Did you mean 'run'"),
+        (["run", "-cas", "x"], 2, "-cas"),
+        (["run", "-threads", "0"], 1, ">= 1"),
+        (["run", "-threads", "many"], 2, "many"),
+        (["run", "-time", "1", "-latestTime"], 2, "latestTime"),
     ],
 )
-def test_mistakes_in_the_arguments(words, expected, capsys):
-    assert main(words) == 1
+def test_mistakes_in_the_arguments(words, status, expected, capsys):
+    assert main(words) == status
     err = capsys.readouterr().err
     assert expected in err
     assert "Traceback" not in err

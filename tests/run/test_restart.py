@@ -124,6 +124,19 @@ def test_a_later_end_time_continues_the_run(case, truth):
     assert results(case) == truth
 
 
+def test_a_run_that_ended_within_a_stretch_of_steps_continues_from_its_start(case):
+    """Its last steps were shorter than those of the longer run."""
+    edit(case, r"shape\s+paper;", "shape stokes;")
+    assert main(["run", "-case", str(case)]) == 0
+    expected = results(case)
+    edit(case, r"endTime\s+\S+;", "endTime 0.0047;")
+    assert main(["run", "-case", str(case), "-overwrite"]) == 0
+    assert results(case)["fates.csv"] != expected["fates.csv"]
+    edit(case, r"endTime\s+\S+;", f"endTime {END};")
+    go_on(case)
+    assert results(case) == expected
+
+
 def test_a_run_ends_at_an_end_time_between_two_steps(case, truth):
     """A later end time continues before the shorter last step, which a longer run does not have."""
     edit(case, r"endTime\s+\S+;", "endTime 0.0030137;")

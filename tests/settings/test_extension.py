@@ -120,9 +120,9 @@ def test_new_models_need_a_class_and_a_name(registered, tmp_path):
     assert {float(row["d"]) for row in rows} <= {2e-6, 5e-6}
     # Ca is 1e-4: the shape at rest hardly changes.
     np.testing.assert_allclose([float(row["c"]) / float(row["a"]) for row in rows], 0.25, rtol=1e-2)
-    # At both write times.
+    # Both write times are in one stretch of steps, at the end of which functions write.
     counted = (case / "postProcessing/softCloud/counted/count").read_text()
-    assert counted.split()[0] == "80"
+    assert counted.split()[0] == "40"
 
 
 def test_a_new_patch_interaction_model_finds_its_coefficients(registered, tmp_path, capsys):

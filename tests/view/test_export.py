@@ -125,7 +125,7 @@ def test_impossible_exports_are_reported(case, capsys, tmp_path_factory):
     empty = tmp_path_factory.mktemp("empty")
     assert main(["export", "vtkhdf", "-case", str(empty)]) == 1
     assert "no results here" in capsys.readouterr().err
-    assert main(["export", "excel", "-case", str(case)]) == 1
+    assert main(["export", "excel", "-case", str(case)]) == 2
     assert "vtkhdf" in capsys.readouterr().err
 
 

@@ -35,7 +35,7 @@ class LargestRows(NamedTuple):
 
     largest: Annotated[int, Row(5, "", "largest values, see :class:`Largest`", of="largest", saved=True)]
     curved: Annotated[int, Row(3, "1/s", "sums of a |S| and |E|, and their number", of="curved", saved=True)]
-    counted: Annotated[int, Row(1, "", "1 at the start of a step, 0 at the end of a call")]
+    starting: Annotated[int, Row(1, "", "1 at the start of a step, 0 at the end of a call")]
     sample_step: Annotated[int, Row(1, "", "tracking step of the last sample of the curvature", -1.0)]
 
 
@@ -74,7 +74,7 @@ def sample_curvature(
 ) -> None:
     """Note that a step of lane i starts, and sample the second derivatives in some of them."""
     block = s.block
-    block[values.counted * LANES + i] = 1.0 if remaining > 0.0 else 0.0
+    block[values.starting * LANES + i] = 1.0 if remaining > 0.0 else 0.0
     # The first step of a stretch, for any division of the run into calls.
     stretch = max(s.stride[i], 1)
     first = s.step[i] if s.stride[i] > 0 else step
@@ -94,7 +94,7 @@ def sample_curvature(
 def largest_stage(block: Any, medium: Medium) -> None:
     """Store the largest values at the starts of steps."""
     for i in range(LANES):
-        starts = block[at.moving * LANES + i] * block[values.counted * LANES + i] > 0.0
+        starts = block[at.moving * LANES + i] * block[values.starting * LANES + i] > 0.0
         x, y, z = load3(block, at.stretch, i)
         D = taylor_deformation(np.maximum(np.maximum(x, y), z), np.minimum(np.minimum(x, y), z))
         rate = shear_rate(load9(block, at.l, i))

@@ -322,12 +322,12 @@ def test_a_time_that_does_not_fit_is_refused_when_it_is_read(change, message, tm
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("{", "not a list of files"),
-        ("[]", "not a list of files"),
+        ("{", "is damaged: Expecting property name"),
+        ("[]", "is damaged: it is .., not an object"),
         ('{"files": []}', "the list of files is empty"),
         ('{"files": [{"name": "none.vtu", "time": 1}]}', "none.vtu does not exist"),
         ('{"files": [{"name": "case.vtm.series", "time": 1}]}', "series does not exist"),
-        ('{"files": [{"time": 1}]}', "not a list of files"),
+        ('{"files": [{"time": 1}]}', "is damaged: files has no name"),
         (
             '{"files": [{"name": "a.vtu", "time": 1}, {"name": "b.vtu", "time": 1}]}',
             "2 files have 1 different times",
