@@ -183,7 +183,8 @@ class TestDamage:
         results = open_run(case)
         path = case / "postProcessing/softCloud/softCloud_000002.vtp"
         path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
-        with pytest.raises(InputError, match=r"softCloud_000002\.vtp(: damaged \(| is damaged: ).*foamprb run"):
+        fault = r"softCloud_000002\.vtp(: damaged \(| is damaged: ).*foamprb run"
+        with pytest.raises(InputError, match=fault):
             gather(results, range(M))
         assert capfd.readouterr() == ("", "")
 
