@@ -355,8 +355,9 @@ class Results:
 
     def _continues(self, checkpoint: StoredCheckpoint) -> bool:
         """Return whether a checkpoint is not of the end of a shorter run, whose last steps may be shorter."""
-        ended = checkpoint.header["step"] < self._job.steps and checkpoint.header["ended"]
-        return self._is_at_step(checkpoint) and not ended
+        if not self._is_at_step(checkpoint):
+            return False
+        return checkpoint.header["step"] >= self._job.steps or not checkpoint.header["ended"]
 
     def _ends_within_a_stretch(self, cloud: Cloud | Snapshot) -> bool:
         """Return whether the run ends where the steps of a longer one need not."""

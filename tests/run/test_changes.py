@@ -17,6 +17,7 @@ from paths import PIPE
 from pipe_case import copy_of_pipe
 
 from foamprb import prepare
+from foamprb.body.material import MATERIALS
 from foamprb.dictionary.constraints import NoEffect, Only
 from foamprb.dictionary.grammar import parse_dictionary
 from foamprb.dictionary.schema import hints_of, rule_of
@@ -196,9 +197,12 @@ def begun(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Begun]:
     (case / SETTINGS).write_text(TEXT)
     (case / "constant/solid.py").write_text(SOLID)
     flows: dict[Any, Any] = {}
+    solids = dict(MATERIALS)
     job = prepare(case, flows=flows)
     yield Begun(case, flows, json.loads(json.dumps(fingerprint(job.settings, job.cloud))))
     load_libs([])
+    MATERIALS.clear()
+    MATERIALS.update(solids)
 
 
 def is_refused(begun: Begun, flows: dict[Any, Any]) -> str:
@@ -265,7 +269,11 @@ def with_change(name: str, data: bytes) -> bytes:
     return data[: digits[-1]] + b"%d" % (9 - int(data[digits[-1] :][:1])) + data[digits[-1] + 1 :]
 
 
-FILES = [str(file.relative_to(PIPE)) for file in sorted(PIPE.rglob("*")) if file.is_file()]
+FILES = [
+    str(file.relative_to(PIPE))
+    for file in sorted(PIPE.rglob("*"))
+    if file.is_file() and "postProcessing" not in file.parts and not file.name.startswith("log.")
+]
 
 
 @pytest.mark.parametrize("name", [*FILES, "constant/solid.py"])
