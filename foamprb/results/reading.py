@@ -71,10 +71,10 @@ def open_regular(path: Path) -> BinaryIO:
 def read_bytes(path: Path, most: int = MOST_BYTES) -> bytes:
     """Return the contents of a regular file; see :func:`open_regular`, also for a file that is too large."""
     with open_regular(path) as file:
-        data = file.read(most + 1)
-    if len(data) > most:
-        raise ValueError(f"it is larger than {most >> 20} MiB")
-    return data
+        # A read of at most so many bytes would take memory for as many.
+        if os.fstat(file.fileno()).st_size > most:
+            raise ValueError(f"it is larger than {most >> 20} MiB")
+        return file.read()
 
 
 def read_json(path: Path, schema: type[T]) -> T:
