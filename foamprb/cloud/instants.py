@@ -7,6 +7,7 @@ cubic through both ends of the step, and the deformation gradient of
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -43,7 +44,6 @@ __all__ = [
     "Moments",
     "capture",
     "capture_at_rest",
-    "columns_of_state",
     "hosts_at",
     "instants_of",
     "moments_of",
@@ -231,7 +231,7 @@ def state_within(c: Instants, i: int, share: float, side: int) -> tuple[Vector, 
         cubic(share, x0[1], x1[1], m0[1], m1[1]),
         cubic(share, x0[2], x1[2], m0[2], m1[2]),
     )
-    v = plus_scaled(v0, share, minus(v1, v0)) if v0[0] == v0[0] else v1
+    v = v1 if math.isnan(v0[0]) else plus_scaled(v0, share, minus(v1, v0))
     F = shape_between(table, i, share, c.in_frame)
     if c.rate < 0:
         return x, v, F, F
