@@ -27,11 +27,14 @@ from foamprb.body.tensor import (
     Tensor,
     add,
     axial,
+    cofactor,
     det,
     dev,
     diagonal,
     dot,
+    dot_vector,
     from_frame,
+    inner,
     inverse,
     scale,
     select,
@@ -216,6 +219,18 @@ def quaternion(Q: Tensor) -> tuple[Scalar, Scalar, Scalar, Scalar]:
     z = select(first, select(upper, wz, xz), select(lower, yz, zz))
     n = select(w < 0.0, -1.0, 1.0) / np.sqrt(w * w + x * x + y * y + z * z)
     return n * w, n * x, n * y, n * z
+
+
+def circulation(l: Tensor) -> Scalar:
+    """Return √det of a velocity gradient in the plane of its rotation; 0 where material does not circulate.
+
+    In a steady shape material goes round with this angular velocity (Roscoe 1967), which is less than that of
+    the :func:`axial` vector of its skew part.
+    """
+    n = axial(skew(l))
+    n_2 = inner(n, n)
+    # n·cof(l)·n is n² times the determinant in the plane across n.
+    return np.sqrt(np.maximum(inner(n, dot_vector(cofactor(l), n)), 0.0) / np.maximum(n_2, 1e-300))
 
 
 def sort_stage(block: Any) -> None:
@@ -410,6 +425,10 @@ def _value(name: str) -> Callable[[Context], Floats]:
     return lambda c: c.value(name) if _SIZES[name] > 1 else c.value(name)[:, 0]
 
 
+def _circulation(c: Context) -> Floats:
+    return np.asarray(circulation(dot(tuple(c.particles.A.T), inverse(c.F))))
+
+
 def _glyph(c: Context) -> Floats:
     """Return the columns of R F, one after the other, (n, 9), m."""
     p = c.particles
@@ -431,6 +450,7 @@ MEASURES: dict[str, Measure] = {
     "stresslet": Measure("N m", _value("stresslet"), of_flow=True),
     "J": Measure("1", _value("volume_ratio")),
     "angularVelocity": Measure("1/s", _value("spin")),
+    "circulation": Measure("1/s", _circulation),
     "shearRate": Measure("1/s", _value("rate"), of_flow=True),
     "capillaryNumber": Measure("1", lambda c: c.mu * c.value("rate")[:, 0] / c.particles.mu, of_flow=True),
     "status": Measure("", lambda c: c.particles.status),
@@ -449,12 +469,14 @@ MEASURES: dict[str, Measure] = {
 ``deformationGradient`` is F·F₀⁻¹, from the shape at rest; ``glyph`` is what ParaView's Tensor Glyph draws
 as the deformed unit sphere; ``orientation`` is the :func:`quaternion` of the frame; ``taylorDeformation`` is
 that of the longest and the shortest axis; the components of ``stresslet`` are xx yy zz xy yz xz;
+``angularVelocity`` is that of the skew part of the body's velocity gradient, and :func:`circulation` that of
+points on its surface;
 ``capillaryNumber`` is that of the shear rate where the particle is; ``Uc`` and ``Ur`` are the velocity of the
 fluid at the centre and the particle's velocity relative to it, and ``muc`` is the fluid's viscosity there;
 ``swimmingDirection`` is 0 without swimming, as are the components 111 112 113 122 123 222 223 of the
 ``quadraticShape``, and its ``bulletAmplitude`` ε, without that mode.
 """
-OF_RATES = ("stresslet", "angularVelocity")
+OF_RATES = ("stresslet", "angularVelocity", "circulation")
 """Measures that depend on dF/dt."""
 _TAKEN = frozenset(MEASURES) | frozenset(
     (

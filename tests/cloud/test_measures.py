@@ -118,6 +118,20 @@ def test_quaternion_is_that_of_any_rotation():
         assert (back * rotation.inv()).magnitude().max() < 1e-14
 
 
+def test_circulation_is_the_frequency_of_points_on_a_steady_ellipsoid():
+    """Material of semi-axes a and b that goes round with ν has l₁₂ = −ν a/b and l₂₁ = ν b/a."""
+    a, b, nu = np.array([1.0, 1.5, 4.0]), np.array([1.0, 0.7, 0.3]), np.array([2.0, 0.5, 1e-6])
+    l = np.zeros((3, 3, 3))
+    l[:, 0, 1], l[:, 1, 0] = -nu * a / b, nu * b / a
+    # Beside it, the body may change its width.
+    l[:, 2, 2] = [0.0, 0.3, 0.0]
+    turns = Rotation.random(3, random_state=3).as_matrix()
+    turned = turns @ l @ turns.transpose(0, 2, 1)
+    found = measures.circulation(tuple(turned.reshape(3, 9).T))
+    np.testing.assert_allclose(found, nu, rtol=1e-12)
+    assert measures.circulation(tuple(np.zeros(9))) == 0.0
+
+
 @pytest.mark.parametrize("size", [1, 5, 33])
 def test_a_few_at_a_time_are_the_same_bits(cloud, flow, size, monkeypatch):
     whole = measure(context(cloud, flow, MU, 0.0))

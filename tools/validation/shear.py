@@ -20,7 +20,15 @@ from validation.references.shear import (
     steady_shear,
     tank_treading_rate,
 )
-from validation.runs import advance_to, follow, gradients, shear_shapes, unit_cloud, without_inertia
+from validation.runs import (
+    advance_to,
+    follow,
+    gradients,
+    measures,
+    shear_shapes,
+    unit_cloud,
+    without_inertia,
+)
 
 ROSCOE = "Roscoe (1967), steady algebraic solution"
 TABLE = "high-order inertialess solution, tabulated"
@@ -222,6 +230,8 @@ def tank_treading(quick: bool) -> Outcome:
         own_period = _period(times, follow(cloud, times, _point))
         source = "Roscoe's frequency ν of his steady ellipse"
         rows.append(Row(f"period γ̇T, {integrator}", own_period, 2.0 * np.pi / nu, source, 1e-3))
+        circulation = float(measures(cloud)["circulation"][0])
+        rows.append(Row(f"circulation/γ̇, {integrator}", circulation, nu, source, 1e-6))
     fine = without_inertia(*points)
     shown = times <= 16.0
     at = [solution[:-1, i, 0] for i in (0, 1)]
