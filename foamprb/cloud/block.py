@@ -152,7 +152,8 @@ class Instants(NamedTuple):
     begun: Any
     """(1,) 1 if their starts are recorded, else 0."""
     crossed: Any
-    """(LANES,) when a step last went through a coupled patch, s."""
+    """(LANES, 8): when a step first met a coupled patch or a mirror, s, infinite if it met none, and last;
+    where it came to the first, and where it went on from the last, m."""
     starts: Any
     """(k, 2) rows that are recorded before a step is accepted, and those of the table."""
     ends: Any
@@ -173,7 +174,7 @@ def no_instants() -> Instants:
     """Return no instant."""
     rows = np.empty((0, 2), dtype=np.int64)
     state, marks = np.empty((0, 0, 0)), np.empty((0, 0, 2), dtype=np.int32)
-    begun, crossed = np.zeros(1, dtype=np.int64), np.zeros(LANES)
+    begun, crossed = np.zeros(1, dtype=np.int64), np.zeros((LANES, 8))
     table = np.empty((0, LANES))
     return Instants(np.empty(0), state, marks, table, begun, crossed, rows, rows, rows, 0.0, 0, -1, -1)
 

@@ -151,7 +151,7 @@ def instants_of(
         marks=arrays[MARKS],
         table=np.empty((COLUMNS, LANES)),
         begun=np.zeros(1, dtype=np.int64),
-        crossed=np.zeros(LANES),
+        crossed=np.zeros((LANES, 8)),
         starts=recorded.starts(needs, mode),
         ends=recorded.ends(needs),
         more=np.array(pairs, dtype=np.int64).reshape(-1, 2),
@@ -178,7 +178,7 @@ def record_before(s: Scratch) -> None:
     if c.begun[0]:
         copy_rows(s, c.starts, c.table)
         for i in range(LANES):
-            s.passed[i] = 0
+            c.crossed[i, 0] = math.inf
 
 
 def capture(s: Scratch) -> None:
@@ -193,8 +193,7 @@ def capture(s: Scratch) -> None:
             for w in range(len(c.times)):
                 time = c.times[w]
                 if t0 < time <= t1:
-                    side = 0 if s.passed[i] == 0 else 1 if time < c.crossed[i] else 2
-                    x, v, F, A = state_within(c, i, (time - t0) / (t1 - t0), side)
+                    x, v, F, A = state_within(c, i, time)
                     sticks = time == t1 and s.status[i] == STUCK
                     store(s, i, w, x, v, F, A, STUCK if sticks else ACTIVE)
                     if c.mode >= 0:
@@ -211,21 +210,30 @@ def capture_at_rest(s: Scratch, i: int, until: float) -> None:
             store(s, i, w, load3(block, at.x, i), load3(block, at.v, i), F, A, STUCK)
 
 
-def state_within(c: Instants, i: int, share: float, side: int) -> tuple[Vector, Vector, Tensor, Tensor]:
-    """Return place, velocity, deformation gradient and its rate after a share of the step of lane i.
+def state_within(c: Instants, i: int, time: float) -> tuple[Vector, Vector, Tensor, Tensor]:
+    """Return place, velocity, deformation gradient and its rate at a time, s, in the step of lane i.
 
-    The places of a step through a coupled patch lie on two lines, along the velocities at its ends: ``side``
-    is 1 before the patch, 2 after it, and 0 for other steps.
+    The places of a step through coupled patches or into mirrors lie on the lines to the first of them, and
+    from the last.
     """
     table = c.table
+    t0, t1 = table[step.t0, i], table[step.t1, i]
     x0, x1 = vector_of(table, step.x0, i), vector_of(table, step.x1, i)
     m0, m1 = way_at_start(table, i), way_at_end(table, i)
     v0, v1 = vector_of(table, step.v0, i), vector_of(table, step.v1, i)
-    if side > 0:
+    first, last = c.crossed[i, 0], c.crossed[i, 1]
+    if first < math.inf:
         A = rate_at_start(table, i, c.in_frame)
-        if side == 1:
-            return plus_scaled(x0, share, m0), v0, tensor_of(table, step.F0, i), A
-        return plus_scaled(x1, share - 1.0, m1), v1, tensor_of(table, step.F1, i), A
+        if time < first:
+            y = c.crossed[i, 2], c.crossed[i, 3], c.crossed[i, 4]
+            x = plus_scaled(x0, (time - t0) / (first - t0), minus(y, x0))
+            return x, v0, tensor_of(table, step.F0, i), A
+        # Between two passages the particle stays where it comes to after the last.
+        remaining = min(1.0, (t1 - time) / (t1 - last)) if last < t1 else 0.0
+        y = c.crossed[i, 5], c.crossed[i, 6], c.crossed[i, 7]
+        x = plus_scaled(x1, remaining, minus(y, x1))
+        return x, v1, tensor_of(table, step.F1, i), A
+    share = (time - t0) / (t1 - t0)
     x = (
         cubic(share, x0[0], x1[0], m0[0], m1[0]),
         cubic(share, x0[1], x1[1], m0[1], m1[1]),

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mesh_shapes import cyclic_row, period
+from mesh_shapes import block, box_patches, build_mesh, cyclic_row, period
 from small_clouds import assert_same
 
 from foamprb import analytic
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
-from foamprb.cloud.patches import Adhere, Cyclic, Rebound
+from foamprb.cloud.patches import Adhere, Cyclic, Mirror, Rebound
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow.meshflow import MeshFlow
@@ -94,6 +94,21 @@ def test_a_body_that_passes_a_coupled_patch_stays_on_its_line():
         way = 0.5 * (high[0] - low[0]) + 0.0371 + 2.0 * time
         assert then.x[0, 0] - low[0] == pytest.approx(way % length, abs=1e-9)
     assert cloud.particles.t[0] == 96 * DT
+
+
+def test_a_body_that_meets_a_mirror_is_on_its_lines():
+    shape = block(3, 0.2)
+    patches = [p._replace(type="symmetryPlane") if p.name == "floor" else p for p in box_patches(shape)]
+    mesh = build_mesh(shape, patches)
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    p = spheres([[0.4, 0.6, 0.1]], d=1e-3, rho=1e12, mu=1e6)
+    p.v[:] = 0.1, 0.0, -1.0
+    actions = [Mirror() if patch.type == "symmetryPlane" else Rebound() for patch in flow.patches]
+    models = Models(integrator="rosenbrock", stride=None)
+    cloud = Cloud(p, flow, HEAVY, actions, DT, models, threads=1)
+    times = [0.02 + DT * k for k in range(16)]
+    for time, then in zip(times, states(cloud, 32, times), strict=True):
+        assert then.x[0] == pytest.approx([0.4 + 0.1 * time, 0.6, abs(0.1 - time)], abs=1e-6)
 
 
 def test_a_body_that_a_bond_holds_is_stuck_until_it_breaks():

@@ -88,7 +88,7 @@ def beyond(arrays, triangles, numbers):
 
 def planes_at(arrays, points, hosts, cut):
     """Walls around points as planes, (n, 12)."""
-    kernel, chosen = link(walls, separate=LONG), np.ones(9, dtype=np.int8)
+    kernel, chosen = link(walls, separate=LONG), np.ones(arrays.triangle_patch.max() + 1, dtype=np.int8)
     found = [kernel(arrays, h, tuple(x), cut, chosen) for x, h in zip(points, hosts, strict=True)]
     return np.array([[p.h1, *p.n1, p.h2, *p.n2, p.h3, *p.n3] for p in found])
 

@@ -239,7 +239,7 @@ def compare(name: str, case: Path, size: Size) -> list[list[float]]:
         ]
         for kind, setup in (("without", row.without), ("with", row.setup))
     ]
-    costs: list[list[float]] = isolated(pairs, str(case), files, size.repeats).result
+    costs: list[list[float]] = isolated(pairs, str(case), files, min(size.repeats, 200_000 // n + 2)).result
     return costs
 
 
