@@ -47,7 +47,7 @@ CYTOMETER, VOLUME_FLOW = 10.94e-6, 0.04e-9
 """Radius of the tube that acts as a channel of 20 µm, m, and its volume flow, m³/s."""
 
 
-def cytometer_job(folder: Path) -> Job:
+def cytometer_job(folder: Path, channel: str = f"channel {{ type tube; radius {CYTOMETER}; }}") -> Job:
     """The job of cells with the quadratic mode on the axis of the tube of a deformability cytometer."""
     text = SETTINGS.replace("mu 1;", "mu 0.015;").replace(
         "shearModulus 300; viscosity 1;", "shearModulus 1000;"
@@ -64,7 +64,7 @@ def cytometer_job(folder: Path) -> Job:
         {{
             type deformabilityCytometry;
             origin (2e-4 0 0); normal (1 0 0); view (0 0 1);
-            channel {{ type tube; radius {CYTOMETER}; }}
+            {channel}
         }}
     }}
     """

@@ -28,14 +28,16 @@ from foamprb.dictionary.constraints import Meaning, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.results.tables import Column, write_table
 
-__all__ = ["Channel", "DeformabilityCytometry", "Outline", "outline"]
+__all__ = ["LARGEST_RATIO", "Channel", "DeformabilityCytometry", "Outline", "outline"]
 
 Floats = NDArray[np.float64]
 
 log = logging.getLogger(__name__)
 
-_NEAR_AXIS, _LARGEST = 0.2, 0.7
-"""Largest distance from the axis, in radii of a body, and largest such radius, in radii of the tube."""
+_NEAR_AXIS = 0.2
+"""Largest distance from the axis, in radii of a body."""
+LARGEST_RATIO = 0.7
+"""Largest radius of a body, in radii of the tube."""
 
 
 class Outline(NamedTuple):
@@ -185,7 +187,7 @@ class DeformabilityCytometry(PlaneFunction):
             return np.zeros(len(R))
         away = np.linalg.norm(np.cross(x - self.origin, unit(self.normal)), axis=1)
         ratio = R / self.channel.tube_radius
-        return np.where((away <= _NEAR_AXIS * R) & (ratio <= _LARGEST), ratio, 0.0)
+        return np.where((away <= _NEAR_AXIS * R) & (ratio <= LARGEST_RATIO), ratio, 0.0)
 
     def _speed(self, p: Particles, confinement: Floats, cloud: Cloud) -> Floats:
         """Return the speeds of bodies, (n,), m/s, which walls reduce."""
@@ -203,5 +205,5 @@ class DeformabilityCytometry(PlaneFunction):
             "cloudFunctions/%s: %d of %d crossings so far are more than %g radii of the body from the axis, "
             "or of bodies larger than %g of the channel. The channel does not act on them; their column "
             "channel in cytometry.csv is 0.",
-            name, np.count_nonzero(~acts), len(acts), _NEAR_AXIS, _LARGEST,
+            name, np.count_nonzero(~acts), len(acts), _NEAR_AXIS, LARGEST_RATIO,
         )  # fmt: skip

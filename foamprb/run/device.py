@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import re
 from collections.abc import Callable, Sequence
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.material import MATERIALS
-from foamprb.body.quadratic import parts, square
+from foamprb.body.quadratic import parts, square, tube_deformation
 from foamprb.cloud.cloud import Stepper
 from foamprb.cloud.communicator import Communicator
 from foamprb.cloud.paths import Steps, step
@@ -20,7 +21,12 @@ from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.tracker import never
 from foamprb.cloudfunctions.base import Memory, ObservedCloud
 from foamprb.cloudfunctions.crossings import PlaneFunction, unit
-from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry, outline
+from foamprb.cloudfunctions.deformability_cytometry import (
+    LARGEST_RATIO,
+    Channel,
+    DeformabilityCytometry,
+    outline,
+)
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.dictionary.constraints import Vector3
 from foamprb.errors import InputError, RunInterrupted
@@ -30,6 +36,8 @@ from foamprb.run.release import lame_of
 
 __all__ = ["UNKNOWNS", "Bodies", "Device", "Plane", "Seen", "plane_of", "spread", "view_of"]
 
+log = logging.getLogger("foamprb")
+
 Floats = NDArray[np.float64]
 
 UNKNOWNS = {"shearModulus": "mu", "viscosity": "eta", "surfaceTension": "gamma"}
@@ -37,6 +45,8 @@ UNKNOWNS = {"shearModulus": "mu", "viscosity": "eta", "surfaceTension": "gamma"}
 _MOST_GUIDES = 2000
 _CALLS = 24
 """Calls of the stepper until the slowest particle of the case passes; bodies that have passed stop then."""
+_BY_WALLS = 1.02
+"""Factor of the modulus from which walls count."""
 _ON_AXIS = re.compile(r"([xyz])\s*(?:=\s*(\S+))?")
 
 
@@ -380,6 +390,28 @@ class Device:
                 ratio = camera.confinement(0.5 * d, x)
                 return ratio, ratio == 0.0
         return np.zeros(len(d)), np.zeros(len(d), dtype=bool)
+
+    def warn_of_walls(self, d: Floats) -> None:
+        """Warn if walls deform bodies of diameters d, (n,), m, and the settings have no channel."""
+        job, width = self.job, self.job.cloud.flow.width
+        cameras = [f for f in job.settings.functions.values() if isinstance(f, DeformabilityCytometry)]
+        d = d[np.isfinite(d)]
+        size = float(np.median(d)) if len(d) else math.inf
+        if (
+            not job.cloud.models.has_quadratic
+            or any(camera.channel is not None for camera in cameras)
+            or not size < width < math.inf
+        ):
+            return
+        channel = Channel("square", width=width)
+        factor = float(tube_deformation(min(0.5 * size / channel.tube_radius, LARGEST_RATIO)))
+        if factor > _BY_WALLS:
+            log.warning(
+                "%s: no channel in deformabilityCytometry, so walls do not act on the shapes. On the axis of "
+                "a square channel as wide as the flow, %.4g m, moduli of bodies of %.4g m are then too small "
+                "by a factor of %.3g. Needed there: channel { type square; width %.4g; }.",
+                job.settings.file, width, size, factor, width,
+            )  # fmt: skip
 
     def image(self, seen: Seen, d: Floats, names: Sequence[str]) -> dict[str, Floats]:
         """Return quantities of :class:`~foamprb.run.measured.Measured` of seen bodies, (n,) each.

@@ -173,6 +173,9 @@ def fit_job(
         )
     plane_ = plane_of(plane, job)
     device = Device(job, plane_, view_of(view, job, plane_), stop)
+    device.warn_of_walls(
+        measured.of("d") if measured.size == "d" else 2.0 * np.sqrt(measured.of("area") / np.pi)
+    )
     compile_run(job.cloud, job.compilation)
     folder = job.folder.path / "fit"
     folder.mkdir(parents=True, exist_ok=True)
@@ -265,8 +268,7 @@ class _Batch:
         self._arrival = problem.device.expected(self._places, self._guide, self._offsets)
         self.values, self.errors = problem.values[rows], problem.errors[rows]
         self.size_is_unknown = self._measured.size == "area"
-        sizes = self._measured
-        self.d = 2.0 * np.sqrt(sizes.of("area") / np.pi) if self.size_is_unknown else sizes.of("d")
+        self.d = self._measured.diameters
         self._reason = self._faults()
         self._bullet = np.zeros(len(self.d))
         self.able = np.flatnonzero(self._reason == "")

@@ -73,6 +73,11 @@ class Measured:
         """Name of the measured size, ``d`` or ``area``."""
         return "d" if "d" in self.columns else "area"
 
+    @property
+    def diameters(self) -> Floats:
+        """Diameters at rest, or of circles of the measured areas, (n,), m."""
+        return self.of("d") if self.size == "d" else 2.0 * np.sqrt(self.of("area") / np.pi)
+
     def of(self, name: str) -> Floats:
         """Return a column; NaN if there is none."""
         return self.columns.get(name, np.full(self.n, np.nan))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import re
 
 import numpy as np
@@ -37,6 +38,20 @@ def test_moduli_of_cells_are_those_of_finite_elements(cytometer):
     fits = fit_job(cytometer, measured, ("shearModulus",), overwrite=True)
     assert fits.fitted.all()
     np.testing.assert_allclose(3e-3 * fits.table["shearModulus"], youngs, rtol=0.03)
+
+
+def test_a_fit_without_the_walls_says_by_how_much_it_is_wrong(tmp_path, caplog):
+    measured = read_measured({"area": [np.pi * 6e-6**2], "deformation": [0.01]})
+    moduli = []
+    for k, channel in enumerate((f"channel {{ type square; width {2.0 * CYTOMETER}; }}", "")):
+        job = cytometer_job(tmp_path / str(k), channel)
+        with caplog.at_level(logging.WARNING, "foamprb"):
+            moduli.append(fit_job(job, measured, ("shearModulus",)).table["shearModulus"][0])
+    (text,) = (record.getMessage() for record in caplog.records)
+    factor = float(re.search(r"too small by a factor of ([\d.]+)\.", text)[1])
+    assert moduli[0] / moduli[1] == pytest.approx(factor, rel=0.005)
+    assert 1.05 < factor < 1.2
+    assert f"channel {{ type square; width {2.0 * CYTOMETER:.4g}; }}" in text
 
 
 def test_cells_beyond_the_mode_have_a_reason(cytometer):
