@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "add_browser",
-    "add_cache",
     "add_case",
     "add_cloud",
     "add_flow",
@@ -52,13 +51,6 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
     _add_case(group)
     add = group.add_argument
     add("--decomposed", action="store_true", help="read the processor folders")
-    add(
-        "--reader",
-        default="",
-        choices=["vtk"],
-        metavar="vtk",
-        help="read the mesh by VTK's own reader, in single precision, to check that of foamprb",
-    )
     add("--flow", type=Path, metavar="FILE", help="read the flow from a mesh file")
     add("--velocity", default="U", metavar="NAME", help="velocity field [U]")
     add("--gradient", default="", metavar="NAME", help="gradient field [reconstructed]")
@@ -74,13 +66,6 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
         "outlet and walls",
     )
     add("--scale", type=float, metavar="S", help="lengths in a mesh file times S are m [1]")
-
-
-def add_cache(parser: argparse.ArgumentParser) -> None:
-    """Add the option ``-cache``."""
-    parser.add_argument(
-        "--cache", type=Path, metavar="DIR", help="folder that keeps prepared flows of cases for later runs"
-    )
 
 
 def add_browser(parser: argparse.ArgumentParser) -> None:
@@ -129,7 +114,5 @@ def source_of(arguments: argparse.Namespace) -> FlowSource:
         arguments.gradient,
         Division(arguments.patchArray, angle) if divided else None,
         arguments.decomposed,
-        reader=arguments.reader,
         scale=scale,
-        cache=getattr(arguments, "cache", None),
     )

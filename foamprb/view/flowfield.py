@@ -14,7 +14,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from foamprb.body.viscosity import shear_rate
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
 from foamprb.view.colours import round_limits
 

@@ -18,7 +18,7 @@ from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkLight, vtk
 from foamprb import optional
 from foamprb.errors import InputError
 from foamprb.flow.patches import PatchKind, kind_of_type
-from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
 from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes

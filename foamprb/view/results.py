@@ -18,7 +18,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.vtk_guard import require_survival
-from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
 from foamprb.results.folder import FATES, HOW, ResultsFolder
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd

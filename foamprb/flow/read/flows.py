@@ -39,11 +39,9 @@ def open_case(case: Path, source: FlowSource) -> Case:
     if source.scale is not None:
         raise InputError(f"{case}: a case is in m; only the lengths of a mesh file (-flow) have a scale.")
     if not source.decomposed and not is_only_decomposed(case, source.region):
-        opened = Case(case, source.region, source.reader)
+        opened = Case(case, source.region)
         opened.notes += later_times(case)
         return opened
-    if source.reader:
-        raise InputError(f"{case}: -reader {source.reader} reads no processor folders.")
     return DecomposedCase(case, source.region)
 
 
@@ -128,8 +126,6 @@ def rotations_of(case: Path, source: FlowSource) -> tuple[Rotation, ...]:
 
 
 def _refuse_of_case(source: FlowSource) -> None:
-    if source.cache is not None:
-        raise InputError(f"{source.file}: -cache keeps flows of cases only. Allowed: no -cache.")
     if source.turbulent:
         raise InputError(
             f"{source.file}: only the velocity is read from a mesh file, but the dispersionModel needs k and "

@@ -58,7 +58,6 @@ from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
-from foamprb.flow.read.prepared import PreparedTimes
 from foamprb.flow.read.sampled import kinds_of, read_sampled
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.read.times import listed
@@ -74,10 +73,6 @@ _STEADY = 0.01
 
 By then the fluid must have crossed the domain.
 """
-PRECISION_NOTE = (
-    "Coordinates have passed through single precision in VTK's OpenFOAM reader: a relative error of up to "
-    "6e-8 of their distance from the origin."
-)
 
 
 class Case:
@@ -89,18 +84,14 @@ class Case:
         The case's folder.
     region
         Region of the mesh, if the case has several.
-    reader
-        ``vtk`` to read the mesh by VTK.
     """
 
     notes: tuple[str, ...] = ()
     comm = SINGLE_NODE
     """The nodes that hold the mesh."""
 
-    def __init__(self, root: Path, region: str = "", reader: str = "") -> None:
-        self.root, self.region, self.reader = root, region, reader
-        if reader == "vtk":
-            self.notes = (PRECISION_NOTE,)
+    def __init__(self, root: Path, region: str = "") -> None:
+        self.root, self.region = root, region
 
     def times(self) -> tuple[str, ...]:
         """Return the names of all times; InputError if there is no case with a mesh."""
@@ -153,11 +144,7 @@ class Case:
         """
         files = mesh_files(self.root, time, self.region)
         patches = read_boundary(files[-1], self.root)
-        if self.reader != "vtk":
-            return read_poly(files, patches), patches, []
-        from foamprb.flow.read.vtk_reader import read_poly_by_vtk
-
-        return read_poly_by_vtk(files, patches), patches, []
+        return read_poly(files, patches), patches, []
 
     def mesh(self, time: str) -> CaseMesh:
         """Read the mesh at a time; InputError if it is missing, broken or inconsistent."""
@@ -275,18 +262,12 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity, case.comm)
     notes: list[Any] = [*case.notes, *whole.notes]
     file = (case.folder(name) / source.velocity).relative_to(case.root)
-
-    def make() -> tuple[Floats, Floats, Floats | None]:
-        u, l = operators.reconstruct(cells, boundary, given)
-        # Its arrays take half as much memory as the flow.
-        operators.free()
-        trim()
-        fluxes = balanced(operators.conserve, u, l, mass, file, notes=notes)
-        operators.free()
-        return u, l, fluxes
-
-    prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
-    u, l, fluxes = prepared.get((cells, boundary, given, mass), make)
+    u, l = operators.reconstruct(cells, boundary, given)
+    # Its arrays take half as much memory as the flow.
+    operators.free()
+    trim()
+    fluxes = balanced(operators.conserve, u, l, mass, file, notes=notes)
+    operators.free()
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     caveats = _caveats(case, name, source, relative=bool(rotations))
@@ -330,7 +311,6 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady, case.comm)
     operators = _Operators(whole.mesh, case.comm)
-    prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators.reconstruct)
@@ -339,19 +319,12 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         if name != names[0]:
             _refuse_moving(case, name)
         reads = [partial(case.field, name) for name in names]
-        values = (
-            *velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole),
-            _given(case, name, source, whole),
-        )
+        values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         index = names.index(name)
         mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity, case.comm)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
-
-        def make() -> tuple[Floats, Floats, Floats]:
-            u, l = operators.reconstruct(*values)
-            return u, l, balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
-
-        u, l, fluxes = prepared.get((*values, mass), make)
+        u, l = operators.reconstruct(*values, _given(case, name, source, whole))
+        fluxes = balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
         more = _further(case, name, source, whole, operators)
         curvatures = [mean_curvatures(whole.mesh, l, case.comm)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)

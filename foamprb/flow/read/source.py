@@ -68,12 +68,8 @@ class FlowSource:
     """Read also these fields, for sampling."""
     accept: tuple[str, ...] = ()
     """Faults of a transient flow with which to go on, of :data:`~foamprb.flow.base.FAULTS`."""
-    reader: str = ""
-    """``vtk`` to read a case's mesh by VTK's OpenFOAM reader, in single precision."""
     scale: float | None = None
     """Factor of the lengths in a mesh file, m; by default 1."""
-    cache: Path | None = None
-    """Folder that keeps the times of cases; see :class:`~foamprb.flow.read.prepared.PreparedTimes`."""
 
     @property
     def length_scale(self) -> float:
@@ -102,7 +98,6 @@ class FlowSource:
             "patchArray": divided.array,
             "featureAngle": divided.feature_angle,
             "scale": self.scale,
-            "reader": self.reader,
         }
         words = "".join(f" -{name} {shlex.quote(str(value))}" for name, value in given.items() if value)
         return words + " -decomposed" * self.decomposed

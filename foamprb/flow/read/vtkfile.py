@@ -23,7 +23,7 @@ from foamprb.flow.mesh.cells import CELL_KINDS, CURVED
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.times import listed, pick_time
 from foamprb.flow.read.vtk_guard import load_pyvista, read_vtk, require_survival, times_of
-from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
 from foamprb.results.reading import read_json
 

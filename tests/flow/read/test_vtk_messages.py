@@ -1,24 +1,14 @@
-"""What VTK says while it reads, and which parts of a case it reads."""
+"""Messages of VTK while it reads."""
 
 from __future__ import annotations
 
 import logging
 
-import numpy as np
 import pytest
-from foam_writer import write_case
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh.mesh import assemble
-from foamprb.flow.read.boundary import read_boundary
-from foamprb.flow.read.openfoam import PRECISION_NOTE, Case, steady_flow
-from foamprb.flow.read.polymesh import read_poly
-from foamprb.flow.read.source import FlowSource
-from foamprb.flow.read.vtk_reader import read_poly_by_vtk, vtk_messages
-
-NAMES = ("points", "faces", "owner", "neighbour", "boundary")
-
+from foamprb.flow.read.vtk_messages import vtk_messages
 
 def say(kind, text):
     vtkOutputWindow.GetInstance().DisplayText(f"{kind}: In reader.cxx, line 7\nvtkReader (0x1f): {text}\n\n")
@@ -65,24 +55,3 @@ def test_of_what_is_logged_errors_are_collected(caplog):
     logging.getLogger("vtk").error("later")
     assert messages.errors == ["a line and 3 more", "the end"]
     assert logging.getLogger().handlers == handlers
-
-
-@pytest.mark.parametrize("kind", ["mixed", "polyhedra"])
-def test_vtk_reads_the_same_mesh(kind, tmp_path):
-    """In single precision; a group of patches, which VTK lists among them, is none."""
-    write_case(tmp_path, kind)
-    files = [tmp_path / "constant/polyMesh" / name for name in NAMES]
-    assert "inGroups" in files[-1].read_text()
-    patches = read_boundary(files[-1], tmp_path)
-    own, other = (assemble(read(files, patches), "mesh") for read in (read_poly, read_poly_by_vtk))
-    assert own.patches == other.patches
-    np.testing.assert_array_equal(own.patch_start, other.patch_start)
-    np.testing.assert_allclose(other.points, own.points, rtol=6e-8)
-    assert np.abs(other.points - own.points).max() > 0.0
-    np.testing.assert_allclose(other.volumes, own.volumes, rtol=1e-5)
-    np.testing.assert_allclose(other.boundary_areas, own.boundary_areas, atol=1e-6)
-    assert set(zip(own.owner[: own.n_internal].tolist(), own.neighbour.tolist(), strict=True)) == set(
-        zip(other.owner[: other.n_internal].tolist(), other.neighbour.tolist(), strict=True)
-    )
-    flow = steady_flow(Case(tmp_path, reader="vtk"), "latestTime", FlowSource())
-    assert flow.notes[0] == PRECISION_NOTE
