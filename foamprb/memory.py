@@ -14,8 +14,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike, NDArray
 
-__all__ = ["OutOfMemory", "clear", "memory", "ran_out", "size_text", "sparse_zeros", "spread_over", "trim"]
-
 _machines = [1]
 """Number of machines of a run."""
 

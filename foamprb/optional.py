@@ -7,8 +7,6 @@ from typing import Any
 
 from foamprb.errors import InputError
 
-__all__ = ["load"]
-
 
 def load(module: str, extra: str = "view", reason: str = "pages, pictures and reports need") -> Any:
     """Import a module of an extra.

@@ -15,22 +15,6 @@ import numpy as np
 
 from foamprb.body.tensor import Scalar, Tensor, ddot, sym
 
-__all__ = [
-    "LAWS",
-    "BirdCarreau",
-    "Casson",
-    "CrossPowerLaw",
-    "HerschelBulkley",
-    "PowerLaw",
-    "RateLaw",
-    "bird_carreau",
-    "casson",
-    "cross_power_law",
-    "herschel_bulkley",
-    "power_law",
-    "shear_rate",
-]
-
 _LEAST_RATE = 1e-300
 """Smallest shear rate, 1/s; OpenFOAM's VSMALL."""
 

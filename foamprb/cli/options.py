@@ -15,16 +15,6 @@ if TYPE_CHECKING:
 
     from foamprb.flow.read.source import FlowSource
 
-__all__ = [
-    "add_browser",
-    "add_case",
-    "add_cloud",
-    "add_flow",
-    "fraction",
-    "show_page",
-    "source_of",
-]
-
 
 def add_case(parser: argparse.ArgumentParser) -> None:
     """Add the options ``-case`` and ``-region``."""

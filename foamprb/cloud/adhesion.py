@@ -35,8 +35,6 @@ from foamprb.cloud.patches import STICK
 from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.flow.analytic import sample_linear as sample
 
-__all__ = ["Adhesion"]
-
 _KIND = np.uint64(5)
 """Second word of the key of these random numbers; the seed is the first."""
 

@@ -50,8 +50,6 @@ from foamprb.flow.base import Floats, Flow
 from foamprb.flow.fields import columns_of
 from foamprb.flow.nodes import NodeValues
 
-__all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
-
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
 _FIRST_CHECK = 4
 """Steps before the stability of ``paper`` is first checked; it is again whenever they have doubled."""

@@ -20,8 +20,6 @@ from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.flow.base import Flow
 from foamprb.flow.loaded import LoadedFlow, loaded_fields
 
-__all__ = ["Communicator", "Rank", "Share", "applied", "parts_of", "same", "store_at"]
-
 Value = TypeVar("Value")
 Arrays = Mapping[str, NDArray[Any]]
 PART = 1 << 14

@@ -20,19 +20,6 @@ from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import normal_free as normal
 from foamprb.flow.analytic import walk_free as walk
 
-__all__ = [
-    "CROWDED",
-    "Rebounds",
-    "contact_normals",
-    "first_contact",
-    "in_order",
-    "on_cubic",
-    "passages",
-    "rebounds_of",
-    "record_contact",
-    "slope_on_cubic",
-]
-
 CROWDED = 2
 """Value of :attr:`~foamprb.cloud.block.Scratch.outgrown`: the buffer of rebounds is full."""
 

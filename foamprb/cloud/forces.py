@@ -34,22 +34,6 @@ from foamprb.dictionary.constraints import (
 )
 from foamprb.errors import InputError
 
-__all__ = [
-    "DEFAULT",
-    "FORCES",
-    "DuctLift",
-    "Force",
-    "Gravity",
-    "Inputs",
-    "PressureGradient",
-    "VirtualMass",
-    "acceleration",
-    "add_force",
-    "coefficients",
-    "compose",
-    "forces_on",
-]
-
 _FLUID_VELOCITY = Only("U", "the flow's velocity")
 _TINY = 1e-300
 _POINTS = 50

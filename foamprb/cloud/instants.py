@@ -38,20 +38,6 @@ from foamprb.compile.link import link
 from foamprb.flow.analytic import recover_free as recover
 from foamprb.flow.analytic import walk_free as walk
 
-__all__ = [
-    "MARKS",
-    "STATE",
-    "Moments",
-    "capture",
-    "capture_at_rest",
-    "hosts_at",
-    "instants_of",
-    "moments_of",
-    "record_before",
-    "state_at",
-    "status_at",
-]
-
 Floats = NDArray[np.float64]
 
 STATE, MARKS = "instants/state", "instants/marks"

@@ -16,8 +16,6 @@ from typing import Any, NamedTuple, TypeVar, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["IDENTITY", "LANES", "Layout", "Row", "end", "keep", "layout", "offsets", "rows_of"]
-
 LANES = 16
 """Number of particles of a block, side by side: so few that its rows stay in the first level of the cache."""
 

@@ -6,8 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-__all__ = ["Limits", "LoopLimits"]
-
 
 @dataclass(frozen=True)
 class Limits:

@@ -22,8 +22,6 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.fields import FieldColumns, blend_fields, width
 from foamprb.flow.walk import blend
 
-__all__ = ["Needed", "check_needs", "needed_by", "reader_of"]
-
 _FIRST = {"u": (0, 3), "grad(u)": (3, 9)}
 """First row and number of rows of what is sampled of the fluid; the fields of the case follow."""
 _FLUID_ROWS = 12

@@ -32,23 +32,6 @@ from foamprb.cloud.layout import LANES, Row, end, offsets, rows_of
 from foamprb.cloud.state import Status
 from foamprb.compile.link import compiled
 
-__all__ = [
-    "COLUMNS",
-    "COLUMNS_OF_ELLIPSOIDS",
-    "MODE",
-    "ROOM",
-    "RecordedRows",
-    "Steps",
-    "cubic",
-    "is_full",
-    "record_ends",
-    "record_starts",
-    "step",
-    "steps_of",
-    "tensor_of",
-    "vector_of",
-]
-
 Floats = NDArray[np.float64]
 
 

@@ -23,8 +23,6 @@ from foamprb.body.tensor import (
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile.link import link
 
-__all__ = ["longest_stable_steps", "unstable", "warning_of"]
-
 Floats = NDArray[np.float64]
 _HALVINGS = 12
 _CHUNK = 16_384

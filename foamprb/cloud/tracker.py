@@ -56,8 +56,6 @@ from foamprb.flow.fields import FieldColumns, Fields, fields_on, width
 from foamprb.flow.mesh.arrays import no_mesh
 from foamprb.flow.meshflow import LONG
 
-__all__ = ["Models", "Observers", "Outcome", "Tracker", "available_threads", "never"]
-
 
 def never() -> bool:
     """Return False: the default stop callback."""

@@ -33,24 +33,6 @@ from foamprb.flow.analytic import viscosity_unknown as viscosity
 from foamprb.flow.base import Patch, Sampled
 from foamprb.flow.nodes import NodeValues
 
-__all__ = [
-    "RATE_LAWS",
-    "BirdCarreau",
-    "Casson",
-    "CrossPowerLaw",
-    "FieldViscosity",
-    "HerschelBulkley",
-    "PhaseMixture",
-    "PowerLaw",
-    "RateViscosity",
-    "VaryingViscosity",
-    "medium_at",
-    "model_of",
-    "viscosity_at_nodes",
-    "viscosity_at_rate",
-    "viscosity_of",
-]
-
 Floats: TypeAlias = NDArray[np.float64]
 
 

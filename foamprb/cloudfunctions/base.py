@@ -34,32 +34,6 @@ from foamprb.flow.fields import FieldColumns
 from foamprb.flow.loaded import LoadedFlow
 from foamprb.results.tables import Column
 
-__all__ = [
-    "STATUS_NAMES",
-    "CloudFunction",
-    "CloudShare",
-    "ContactObserver",
-    "Kind",
-    "Memory",
-    "ObservedCloud",
-    "PathFunction",
-    "Rows",
-    "append",
-    "columns",
-    "events_of",
-    "in_time",
-    "masses",
-    "memory_of",
-    "names_of",
-    "names_of_kind",
-    "per_cell",
-    "per_event",
-    "per_particle",
-    "rows_of_particles",
-    "table",
-    "taylor_at_end",
-]
-
 Rows: TypeAlias = NDArray[np.int64]
 """Row numbers of particles in their cloud."""
 Memory: TypeAlias = dict[str, NDArray[Any]]

@@ -15,8 +15,6 @@ from foamprb.compile.link import compiled
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.walk import WITHIN, is_sound, way_out
 
-__all__ = ["add_up", "no_sums", "parts_in_cells", "values_of"]
-
 Floats = NDArray[np.float64]
 Words = NDArray[np.int64]
 

@@ -16,8 +16,6 @@ from foamprb.compile.link import compiled
 from foamprb.dictionary.constraints import Vector3
 from foamprb.errors import InputError
 
-__all__ = ["Crossings", "PlaneFunction", "unit"]
-
 Floats = NDArray[np.float64]
 
 _COLUMNS, _OF_MODE = 15, 10

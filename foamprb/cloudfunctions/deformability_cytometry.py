@@ -28,8 +28,6 @@ from foamprb.dictionary.constraints import Meaning, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.results.tables import Column, write_table
 
-__all__ = ["LARGEST_RATIO", "Channel", "DeformabilityCytometry", "Outline", "outline"]
-
 Floats = NDArray[np.float64]
 
 log = logging.getLogger(__name__)

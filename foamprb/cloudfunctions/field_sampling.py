@@ -32,8 +32,6 @@ from foamprb.flow.walk import Corners, Weights, blend
 from foamprb.results.tables import Column, rows_of, write_rows
 from foamprb.results.tables import Rows as TableRows
 
-__all__ = ["FieldSampling"]
-
 
 @dataclass(frozen=True)
 class FieldSampling(PathFunction):

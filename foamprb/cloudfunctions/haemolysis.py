@@ -47,16 +47,6 @@ from foamprb.errors import InputError
 from foamprb.results.tables import Rows as TableRows
 from foamprb.results.tables import rows_of, write_rows, write_table
 
-__all__ = [
-    "POWER_LAWS",
-    "Haemolysis",
-    "PowerLaw",
-    "effective_shear_rate",
-    "index_of_haemolysis",
-    "pore_area",
-    "relaxed",
-]
-
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]

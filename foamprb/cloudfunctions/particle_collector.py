@@ -15,8 +15,6 @@ from foamprb.cloudfunctions.crossings import PlaneFunction, unit
 from foamprb.dictionary.constraints import Meaning, Only, Positive, Vector3
 from foamprb.results.tables import write_table
 
-__all__ = ["ParticleCollector"]
-
 
 @dataclass(frozen=True)
 class ParticleCollector(PlaneFunction):

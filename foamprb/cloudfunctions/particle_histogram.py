@@ -30,8 +30,6 @@ from foamprb.errors import InputError, suggestion
 from foamprb.results.tables import Column, rows_of, write_rows, write_table
 from foamprb.results.tables import Rows as TableRows
 
-__all__ = ["ParticleHistogram"]
-
 Floats = NDArray[np.float64]
 
 

@@ -30,8 +30,6 @@ from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshSizes
 from foamprb.results.foam import GENERIC, PatchValues, write_field
 
-__all__ = ["ParticleStatistics"]
-
 Floats = NDArray[np.float64]
 
 _DIMENSIONS: dict[str, tuple[int, ...]] = {

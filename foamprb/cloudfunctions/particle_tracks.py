@@ -25,8 +25,6 @@ from foamprb.cloudfunctions.base import (
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
 from foamprb.flow.fields import FieldValues, columns_of, field_of
 
-__all__ = ["ParticleTracks"]
-
 Floats = NDArray[np.float64]
 
 _TRACKED = ("semiAxes", "taylorDeformation", "shearRate")

@@ -31,8 +31,6 @@ from foamprb.flow.base import patches_named
 from foamprb.results.folder import file_name
 from foamprb.results.tables import Rows, rows_of, write_rows
 
-__all__ = ["PatchPostProcessing"]
-
 Floats = NDArray[np.float64]
 
 

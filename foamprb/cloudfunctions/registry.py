@@ -40,8 +40,6 @@ from foamprb.errors import InputError
 from foamprb.flow.fields import FieldColumns, columns_of
 from foamprb.results.tables import Column
 
-__all__ = ["FUNCTIONS", "CloudFunctions"]
-
 FUNCTIONS: dict[str, type[CloudFunction]] = {
     "deformabilityCytometry": DeformabilityCytometry,
     "fieldSampling": FieldSampling,

@@ -17,8 +17,6 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, append, names_of, table
 from foamprb.results.tables import write_table
 
-__all__ = ["SuspensionStress"]
-
 
 @dataclass(frozen=True)
 class SuspensionStress(CloudFunction):

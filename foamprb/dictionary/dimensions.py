@@ -5,25 +5,6 @@ from __future__ import annotations
 import re
 from typing import TypeAlias
 
-__all__ = [
-    "ACCELERATION",
-    "DENSITY",
-    "DISSIPATION",
-    "DYNAMIC_VISCOSITY",
-    "KINEMATIC_VISCOSITY",
-    "MASS_FLUX",
-    "RATE",
-    "SPECIFIC_ENERGY",
-    "VELOCITY",
-    "VOLUME_FLUX",
-    "Dimensions",
-    "described",
-    "read_dimensions",
-    "read_unit",
-    "unit_text",
-    "written",
-]
-
 Dimensions: TypeAlias = tuple[float, ...]
 """Seven exponents."""
 

@@ -13,9 +13,6 @@ from typing import BinaryIO
 
 from foamprb.errors import InputError
 
-__all__ = ["existing", "opened", "read_bytes"]
-
-
 MOST_UNPACKED, MOST_RATIO = 256 << 20, 200
 """Size up to which every compressed file is read, bytes, and the largest ratio of larger ones."""
 _PIECE = 1 << 20
@@ -37,13 +34,7 @@ def existing(path: Path) -> Path | None:
 
 
 def read_bytes(path: Path, limit: int = -1) -> bytes:
-    """Read the file's bytes, decompressed, up to a limit.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read, or is suspiciously small for its contents.
-    """
+    """Read the file's bytes, decompressed, up to a limit."""
     try:
         if path.suffix != ".gz":
             with path.open("rb") as stream:

@@ -17,8 +17,6 @@ from foamprb.dictionary.mistakes import Mistake
 from foamprb.dictionary.tree import CaseFile, Dictionary, DictionaryList, Entry, Stream, real, unquoted
 from foamprb.errors import InputError, suggestion
 
-__all__ = ["parse_dictionary", "read_dictionary", "read_dictionary_list"]
-
 log = logging.getLogger("foamprb")
 
 
@@ -44,11 +42,6 @@ def read_dictionary(path: Path, case: Path, warn: bool = False) -> Dictionary:
         The case: messages name files relative to it, and ``$FOAM_CASE`` and ``<case>`` in an include mean it.
     warn
         Whether to warn of entries that stand twice in a dictionary, in one file.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is not such a dictionary; with the line.
     """
     source, spent = CaseFile(path, case), _Spent()
     root = Dictionary("", None, source, 0)
@@ -79,11 +72,6 @@ def read_dictionary_list(path: Path, case: Path, text: str | None = None) -> Dic
         See :func:`read_dictionary`.
     text
         Contents of the file, if they have been read.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is not such a list; with the line.
     """
     source, spent = CaseFile(path, case), _Spent()
     root = Dictionary("", None, source, 0)

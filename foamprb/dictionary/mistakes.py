@@ -8,9 +8,6 @@ from types import TracebackType
 
 from foamprb.errors import InputError
 
-__all__ = ["Mistake", "Mistakes", "ReportedError", "SeveralMistakes"]
-
-
 _ENDLESS = re.compile(r"\S{500,}")
 
 

@@ -11,8 +11,6 @@ from foamprb.dictionary.grammar import parse_dictionary
 from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError, suggestion
 
-__all__ = ["override"]
-
 
 def override(root: Dictionary, values: Mapping[str, object]) -> dict[str, str]:
     """Replace or add entries of a dictionary; return their texts.

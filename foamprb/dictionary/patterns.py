@@ -10,8 +10,6 @@ from contextlib import contextmanager
 
 from foamprb.errors import InputError
 
-__all__ = ["matches"]
-
 LONGEST = 1.0
 """Time of a match after which a pattern is refused, s."""
 

@@ -15,8 +15,6 @@ from foamprb.dictionary.constraints import Bounds
 from foamprb.dictionary.mistakes import Mistake
 from foamprb.errors import InputError, suggestion
 
-__all__ = ["Positions", "read_positions"]
-
 Floats = NDArray[np.float64]
 
 
@@ -59,12 +57,6 @@ def read_positions(path: Path, columns: Mapping[str, Bounds] | None = None) -> P
         The file.
     columns
         Further columns that a table may have, with the bounds of their values.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is neither, or holds a number that is not finite or out of its bounds;
-        with the line.
     """
     try:
         data = path.read_bytes().removeprefix(b"\xef\xbb\xbf")

@@ -32,23 +32,6 @@ from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList,
 from foamprb.dictionary.values import READERS
 from foamprb.errors import InputError, closest, suggestion
 
-__all__ = [
-    "Instead",
-    "Schema",
-    "allowed",
-    "hints_of",
-    "members",
-    "names_of",
-    "note_of",
-    "read_entries",
-    "read_entry",
-    "read_model",
-    "refuse_unknown",
-    "rule_of",
-    "selected",
-]
-
-
 log = logging.getLogger("foamprb")
 
 

@@ -10,17 +10,6 @@ from pathlib import Path
 
 from foamprb.dictionary.mistakes import Mistake
 
-__all__ = [
-    "DICTIONARY_TEXT",
-    "CaseFile",
-    "Dictionary",
-    "DictionaryList",
-    "Entry",
-    "Stream",
-    "real",
-    "unquoted",
-]
-
 DICTIONARY_TEXT = "a dictionary { … }"
 """Name of a dictionary in messages."""
 
@@ -82,13 +71,7 @@ class Entry:
         return self.source.mistake(self.line, f"{path} is missing. {allowed}", missing=path)
 
     def dictionary(self) -> Dictionary:
-        """Return this entry as a dictionary; a key without a value, such as ``gravity;``, is an empty one.
-
-        Raises
-        ------
-        InputError
-            If the entry is something else.
-        """
+        """Return this entry as a dictionary; a key without a value, such as ``gravity;``, is an empty one."""
         raise self.mistake(f"is {self}. Allowed: {DICTIONARY_TEXT}.")
 
     def copy(self, key: str, parent: Entry) -> Entry:

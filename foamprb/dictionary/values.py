@@ -20,20 +20,6 @@ from foamprb.dictionary.dimensions import (
 )
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList, Stream, unquoted
 
-__all__ = [
-    "READERS",
-    "Acceleration",
-    "AccelerationVector",
-    "Density",
-    "DynamicViscosity",
-    "Files",
-    "Line",
-    "Reader",
-    "Viscosity",
-    "factor_of",
-    "unit_of",
-]
-
 Line = NewType("Line", str)
 """An entry's whole text, of one word or more."""
 Files = NewType("Files", tuple[Path, ...])

@@ -31,11 +31,6 @@ def run_together(lead: Callable[[Ranks | None], int]) -> int:
     Returns
     -------
     The exit status.
-
-    Raises
-    ------
-    InputError
-        On the first process only, if mpi4py or MPI is missing.
     """
     try:
         role = connect()
@@ -65,11 +60,6 @@ def connect() -> Ranks | Worker | None:
     -------
     All processes if this is the first; one of the others, which is to :meth:`Worker.serve`;
     None if there are no others.
-
-    Raises
-    ------
-    InputError
-        If mpi4py or MPI is missing.
     """
     try:
         from mpi4py import MPI

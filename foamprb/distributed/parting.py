@@ -43,8 +43,6 @@ def hold_part(
     ------
     IndivisibleMeshError
         The mesh has baffles or folded cells.
-    InputError
-        See :func:`foamprb.flow.mesh.mesh.assemble`.
     """
     pieces = [read()]
     if has_baffles(pieces[0], team, n_internal):

@@ -418,11 +418,6 @@ class Worker(Rank):
         -------
         The number of the first of them, and a checksum; None if nothing was written: without particles only
         the first process writes a part.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be written.
         """
         first, last = self._firsts[self.number : self.number + 2].tolist()
         arrays = self._arrays_in_order()

@@ -13,8 +13,6 @@ from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.walk import curvature_in
 
-__all__ = ["mean_curvatures"]
-
 _DIRECTIONS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 _PLACES = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
 """Order of second derivatives, and the place of each in it."""

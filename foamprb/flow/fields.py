@@ -15,18 +15,6 @@ from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.walk import Corners, Weights, blend, corners, shape
 
-__all__ = [
-    "FieldColumns",
-    "FieldValues",
-    "Fields",
-    "blend_fields",
-    "by_name",
-    "columns_of",
-    "field_of",
-    "fields_on",
-    "width",
-]
-
 
 class FieldColumns(NamedTuple):
     """Field in the columns of a table: a scalar, a vector, a symmetric tensor or a tensor."""

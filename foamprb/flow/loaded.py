@@ -12,8 +12,6 @@ from foamprb.flow.base import Floats, Ints
 from foamprb.flow.fields import FieldColumns, Fields, columns_of
 from foamprb.flow.sampling import sample_with, viscosity_with
 
-__all__ = ["LoadedFlow", "loaded_fields"]
-
 
 class LoadedFlow(NamedTuple):
     """Flow at the loaded times: its kernels, their arguments, and the fields that are sampled."""

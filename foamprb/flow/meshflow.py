@@ -536,13 +536,7 @@ class MeshFlow:
         )
 
     def cell_zone(self, name: str | None) -> Tetrahedra:
-        """Return the tetrahedra of a zone of cells, or of all cells, cell by cell.
-
-        Raises
-        ------
-        InputError
-            There is no such zone, or it names cells that the mesh does not have.
-        """
+        """Return the tetrahedra of a zone of cells, or of all cells, cell by cell."""
         hosts = np.arange(len(self.mesh.tets), dtype=np.int32) if name is None else self._hosts_in(name)
         volumes = np.empty(len(hosts))
         for start in range(0, len(hosts), AT_ONCE):

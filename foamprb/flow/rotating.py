@@ -27,8 +27,6 @@ from foamprb.flow.walk import STEADY, parts
 from foamprb.flow.walk import curvature as curvature_mesh
 from foamprb.flow.walk import turbulence as turbulence_mesh
 
-__all__ = ["RotatingFlow", "RotatingZone"]
-
 
 class RotatingZone(NamedTuple):
     """Rotating zone of cells."""

@@ -9,8 +9,6 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.walk import Corners, Weights, blend, corners, shape
 
-__all__ = ["blend_scalar", "viscosity"]
-
 
 def viscosity(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[float, Vector]:  # noqa: ARG001
     """Return the viscosity at x and its gradient; NaN if it was not read."""

@@ -21,8 +21,6 @@ from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.tree import build_tree, meet, next_node, square_to_box
 from foamprb.flow.walk import nearest_point
 
-__all__ = ["MOST_LISTED", "WallTree", "edges_out", "near_walls", "seen_walls", "wall_tree"]
-
 MOST_LISTED = 64
 """Largest number of triangles in a list for contact; beyond it, only the nearest to the cell's centre."""
 # One gigabyte.

@@ -86,13 +86,7 @@ class Checkpoints:
         return self.folder / f"{time:.12g}.checkpoint"
 
     def write(self, checkpoint: Checkpoint) -> Path:
-        """Write a checkpoint, and remove all but the last two.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be written.
-        """
+        """Write a checkpoint, and remove all but the last two."""
         path = self.file(checkpoint.time)
         write_checkpoint(path, checkpoint)
         for file in list(self.files().values())[:-MOST_FILES]:
@@ -183,11 +177,6 @@ def write_arrays(
     Returns
     -------
     The checksum.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
     """
     first, names, rows = _FORMAT + b"%d\n" % VERSION, [], {}
     with atomic_write(path) as temporary, temporary.open("w+b") as file:
@@ -307,11 +296,6 @@ class StoredCheckpoint:
             The array in the checkpoint.
         first
             Its first row to read.
-
-        Raises
-        ------
-        OSError
-            If a file cannot be read.
         """
         rows, start = np.atleast_1d(array), 0
         for file in (self._files[0][1], *self._parts(name)):

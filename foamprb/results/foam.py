@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 
 from foamprb.results.atomic import atomic_write, write_text
 
-__all__ = ["GENERIC", "SYMMETRIC", "PatchValues", "remove_lagrangian", "write_field", "write_lagrangian"]
-
 Floats = NDArray[np.float64]
 
 
@@ -56,11 +54,6 @@ def write_field(
         Fields on the patches by name, in the order of the mesh.
     name
         Name of the field; by default the file's.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
     """
     parts = iter(cells)
     first = next(parts)
@@ -113,13 +106,7 @@ _GEOMETRY = "geometry        positions;\n"
 
 
 def remove_lagrangian(case: Path, cloud: str) -> None:
-    """Remove the files of :func:`write_lagrangian` of a cloud at all times of a case, and no others.
-
-    Raises
-    ------
-    OSError
-        If a file cannot be removed.
-    """
+    """Remove the files of :func:`write_lagrangian` of a cloud at all times of a case, and no others."""
     for properties in case.glob(f"[0-9]*/uniform/lagrangian/{cloud}/cloudProperties"):
         # OpenFOAM's own files have more entries.
         if not properties.read_text(encoding="utf-8", errors="replace").endswith(f"}}\n\n{_GEOMETRY}"):
@@ -151,11 +138,6 @@ def write_lagrangian(
     arrays
         Values by name, (n,) or (n, k) with k of 1, 3, 6 (xx yy zz xy yz xz) or 9. Other arrays are left out,
         as OpenFOAM has no files for them. NaN and infinity are written as 0.
-
-    Raises
-    ------
-    OSError
-        If a file cannot be written.
     """
     time = folder.parents[1]
     properties = time / "uniform" / "lagrangian" / folder.name / "cloudProperties"

@@ -16,16 +16,6 @@ from urllib.parse import quote
 from foamprb.errors import InputError, suggestion
 from foamprb.results.atomic import unfinished
 
-__all__ = [
-    "FAILURES",
-    "FATES",
-    "MANIFEST",
-    "ResultsFolder",
-    "fault_of_function",
-    "fault_of_word",
-    "file_name",
-]
-
 DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES = "fates", "failed"
 """Tables of a run: a row per particle, and a row per failed particle."""

@@ -69,8 +69,6 @@ class Manifest:
         ------
         InputError
             If a folder on the way to a file is a link.
-        OSError
-            If the manifest cannot be written.
         """
         files = frozenset(files)
         self._add(files - (self._expected or frozenset()))
@@ -95,15 +93,7 @@ class Manifest:
             replace_end(self.path, _END.encode(), f"{_NEXT}{self._lines(files)}{_END}".encode())
 
     def settle(self, files: Iterable[Path]) -> None:
-        """List only files that exist, and files that are about to be written, in one step.
-
-        Raises
-        ------
-        InputError
-            If the manifest is damaged.
-        OSError
-            If the manifest cannot be written.
-        """
+        """List only files that exist, and files that are about to be written, in one step."""
         self._write({file for file in Manifest.read(self.folder).files if file.exists()} | {*files})
 
     def _write(self, files: Iterable[Path]) -> None:
@@ -113,13 +103,7 @@ class Manifest:
         return _NEXT.join(map(json.dumps, sorted(file.relative_to(self.folder).as_posix() for file in files)))
 
     def remove(self, files: Iterable[Path]) -> None:
-        """Remove listed files, in order, and the folders that become empty.
-
-        Raises
-        ------
-        OSError
-            If a file cannot be removed.
-        """
+        """Remove listed files, in order, and the folders that become empty."""
         for file in files:
             file.unlink(missing_ok=True)
             self.files.discard(file)

@@ -64,8 +64,6 @@ class Series:
         ------
         ValueError
             If the time is not later than the last listed one.
-        OSError
-            If a file cannot be written.
         """
         file = with_ending(self.next(cloud.time), ".vtp")
         write_snapshot(file, cloud)
@@ -87,23 +85,11 @@ class Series:
         return self.folder.snapshot(index + ahead)
 
     def add(self, time: float, file: Path) -> None:
-        """List a complete file, named by :meth:`next`.
-
-        Raises
-        ------
-        OSError
-            If the list cannot be written.
-        """
+        """List a complete file, named by :meth:`next`."""
         self._list((*self.entries, SnapshotFile(float(time), file.name)))
 
     def relist(self, entries: Sequence[SnapshotFile]) -> None:
-        """List only these snapshots of an earlier run, in order of time.
-
-        Raises
-        ------
-        OSError
-            If the list cannot be written, or removed when it is empty.
-        """
+        """List only these snapshots of an earlier run, in order of time."""
         if entries:
             self._list(tuple(entries))
         else:
@@ -136,11 +122,6 @@ def read_pvd(path: Path) -> tuple[SnapshotFile, ...]:
     Returns
     -------
     The entries in order of time.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not such a list, or names a file outside its own folder.
     """
     with reading(path, "is no list of VTK files"):
         root = ElementTree.fromstring(read_bytes(path))

@@ -30,8 +30,6 @@ from typing import (
 
 from foamprb.errors import InputError
 
-__all__ = ["checked", "open_regular", "read_bytes", "read_json", "reading"]
-
 T = TypeVar("T")
 _hints_of = cache(get_type_hints)
 MOST_BYTES = 1 << 30

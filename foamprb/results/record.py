@@ -7,8 +7,6 @@ from typing import TypedDict
 
 from foamprb.results.reading import read_json
 
-__all__ = ["Record", "read_record"]
-
 RECORD_FORMAT = 2
 """Version of the entries of the record."""
 
@@ -93,11 +91,5 @@ class Record(TypedDict, total=False):
 
 
 def read_record(path: Path) -> Record:
-    """Read a record; it is empty without the file.
-
-    Raises
-    ------
-    InputError
-        If the file is something else.
-    """
+    """Read a record; it is empty without the file."""
     return read_json(path, Record) if path.exists() or path.is_symlink() else {}

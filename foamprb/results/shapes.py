@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DERIVED", "SOURCES", "derived"]
-
 SOURCES = ("glyph", "d", "status")
 """The arrays that :func:`derived` needs."""
 DERIVED = {

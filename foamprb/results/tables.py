@@ -104,8 +104,6 @@ def write_table(
     ------
     ValueError
         If the columns differ in length, or one has more than one axis.
-    OSError
-        If the file cannot be written.
     """
     n = max((len(column) for column in columns.values()), default=0)
     parts = (
@@ -128,11 +126,6 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
     Returns
     -------
     The columns (n,) by name, in order: integers (int64), numbers (float64), or text.
-
-    Raises
-    ------
-    InputError
-        If the file is missing or is no table.
     """
     with reading(path, "is no table"), open_regular(path) as file:
         reader = csv.reader(TextIOWrapper(file, encoding="utf-8", newline=""))

@@ -80,8 +80,6 @@ def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, .
 
     Raises
     ------
-    OSError
-        If the file cannot be written.
     Exception
         Any exception of the parts; ``path`` is unchanged then.
     """
@@ -161,11 +159,6 @@ def write_pieces(path: Path, arrays: Sequence[PieceArray], pieces: Sequence[Path
         The :func:`layout` of each of the pieces.
     pieces
         Files of the pieces, in the folder of ``path`` or below.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
     """
     points, *values = (
         f'<PDataArray type="{a.type}" Name={quoteattr(a.name)} NumberOfComponents="{a.components}"/>\n'
@@ -232,13 +225,7 @@ class Tracks:
 
 
 def write_tracks(path: Path, tracks: Tracks) -> None:
-    """Write paths as VTK PolyData, in one step: a polyline per path, with point and cell arrays.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
+    """Write paths as VTK PolyData, in one step: a polyline per path, with point and cell arrays."""
     data = _points(tracks.points, tracks.values)
     data.SetLines(_cells(tracks.start))
     for name, array in tracks.tracks.items():
@@ -250,13 +237,7 @@ def write_tracks(path: Path, tracks: Tracks) -> None:
 
 
 def write_triangles(path: Path, corners: NDArray[np.float64]) -> None:
-    """Write n triangles, (n, 3, 3), m, as VTK PolyData, in one step.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
+    """Write n triangles, (n, 3, 3), m, as VTK PolyData, in one step."""
     data = _points(corners.reshape(-1, 3), {})
     data.SetPolys(_cells(3 * np.arange(len(corners) + 1, dtype=np.int64)))
     writer = vtkXMLPolyDataWriter()

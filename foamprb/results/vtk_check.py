@@ -9,8 +9,6 @@ from xml.etree import ElementTree
 
 from foamprb.results.reading import open_regular
 
-__all__ = ["is_compressed", "require_sizes"]
-
 _HEAD, _DATA = b'compressor="vtkLZ4DataCompressor"', b'<AppendedData encoding="raw">'
 _BYTES = {"Int8": 1, "UInt8": 1, "Int16": 2, "UInt16": 2, "Int32": 4, "UInt32": 4, "Int64": 8, "UInt64": 8,
           "Float32": 4, "Float64": 8}  # fmt: skip

@@ -31,8 +31,6 @@ from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.settings.libs import compiling_libs
 
-__all__ = ["Compilation", "compile_run"]
-
 log = logging.getLogger("foamprb")
 
 _TICK, _BETWEEN_LINES = 1.0, 30.0

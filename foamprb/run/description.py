@@ -29,8 +29,6 @@ from foamprb.results.record import RECORD_FORMAT
 from foamprb.run.checks import costly_settings, dimensionless_groups, extension_rates, validity_warnings
 from foamprb.settings.settings import Settings
 
-__all__ = ["describe", "write_record"]
-
 _PACKAGES = ("foamprb", "numpy", "numba", "vtk")
 
 
@@ -148,13 +146,7 @@ def _viscosity(settings: Settings, cloud: Cloud) -> dict[str, Any]:
 
 
 def write_record(path: Path, description: Mapping[str, Any]) -> None:
-    """Write a description, in one step.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
+    """Write a description, in one step."""
     with atomic_write(path) as temporary:
         text = json.dumps(description, indent=1, ensure_ascii=False, allow_nan=False)
         temporary.write_text(f"{text}\n", encoding="utf-8")

@@ -34,8 +34,6 @@ from foamprb.run.job import Job
 from foamprb.run.measured import Measured
 from foamprb.run.release import lame_of
 
-__all__ = ["UNKNOWNS", "Bodies", "Device", "Plane", "Seen", "plane_of", "spread", "view_of"]
-
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]

@@ -27,8 +27,6 @@ from foamprb.run.job import Job, prepare
 from foamprb.run.least_squares import Solution, gauss_newton
 from foamprb.run.measured import Measured, read_measured
 
-__all__ = ["Fits", "fit", "fit_job"]
-
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]

@@ -9,8 +9,6 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Predict", "Solution", "gauss_newton"]
-
 Floats = NDArray[np.float64]
 Predict: TypeAlias = Callable[[NDArray[np.int64], Floats, bool], tuple[Floats, NDArray[np.bool_]]]
 

@@ -23,8 +23,6 @@ from foamprb.run.device import Bodies, Device, plane_of, view_of
 from foamprb.run.job import Job
 from foamprb.run.measured import Measured
 
-__all__ = ["Lut", "compute_lut", "write_lut"]
-
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
@@ -153,15 +151,7 @@ def inflow(job: Job) -> float:
 
 
 def write_lut(lut: Lut, target: Path, identifier: str) -> None:
-    """Write a table that ``dclab.register_lut`` loads.
-
-    Raises
-    ------
-    InputError
-        If another kind of file has its name, or the identifier is no word.
-    OSError
-        If the file cannot be written.
-    """
+    """Write a table that ``dclab.register_lut`` loads."""
     if not _WORD.fullmatch(identifier):
         raise InputError(f"-identifier '{identifier}'. Allowed: letters, digits, +, -, _ and points.")
     refuse_other_kind(target, _HEAD.encode())

@@ -17,8 +17,6 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.errors import InputError, closest
 from foamprb.optional import load
 
-__all__ = ["SHAPES", "Measured", "read_measured"]
-
 Floats = NDArray[np.float64]
 
 _LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}

@@ -18,8 +18,6 @@ from foamprb.run.job import prepare
 from foamprb.run.loop import execute
 from foamprb.run.template import write_template
 
-__all__ = ["compile_all"]
-
 log = logging.getLogger("foamprb")
 
 _FILES = {

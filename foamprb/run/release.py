@@ -27,8 +27,6 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 from foamprb.settings.injections import InjectionSettings, Solid
 
-__all__ = ["Release", "lame_of"]
-
 Floats = NDArray[np.float64]
 
 

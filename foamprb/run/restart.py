@@ -28,6 +28,7 @@ from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 from foamprb.flow.timeline import Timeline
+from foamprb.flow.traits import of_rows
 from foamprb.results.checkpoint import (
     FUNCTIONS,
     PARTICLES,
@@ -52,7 +53,6 @@ _LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching",
 _PARTICLES, _LIBS = "particles at the start", "libs/"
 _MOST_NAMED = 6
 _RELATIVE, _OF_LARGEST = 1e-9, 1e-13
-_CHUNK = 1 << 18
 
 
 class _Header(TypedDict):
@@ -105,7 +105,12 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     for name, array in cloud.flow.traits().items():
         values = np.atleast_1d(array)
         integers = values.dtype.kind != "f"
-        marks |= {f"flow/{name}": _of_integers(values) if integers else _means(_totals(values), len(values))}
+        numbers = np.arange(len(values))
+        marks |= {
+            f"flow/{name}": _of_integers(values)
+            if integers
+            else _means(_totals(values, numbers), len(values))
+        }
     return marks
 
 
@@ -125,8 +130,7 @@ _INTEGERS = tuple(name for name, variable in VARIABLES.items() if not variable.d
 
 def _totals_of(p: Particles) -> dict[str, NDArray[np.float64]]:
     """Return the sums of the arrays of numbers that are no integers, see :func:`_totals`."""
-    first = int(p.number[0]) if p.size else 0
-    return {name: _totals(a, first) for name, a in p._asdict().items() if name not in _INTEGERS}
+    return {name: _totals(a, p.number) for name, a in p._asdict().items() if name not in _INTEGERS}
 
 
 def _integers_of(p: Particles) -> dict[str, NDArray[Any]]:
@@ -311,11 +315,6 @@ def snapshots_until(checkpoint: StoredCheckpoint, pvd: Path, where: str) -> tupl
         The list of the run's snapshots. If it is missing or damaged, the checkpoint tells them as well.
     where
         What a message begins with.
-
-    Raises
-    ------
-    InputError
-        If the list has other snapshots, or a file of them is missing.
     """
     expected = checkpoint.header["series"]
     try:
@@ -386,27 +385,9 @@ def _means(totals: NDArray[np.float64], n: int) -> Sums:
     return [[float(n * totals.shape[1])], *(totals / max(n, 1)).tolist()]
 
 
-def _totals(values: NDArray[np.float64], first: int = 0) -> NDArray[np.float64]:
-    """Return for each column of an array the sum of absolute values, and a weighted sum, (2, columns).
-
-    The weights are random numbers, so that the sum depends on the order of the rows.
-
-    Parameters
-    ----------
-    values
-        (n, ...).
-    first
-        Number of the first row.
-    """
-    columns = values.reshape(len(values), math.prod(values.shape[1:]))
-    weights = np.random.Generator(np.random.PCG64(0).advance(first))
-    total = np.zeros((2, columns.shape[1]))
-    for start in range(0, len(columns), _CHUNK):
-        chunk = columns[start : start + _CHUNK]
-        if not np.isfinite(chunk).all():
-            chunk = np.nan_to_num(chunk, posinf=0.0, neginf=0.0)
-        total += np.abs(chunk).sum(axis=0), weights.random(len(chunk)) @ chunk
-    return total
+def _totals(values: NDArray[np.float64], numbers: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return :func:`~foamprb.flow.traits.of_rows` of an array (n, …) whose rows have these numbers."""
+    return of_rows(values.reshape(len(values), math.prod(values.shape[1:])), numbers, np.ones(len(values)))
 
 
 def _differences(old: Mapping[str, str | Sums], new: Mapping[str, str | Sums]) -> list[str]:

@@ -14,8 +14,6 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.viscosity import medium_at
 from foamprb.flow.base import Sampled
 
-__all__ = ["Slip", "SlipRecord", "drag_excess"]
-
 Floats = NDArray[np.float64]
 _CHUNK = 16_384
 _EDGES = np.hstack([0.0, np.logspace(-15.0, 5.0, 2001), np.inf])

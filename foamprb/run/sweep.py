@@ -25,8 +25,6 @@ from foamprb.run.loop import execute_until_signal
 from foamprb.settings.settings import read_settings
 from foamprb.settings.solution import StartFrom
 
-__all__ = ["Study", "execute_run", "read_study", "require_entries"]
-
 log = logging.getLogger("foamprb")
 
 _KEYS = ("case", "dict", "time", "region", "entries")

@@ -48,8 +48,6 @@ from foamprb.run.validity import CURVED, are_curved
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.help import meaning, plain
 
-__all__ = ["FlowScales", "scales_of", "template", "write_template"]
-
 log = logging.getLogger("foamprb")
 
 NAME = "softCloudProperties"

@@ -17,8 +17,6 @@ from foamprb.cloud.tracker import Models
 from foamprb.flow.base import NEAR
 from foamprb.run.checks import SMALL_REYNOLDS
 
-__all__ = ["COLUMNS", "CURVED", "PathRecord", "are_curved", "limits_of", "path_values"]
-
 Floats = NDArray[np.float64]
 
 _LARGE_BULLET = 0.2

@@ -29,8 +29,6 @@ from foamprb.flow.read.fluid import (
     read_viscosity,
 )
 
-__all__ = ["ConstantProperties", "Fluid", "of_region", "read_fluid", "read_gravity", "read_medium"]
-
 log = logging.getLogger("foamprb")
 
 _OF_CASE = "that of the case, see [The fluid](#the-fluid)"
@@ -125,11 +123,6 @@ def read_fluid(
         Whether the flow is read at all times.
     mixture
         Whether ν and ρ_f are those of two phases at the local volume fraction.
-
-    Raises
-    ------
-    InputError
-        If there are mistakes, in ``constantProperties`` or in the other file, all of them.
     """
     if mixture:
         return _mixed(case, region, constant, time, transient)

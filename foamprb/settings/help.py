@@ -16,8 +16,6 @@ from typing import NamedTuple
 
 from foamprb.errors import InputError, suggestion
 
-__all__ = ["FILE", "EntryText", "SectionText", "Texts", "explain", "meaning", "plain"]
-
 FILE = Path(__file__).with_name("entries.json")
 
 

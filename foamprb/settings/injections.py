@@ -28,8 +28,6 @@ from foamprb.dictionary.values import Line
 from foamprb.results.folder import fault_of_word
 from foamprb.settings.fluid import ConstantProperties, Fluid
 
-__all__ = ["STIFFNESS", "InjectionModel", "InjectionSettings", "Solid", "parameters", "read_injections"]
-
 _ONE_OF_THESE = "one of shearModulus, youngsModulus and Ca is required"
 
 
@@ -212,11 +210,6 @@ def read_injections(
         entries replace them.
     fluid
         The fluid to which a capillary number refers.
-
-    Raises
-    ------
-    InputError
-        If there are mistakes, all of them.
     """
     entries = [entry for entry in models.entries.values() if isinstance(entry, Dictionary) or not entry.used]
     if not entries:

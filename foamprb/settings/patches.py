@@ -23,19 +23,6 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Flow, Patch
 from foamprb.flow.patches import PatchKind
 
-__all__ = [
-    "INTERACTION_MODELS",
-    "KindRule",
-    "PatchRule",
-    "Rule",
-    "Touching",
-    "applies",
-    "match_patches",
-    "patch_interactions",
-    "patch_rule",
-    "read_patch_interaction",
-]
-
 log = logging.getLogger("foamprb")
 
 Touching: TypeAlias = Literal["ellipsoid", "centre"]
@@ -78,11 +65,6 @@ def read_patch_interaction(sub_models: Dictionary) -> tuple[tuple[Rule, ...], To
     Returns
     -------
     The rules for the patches, and the part of a particle that touches a wall.
-
-    Raises
-    ------
-    InputError
-        If there are mistakes, all of them.
     """
     if "patchInteractionModel" not in sub_models.entries:
         raise ReportedError("patchInteractionModel is missing")

@@ -33,8 +33,6 @@ from foamprb.settings.libs import load_libs, require_inside
 from foamprb.settings.patches import INTERACTION_MODELS, Rule, Touching, read_patch_interaction
 from foamprb.settings.solution import Solution, read_solution
 
-__all__ = ["CloudProperties", "ParticleForces", "Settings", "SubModels", "read_settings"]
-
 _DICTIONARY = "softCloudProperties"
 
 

@@ -20,8 +20,6 @@ from foamprb.errors import InputError
 from foamprb.flow.base import FAULTS
 from foamprb.flow.read.caveats import pseudo_time
 
-__all__ = ["Solution", "StartFrom", "read_solution"]
-
 log = logging.getLogger("foamprb")
 
 _CONTROL = Path("system/controlDict")
@@ -238,11 +236,6 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
 
     A step or an end time that is not given is read from ``system/controlDict``, as for OpenFOAM's clouds,
     unless the solver's time counts iterations. The write interval is then read from there too.
-
-    Raises
-    ------
-    InputError
-        If there are mistakes, all of them.
     """
     mistakes = Mistakes()
     with mistakes:

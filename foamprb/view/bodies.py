@@ -160,11 +160,6 @@ def require_array(run: Run, text: str) -> tuple[str, str]:
     Returns
     -------
     Name and component; by default the magnitude, or the first component.
-
-    Raises
-    ------
-    InputError
-        If there is no such array or component; the message suggests one.
     """
     name, _, part = text.partition(":")
     names = (*colourable(run), "fate", *(FATE_COLUMNS if run.has_fates else ()))
@@ -204,11 +199,6 @@ def gather(
         Largest number of bodies; if there are more, a selection that is evenly spread over their numbers.
     arrays
         Names of the :func:`colourable` arrays to read; by default all of them.
-
-    Raises
-    ------
-    InputError
-        If a file is damaged or contains a particle twice.
     """
     names = [name for name in colourable(run) if arrays is None or name in arrays]
     ids = reduce(np.union1d, (_numbers(run, k) for k in frames))
@@ -282,11 +272,6 @@ def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles |
     -------
     The numbers, (m,), and the finite values of all times, (v,), in the unit of the array; of very many bodies
     some are taken, evenly spread. None for an array that is no number of the clouds.
-
-    Raises
-    ------
-    InputError
-        If a file is missing or damaged.
     """
     valued = name in run.components and name not in run.names
     stride = 1 + len(run.entries) * len(run.cloud(-1, ("origId",)).points) // _MOST_VALUES

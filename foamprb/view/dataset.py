@@ -14,8 +14,6 @@ from foamprb.results.vtk import PointCloud
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["dataset_of"]
-
 _POINTS = {"x": 0, "y": 1, "z": 2}
 _ID = "origId"
 
@@ -31,11 +29,6 @@ def dataset_of(times: NDArray[np.float64], read: Callable[[int], PointCloud], so
         Returns the cloud at the time of an index.
     source
         What wrote them.
-
-    Raises
-    ------
-    InputError
-        If xarray is not installed.
     """
     xr, last = optional.load("xarray", "xarray", "to_xarray needs"), read(-1)
     n = int(last.arrays[_ID].max(initial=-1)) + 1

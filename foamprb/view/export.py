@@ -18,8 +18,6 @@ from foamprb.results.foam import remove_lagrangian, write_lagrangian
 from foamprb.view.results import Run, open_run
 from foamprb.view.stress import write_stress
 
-__all__ = ["export"]
-
 _TARGETS = {"openfoam": "openfoam", "stress": "sigma"}
 """Default file or folder of each kind, beside the results."""
 
@@ -52,13 +50,6 @@ def export(
     Returns
     -------
     The file or folder.
-
-    Raises
-    ------
-    InputError
-        If there is no run, its files are damaged, or the flow cannot be read.
-    OSError
-        If a file cannot be written.
     """
     run = open_run(case, cloud, source.region, results)
     source = run.source(source)

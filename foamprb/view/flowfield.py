@@ -113,13 +113,7 @@ class FlowField:
 
 
 def field_of(flow: MeshFlow, plane: str | None, *, drawn: bool) -> FlowField:
-    """Return the field to draw, in a picture if ``drawn``, else on a page; ``plane`` is ``-slice``.
-
-    Raises
-    ------
-    InputError
-        See :func:`read_plane`.
-    """
+    """Return the field to draw, in a picture if ``drawn``, else on a page; ``plane`` is ``-slice``."""
     at = None if plane is None else read_plane(plane, *flow.bounds)
     cut_there = cut(flow, *at) if drawn and at is not None else None
     grid = sample_grid(flow)

@@ -13,8 +13,6 @@ from foamprb.flow.read.source import FlowSource
 from foamprb.view import results as files
 from foamprb.view.results import Run
 
-__all__ = ["CaseRun", "ViewPage", "open_run"]
-
 _HEIGHT = 700
 """Height of the frame of a page, pixels."""
 

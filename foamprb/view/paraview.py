@@ -17,8 +17,6 @@ from foamprb.view.geometry import FLAT_TYPES
 from foamprb.view.scene import VIEW_ANGLE, Scene, anchor
 from foamprb.view.surfaces import MODE, bulges, unfolded
 
-__all__ = ["write_state"]
-
 _ASPECT = 4 / 3
 """Ratio of width to height for which the camera shows the whole scene."""
 
@@ -226,13 +224,7 @@ def _colours(scene: Scene) -> list[tuple[float, ...]]:
 
 
 def write_state(folder: ResultsFolder, scene: Scene) -> None:
-    """Write the state file of a scene and the walls that it reads, each in one step.
-
-    Raises
-    ------
-    OSError
-        If a file cannot be written.
-    """
+    """Write the state file of a scene and the walls that it reads, each in one step."""
     camera = scene.camera
     surfaces = scene.geometry.surfaces if scene.geometry is not None else ()
     drawn = [s for s in surfaces if s.type not in FLAT_TYPES]

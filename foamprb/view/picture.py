@@ -267,8 +267,6 @@ def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, texts
     ------
     InputError
         If the name of the file has another ending.
-    OSError
-        If the file cannot be written.
     """
     if path.suffix.lower() != ".png":
         raise InputError(f"-png {path}: the name must end in .png.")
@@ -282,13 +280,7 @@ def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, texts
 
 
 def film(scene: Scene, path: Path, size: tuple[int, int], style: Style) -> None:
-    """Write a film of all times, ``.mp4`` or ``.gif``, of about eight seconds.
-
-    Raises
-    ------
-    InputError
-        If the name of the file has another ending, or imageio is not installed.
-    """
+    """Write a film of all times, ``.mp4`` or ``.gif``, of about eight seconds."""
     suffix = path.suffix.lower()
     if suffix not in (".mp4", ".gif"):
         raise InputError(f"-film {path}: the name must end in .mp4 or .gif.")
@@ -327,13 +319,7 @@ def has_display() -> bool:
 
 
 def require_graphics() -> None:
-    """Check that VTK can draw; without a display it needs one of two libraries, else it crashes.
-
-    Raises
-    ------
-    InputError
-        If there is neither a display nor a library.
-    """
+    """Check that VTK can draw; without a display it needs one of two libraries, else it crashes."""
     if has_display():
         return
     for library in ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so"):

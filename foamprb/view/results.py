@@ -37,8 +37,6 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("foamprb")
 
-__all__ = ["NEEDED", "Run", "Table", "open_run"]
-
 Table = dict[str, NDArray[Any]]
 
 NEEDED = ("origId", "d", "glyph", "status")

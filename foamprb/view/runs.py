@@ -16,8 +16,6 @@ from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder
 from foamprb.view.results import Run, Table, frame_of, open_run
 
-__all__ = ["Runs", "open_runs", "results_at"]
-
 
 @dataclass(frozen=True, repr=False)
 class Runs(Mapping[str, Run]):

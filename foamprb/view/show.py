@@ -102,13 +102,6 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     Returns
     -------
     The file.
-
-    Raises
-    ------
-    InputError
-        See :func:`make_scene`; or the size is below 1 MB.
-    OSError
-        If the file cannot be written.
     """
     if path is not None:
         refuse_other_kind(path, PAGE_BEGINS)
@@ -235,11 +228,6 @@ def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
     """Return the scene of one time, by default with most bodies; its colours span all times.
 
     Without ``request.bodies`` it has at most ``most`` bodies, evenly spread over their numbers.
-
-    Raises
-    ------
-    InputError
-        See :func:`make_scene`.
     """
     name, part = require_array(run, request.colour)
     shown, values = survey(run, name, part)
@@ -369,15 +357,7 @@ def _surroundings(request: Request, run: Run, *, drawn: bool) -> tuple[Geometry 
 
 
 def picture_of(request: Request, path: Path, size: tuple[int, int], style: Style) -> None:
-    """Write a picture of one time.
-
-    Raises
-    ------
-    InputError
-        See :func:`make_still` and :func:`~foamprb.view.picture.picture`.
-    OSError
-        If the file cannot be written.
-    """
+    """Write a picture of one time."""
     refuse_other_kind(path, b"\x89PNG")
     require_graphics()
     scene = make_still(request, _run_of(request))
@@ -386,15 +366,7 @@ def picture_of(request: Request, path: Path, size: tuple[int, int], style: Style
 
 
 def film_of(request: Request, path: Path, size: tuple[int, int], style: Style) -> None:
-    """Write a film of all times.
-
-    Raises
-    ------
-    InputError
-        See :func:`make_scene` and :func:`~foamprb.view.picture.film`.
-    OSError
-        If the file cannot be written.
-    """
+    """Write a film of all times."""
     refuse_other_kind(path, b"GIF8", b"\0\0\0")
     require_graphics()
     run = _run_of(request)
@@ -405,15 +377,7 @@ def film_of(request: Request, path: Path, size: tuple[int, int], style: Style) -
 
 
 def start_paraview(case: Path, cloud: str | None, region: str, results: Path | None = None) -> int:
-    """Write a state file of the scene, and start ParaView with it; return the exit status.
-
-    Raises
-    ------
-    InputError
-        If ParaView is not on PATH, or there is no display; see :func:`make_scene`.
-    OSError
-        If the state cannot be written.
-    """
+    """Write a state file of the scene, and start ParaView with it; return the exit status."""
     request = Request(case, cloud, FlowSource(region=region) if region else None, results=results)
     run = _run_of(request)
     write_state(run.results, make_still(request, run))

@@ -16,8 +16,6 @@ from foamprb.flow.read.foamfile import FoamFile
 from foamprb.results.foam import GENERIC, SYMMETRIC, PatchValues, write_field
 from foamprb.view.results import Run
 
-__all__ = ["write_stress"]
-
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
@@ -46,13 +44,6 @@ def write_stress(target: Path, run: Run, case: Path, mesh: Mesh, fraction: float
     fraction
         Mean volume fraction of the particles in the mesh to which the stress is scaled; None for the
         fraction of the run.
-
-    Raises
-    ------
-    InputError
-        If the run has no stress, no density of the fluid, or another mesh; or if the file is no such field.
-    OSError
-        If the file cannot be written.
     """
     if target.is_file() and FoamFile(target).kind != _KINDS["sigma"].name:
         raise InputError(f"{target}: a file of another kind, which is kept. Choose another name.")

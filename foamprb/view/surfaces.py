@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from foamprb.body.quadratic import layers
 
-__all__ = ["MODE", "bulges", "unfolded"]
-
 MODE = "quadraticShape"
 """The array of the mode B in the files of a run that has it, (n, 7)."""
 

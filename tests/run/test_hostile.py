@@ -227,7 +227,9 @@ def expect(pattern: str, text: str) -> None:
 def test_results_that_are_exported(name, finished, tmp_path, capsys):
     change, pattern = VIEWED[name]
     change(finished)
-    expect(pattern, said(capsys, "export", "openfoam", "-case", str(finished), "-output", str(tmp_path / "x")))
+    expect(
+        pattern, said(capsys, "export", "openfoam", "-case", str(finished), "-output", str(tmp_path / "x"))
+    )
 
 
 @pytest.mark.parametrize("name", COMPARED)

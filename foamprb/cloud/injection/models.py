@@ -432,13 +432,7 @@ class CellZoneInjection(Injection):
             raise InputError("has no cellZone. Allowed: the name of a zone, or selectionMode all")
 
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
-        """Return random places in the zone; the number in any part follows its volume, within two.
-
-        Raises
-        ------
-        InputError
-            If there is no such zone, or no particle is injected.
-        """
+        """Return random places in the zone; the number in any part follows its volume, within two."""
         SOI = start_of_injection(self, flow)
         zone = flow.cell_zone(self.cellZone or None)
         # An inverted tetrahedron overlaps its neighbours, which contain its share.

@@ -26,22 +26,6 @@ from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.paths import RecordedRows
 from foamprb.cloud.state import Particles
 
-__all__ = [
-    "Integrator",
-    "all_resolved",
-    "apply_surroundings",
-    "held_for",
-    "held_forever",
-    "lifted",
-    "look_ahead",
-    "no_disturbance",
-    "no_look",
-    "no_update",
-    "resolved_share",
-    "track_share",
-    "update_surroundings",
-]
-
 MOST_MEMBERS = LANES
 """Particles that the loop of an integrator takes at once; bound with it."""
 

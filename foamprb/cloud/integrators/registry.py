@@ -8,8 +8,6 @@ from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.rosenbrock import ROSENBROCK
 from foamprb.cloud.integrators.stokes import STOKES
 
-__all__ = ["INTEGRATORS", "SMALL_STOKES", "automatic"]
-
 INTEGRATORS: dict[str, Integrator] = {
     integrator.name: integrator for integrator in (PAPER, ROSENBROCK, STOKES)
 }

@@ -27,23 +27,7 @@ from foamprb.cloud.integrators.base import (
 )
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
-from foamprb.dictionary.constraints import Seed
 from foamprb.flow.base import Flow, Patch
-
-__all__ = [
-    "Remarks",
-    "Seed",
-    "Surrounding",
-    "Survey",
-    "Traits",
-    "add3",
-    "add9",
-    "hindrance_by_walls",
-    "present_hindrance",
-    "resistances",
-    "thermal_force",
-    "volume_at_rest",
-]
 
 
 class Traits(NamedTuple):

@@ -56,7 +56,6 @@ from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import (
     Remarks,
-    Seed,
     Surrounding,
     Survey,
     Traits,
@@ -66,10 +65,8 @@ from foamprb.cloud.surroundings.base import (
     resistances,
     volume_at_rest,
 )
-from foamprb.dictionary.constraints import Meaning, Positive
+from foamprb.dictionary.constraints import Meaning, Positive, Seed
 from foamprb.flow.base import NEAR, Patch
-
-__all__ = ["BrownianMotion"]
 
 LARGE_STRAIN = 0.3
 """Thermal strain above which the user is warned."""

@@ -35,14 +35,12 @@ from foamprb.body.turbulence import (
 )
 from foamprb.cloud.block import Medium, Scratch, at, load3, store3
 from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.surroundings.base import Remarks, Seed, Surrounding, Survey, Traits
+from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
 from foamprb.compile.link import traced
-from foamprb.dictionary.constraints import Meaning
+from foamprb.dictionary.constraints import Meaning, Seed
 from foamprb.flow.analytic import turbulence_free as turbulence
 from foamprb.flow.base import Floats, Flow, Patch
 from foamprb.flow.nodes import NodeValues
-
-__all__ = ["DISPERSIONS", "GradientDispersion", "StochasticDispersion"]
 
 _KIND = np.uint64(2)
 """Second word of the key of these random numbers; the seed is the first."""

@@ -29,8 +29,6 @@ from foamprb.dictionary.constraints import Bounds, Meaning, Positive
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 
-__all__ = ["FateLimits", "Fates"]
-
 _ABOVE_ONE = Bounds(1.0, math.inf, True, True, "a number > 1")
 _REASONS = Reason.STRETCH_REACHED, Reason.STRESS_REACHED, Reason.SHEAR_REACHED, Reason.DOSE_REACHED
 _OF_RUPTURE, _OF_RELEASE = (

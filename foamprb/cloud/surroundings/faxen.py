@@ -18,8 +18,6 @@ from foamprb.cloud.surroundings.base import Surrounding, Traits, add3
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import curvature_linear as curvature
 
-__all__ = ["FaxenCorrection"]
-
 
 class FaxenRows(NamedTuple):
     """Second derivatives of the flow on a step: ∂²u/∂x², ∂y², ∂z², ∂x∂y, ∂y∂z and ∂x∂z."""

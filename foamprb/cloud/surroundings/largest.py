@@ -24,8 +24,6 @@ from foamprb.cloud.surroundings.quadratic import QuadraticRows, load7
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import curvature_linear as curvature
 
-__all__ = ["LARGEST", "Largest", "LargestValues"]
-
 INTERVAL = 64
 """Tracking steps between two samples of the second derivatives."""
 

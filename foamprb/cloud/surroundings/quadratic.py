@@ -62,8 +62,6 @@ from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import curvature_linear as curvature
 
-__all__ = ["QuadraticDrop", "QuadraticSolid"]
-
 
 class QuadraticRows(NamedTuple):
     """Mode of a body, and the flow where it was computed last."""

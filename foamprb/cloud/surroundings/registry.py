@@ -20,8 +20,6 @@ from foamprb.compile.link import bound
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 
-__all__ = ["SURROUNDINGS", "add_surrounding", "coefficients", "compose", "stages", "with_rows"]
-
 SURROUNDINGS: dict[str, type[Surrounding]] = {
     "faxenCorrection": FaxenCorrection,
     "SaffmanMeiLiftForce": SaffmanMeiLift,

@@ -32,8 +32,6 @@ from foamprb.cloud.layout import Row, offsets
 from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
 from foamprb.flow.analytic import no_rotation as rotation_at
 
-__all__ = ["RotatingFrames"]
-
 
 class FrameRows(NamedTuple):
     """Rotating frame of a particle."""

@@ -35,8 +35,6 @@ from foamprb.cloud.surroundings.base import (
 )
 from foamprb.dictionary.constraints import Only
 
-__all__ = ["SaffmanMeiLift"]
-
 
 def slip_with_lift(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""

@@ -21,13 +21,11 @@ from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import mirror_body
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.surroundings.base import Remarks, Seed, Surrounding, Survey, Traits, add3, add9
+from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits, add3, add9
 from foamprb.compile.link import traced
-from foamprb.dictionary.constraints import Meaning, NonNegative, Positive, Vector3
+from foamprb.dictionary.constraints import Meaning, NonNegative, Positive, Seed, Vector3
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
-
-__all__ = ["Swimming"]
 
 LARGE_TURN = 0.02
 """D_R Δt above which the user is warned."""

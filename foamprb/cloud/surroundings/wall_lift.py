@@ -88,8 +88,6 @@ from foamprb.flow.analytic import walls_free as walls
 from foamprb.flow.base import Floats, Flow, Ints, Patch
 from foamprb.flow.patches import PatchKind
 
-__all__ = ["CLOSE", "WallLift"]
-
 CLOSE = 2.0
 """Distance of the centre from a wall, in radii, below which steps are counted as close."""
 _FAR = 1e9

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.lists import Index
 
-__all__ = ["SINGLE_NODE", "MeshCommunicator", "single_node", "total_of"]
-
 
 class MeshCommunicator:
     """Nodes that hold a mesh; all call the same methods together. Here there is one node.

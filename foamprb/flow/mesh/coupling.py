@@ -16,8 +16,6 @@ from foamprb.flow.base import Floats, Patch
 from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.lists import Index
 
-__all__ = ["Coupling", "couple"]
-
 # Tolerance of the distance of the image of a face from its partner, as a fraction of the face's size.
 _MATCH = 1e-2
 # Smaller rotations are round-off of single precision.

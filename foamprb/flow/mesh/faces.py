@@ -17,24 +17,6 @@ from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.lists import Index, ragged
 
-__all__ = [
-    "OPEN",
-    "TWISTED",
-    "Faces",
-    "Fans",
-    "Numbering",
-    "choose_bases",
-    "gather_faces",
-    "group_faces",
-    "list_faces",
-    "list_points",
-    "measure_cells",
-    "measure_faces",
-    "number_tetrahedra",
-    "pair_faces",
-    "split_cells",
-]
-
 OPEN = 1
 """State of a cell with an edge that does not belong to exactly two of its faces."""
 TWISTED = 2

@@ -29,8 +29,6 @@ from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, arm, frame, point, weights
 from foamprb.flow.mesh.tree import holds_point, next_node
 
-__all__ = ["FLAT", "FOLDED", "SOUND", "grade", "is_in_mesh", "nearby", "settle", "trace"]
-
 SOUND, FLAT, FOLDED = 0, 1, 2
 """Cells where :func:`foamprb.flow.walk.follow` is exact; cells with a flat tetrahedron; cells whose box meets
 the box of an inverted tetrahedron, where points may be covered more than once, or lie outside."""

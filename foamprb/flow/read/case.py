@@ -94,13 +94,7 @@ def _listed_regions(case: Path) -> set[str]:
 
 
 def select_time(case: Path, time: float | str = "latestTime", region: str = "") -> str:
-    """Return the name of the time directory of a time: ``latestTime``, or a value.
-
-    Raises
-    ------
-    InputError
-        The case has no such time; the message lists its times.
-    """
+    """Return the name of the time directory of a time: ``latestTime``, or a value."""
     names = _require_times(case, region)
     name = names[pick_time(case, names, time)]
     if time == "latestTime":

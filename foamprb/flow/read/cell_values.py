@@ -34,11 +34,6 @@ def cell_values(case: Path, region: str, time: str, name: str, kind: Kind) -> Fl
     -------
     The values in the order of the whole mesh if it is known, (n_cells, components); or (1, components) if
     they are all alike in a case that is not decomposed.
-
-    Raises
-    ------
-    InputError
-        A file is missing or broken.
     """
     if not is_only_decomposed(case, region):
         return read_field(case / time / region / name, kind, case).cells

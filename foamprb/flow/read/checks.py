@@ -131,13 +131,7 @@ def _normals(mesh: Mesh) -> tuple[Floats, Floats]:
 
 
 def at_cells(field: FoamField, mesh: Mesh) -> Floats:
-    """Return the values of a field at all cells, (n_cells, components).
-
-    Raises
-    ------
-    InputError
-        The counts of values and of cells differ, or a value is not finite.
-    """
+    """Return the values of a field at all cells, (n_cells, components)."""
     if len(field.cells) not in (1, mesh.n_cells):
         raise InputError(
             f"{field.path}: internalField has {len(field.cells)} values, but there are {mesh.n_cells} cells."

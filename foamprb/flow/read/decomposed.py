@@ -45,11 +45,6 @@ class DecomposedCase(Case):
     ----------
     root, region
         See :class:`Case`.
-
-    Raises
-    ------
-    InputError
-        A folder is missing, there is no such region, or the folders have no time in common.
     """
 
     def __init__(self, root: Path, region: str = "") -> None:

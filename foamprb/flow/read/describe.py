@@ -65,13 +65,7 @@ class CaseInfo:
 
 
 def describe(case: Case) -> CaseInfo:
-    """Return the contents of a case, without reading a field.
-
-    Raises
-    ------
-    InputError
-        The folder is not a case, or its mesh cannot be read.
-    """
+    """Return the contents of a case, without reading a field."""
     names = case.times()
     times = tuple(TimeInfo(name, case.fields(name)) for name in names)
     (points, faces, *_), patches, _ = case.poly(names[-1] if names else None)
@@ -86,13 +80,7 @@ def describe(case: Case) -> CaseInfo:
 def describe_file(
     path: Path, velocity: str = "U", division: Division | None = None, scale: float = 1.0
 ) -> list[str]:
-    """Return the contents of a mesh file as lines of text.
-
-    Raises
-    ------
-    InputError
-        See :func:`foamprb.flow.read.meshfile.read_mesh_file`.
-    """
+    """Return the contents of a mesh file as lines of text."""
     # Only mesh files need VTK.
     from foamprb.flow.read.meshfile import open_file
     from foamprb.flow.read.vtkfile import times_of_file

@@ -116,11 +116,6 @@ def read_field(path: Path | FoamFile, kind: Kind, case: Path) -> FoamField:
         Required class and dimensions.
     case
         The case; see :func:`~foamprb.dictionary.grammar.read_dictionary`.
-
-    Raises
-    ------
-    InputError
-        The file is missing, broken, of another class, or has other dimensions.
     """
     file = path if isinstance(path, FoamFile) else FoamFile(path)
     if file.kind != kind.name:

@@ -15,25 +15,9 @@ from foamprb.flow.read.mrf import Rotation, read_rotations
 from foamprb.flow.read.openfoam import Case, steady_flow, transient_flow
 from foamprb.flow.read.source import FlowSource
 
-__all__ = [
-    "check_region",
-    "describe_source",
-    "open_case",
-    "read_flow",
-    "read_mesh",
-    "read_transient_flow",
-    "rotations_of",
-]
-
 
 def open_case(case: Path, source: FlowSource) -> Case:
-    """Return the case with its files, put together if only its processor folders hold the solution.
-
-    Raises
-    ------
-    InputError
-        The source requests what a case does not have, or see :class:`DecomposedCase`.
-    """
+    """Return the case with its files, put together if only its processor folders hold the solution."""
     if source.division is not None:
         raise InputError(f"{case}: a case has its own patches; only those of a mesh file are divided.")
     if source.scale is not None:
@@ -61,15 +45,7 @@ def check_region(case: Path, source: FlowSource) -> None:
 
 
 def read_flow(case: Path, time: float | str = "latestTime", source: FlowSource | None = None) -> MeshFlow:
-    """Read the flow of a case or of a mesh file at a time.
-
-    Raises
-    ------
-    InputError
-        See :func:`~foamprb.flow.read.openfoam.read_case` and
-        :func:`~foamprb.flow.read.meshfile.read_mesh_file`; or the source requests what its kind does not
-        have.
-    """
+    """Read the flow of a case or of a mesh file at a time."""
     source = source or FlowSource()
     if source.file is None:
         return steady_flow(open_case(case, source), time, source)
@@ -81,13 +57,7 @@ def read_flow(case: Path, time: float | str = "latestTime", source: FlowSource |
 
 
 def read_mesh(case: Path, time: float | str, source: FlowSource) -> Mesh:
-    """Read the mesh of a case or of a mesh file at a time, without the flow of a case.
-
-    Raises
-    ------
-    InputError
-        See :func:`read_flow`.
-    """
+    """Read the mesh of a case or of a mesh file at a time, without the flow of a case."""
     if source.file is not None:
         return read_flow(case, time, source).mesh
     opened = open_case(case, source)
@@ -95,15 +65,7 @@ def read_mesh(case: Path, time: float | str, source: FlowSource) -> Mesh:
 
 
 def read_transient_flow(case: Path, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
-    """Prepare the flow of a case or of a mesh file at several times, which are read when needed.
-
-    Raises
-    ------
-    InputError
-        See :func:`~foamprb.flow.read.openfoam.read_series` and
-        :func:`~foamprb.flow.read.meshfile.read_mesh_series`; or the source requests what its kind does not
-        have.
-    """
+    """Prepare the flow of a case or of a mesh file at several times, which are read when needed."""
     if source.file is not None:
         from foamprb.flow.read.meshfile import read_mesh_series
 

@@ -417,11 +417,6 @@ def read_density(file: Path, case: Path) -> float | None:
 
     It is ``rhoInf``, ``rho``, ``rhol``, or that of the ``continuousPhase``; or that of a mixture with
     ``rhoConst`` or ``Boussinesq``.
-
-    Raises
-    ------
-    InputError
-        The entry is not a density.
     """
     root = read_dictionary(file, case)
     for key in (*_DENSITIES, f"rho.{word_of(root, 'continuousPhase')}"):
@@ -450,11 +445,6 @@ def find_density(
         The case, a region of its mesh, and the dictionary of the fluid.
     time
         Time of the fields; None to read none.
-
-    Raises
-    ------
-    InputError
-        A file is broken, or there is no such time.
     """
     if file is not None and (density := read_density(file, case)) is not None:
         return density, str(CaseFile(file, case))
@@ -489,11 +479,6 @@ def mean_field(
     """Return the mean of ``rho``, ``p`` or ``T`` over the cells, SI, and the time's name.
 
     Returns None if there is no such field. Of several names, such as ``T.air`` and ``T``, the first counts.
-
-    Raises
-    ------
-    InputError
-        The field is broken, or there is no such time.
     """
     times = solution_times(case, region)
     if not times:
@@ -573,11 +558,6 @@ def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
     """Return the dictionaries of the phases of a case with several, by name.
 
     They are in the order of the case, or, of a solver with ``phaseProperties``, in that of the alphabet.
-
-    Raises
-    ------
-    InputError
-        If a dictionary cannot be read.
     """
     file = fluid_file(case, region)
     entries = {} if file is None else read_dictionary(file, case).entries

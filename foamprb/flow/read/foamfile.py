@@ -262,13 +262,7 @@ def read_vectors(path: Path) -> Floats:
 
 
 def read_cell_zones(path: Path | FoamFile) -> dict[str, Labels]:
-    """Read the cells of each zone from ``polyMesh/cellZones``.
-
-    Raises
-    ------
-    InputError
-        The file is missing or broken.
-    """
+    """Read the cells of each zone from ``polyMesh/cellZones``."""
     file = path if isinstance(path, FoamFile) else FoamFile(path)
     n = file.count()
     file.skip()

@@ -25,8 +25,6 @@ from foamprb.flow.read.case import available_times, is_only_decomposed, processo
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.times import names_in
 
-__all__ = ["FollowedCase"]
-
 _CONTROL = Path("system/controlDict")
 _QUIET = 10.0
 """Seconds without a change after which the last time, and any time of collated files, is complete."""

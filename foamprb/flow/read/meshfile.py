@@ -174,11 +174,6 @@ class _NodalVelocity:
         Its contents.
     velocity, gradient, scale
         See :func:`read_mesh_file`.
-
-    Raises
-    ------
-    InputError
-        There is no such array.
     """
 
     def __init__(self, path: Path, file: MeshFile, velocity: str, gradient: str, scale: float) -> None:
@@ -212,13 +207,7 @@ class _NodalVelocity:
         self.conserve = Conservation(mesh, faces)
 
     def __call__(self, grid: Any, surfaces: Sequence[tuple[str, Any]]) -> tuple[Floats, Floats]:
-        """Return velocity and gradient at the nodes, from the data read at any time.
-
-        Raises
-        ------
-        InputError
-            An array is missing, of the wrong size, or holds values that are not finite numbers.
-        """
+        """Return velocity and gradient at the nodes, from the data read at any time."""
         name, path, mesh = self._velocity, self._path, self._mesh
         if self._reconstruct is None:
             return from_points(mesh, _array(grid.point_data, name, 3, path, "at point"))

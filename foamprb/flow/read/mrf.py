@@ -21,8 +21,6 @@ from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.rotating import RotatingZone
 
-__all__ = ["Rotation", "read_rotations", "rotating_zones", "with_rotating_walls"]
-
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
 _SCALAR = re.compile(rf"(?:\w+ )?(?:\[[^\]]*\] )?(?:constant )?{_NUMBER}")
 _VECTOR = re.compile(rf"(?:\w+ )?(?:\[[^\]]*\] )?\( {_NUMBER} {_NUMBER} {_NUMBER} \)")
@@ -46,13 +44,7 @@ class Rotation(NamedTuple):
 
 
 def read_rotations(case: Path, region: str) -> tuple[Rotation, ...]:
-    """Read the active zones.
-
-    Raises
-    ------
-    InputError
-        The dictionary cannot be read, or an entry is missing or not a constant.
-    """
+    """Read the active zones."""
     root = find_dictionary(case, region, "MRFProperties")
     return () if root is None else tuple(map(_rotation, active_zones(root)))
 
@@ -60,13 +52,7 @@ def read_rotations(case: Path, region: str) -> tuple[Rotation, ...]:
 def rotating_zones(
     rotations: Sequence[Rotation], zones: Mapping[str, NDArray[np.int64]], n_cells: int
 ) -> list[RotatingZone]:
-    """Find the cells of the zones.
-
-    Raises
-    ------
-    InputError
-        The mesh does not have the zone or its cells.
-    """
+    """Find the cells of the zones."""
     found = []
     for rotation in rotations:
         if rotation.zone not in zones:

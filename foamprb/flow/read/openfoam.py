@@ -448,14 +448,7 @@ def _refuse_moving(case: Case, time: str) -> None:
 
 
 def velocities(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
-    """Return the velocity at the cells (n_cells, 3) and at the boundary faces (n_boundary, 3), m/s.
-
-    Raises
-    ------
-    InputError
-        The counts of values and of cells or faces differ; a value is not finite; or see
-        :func:`~foamprb.flow.read.boundary_values.boundary_values`.
-    """
+    """Return the velocity at the cells (n_cells, 3) and at the boundary faces (n_boundary, 3), m/s."""
     cells = at_cells(field, whole.mesh)
     boundary = boundary_values(field, whole.patches, whole.mesh, cells)
     for patch, first in zip(whole.patches, whole.mesh.patch_start, strict=False):
@@ -465,11 +458,5 @@ def velocities(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
 
 
 def gradients(field: FoamField, mesh: Mesh) -> Floats:
-    """Return l_ij = ∂u_i/∂x_j (n_cells, 3, 3), 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i.
-
-    Raises
-    ------
-    InputError
-        The counts of values and of cells differ, or a value is not finite.
-    """
+    """Return l_ij = ∂u_i/∂x_j (n_cells, 3, 3), 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i."""
     return at_cells(field, mesh).reshape(-1, 3, 3).transpose(0, 2, 1)

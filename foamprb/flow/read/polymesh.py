@@ -29,11 +29,6 @@ def read_poly(files: Sequence[Path], patches: Sequence[PatchInfo]) -> PolyMesh:
         ``points``, ``faces``, ``owner``, ``neighbour`` and ``boundary``, plain or compressed.
     patches
         The patches of the last.
-
-    Raises
-    ------
-    InputError
-        A file is missing or broken, or they do not fit each other.
     """
     paths = [shown(file) for file in files]
     points = read_vectors(paths[0])

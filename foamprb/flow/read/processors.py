@@ -35,13 +35,7 @@ _APART = 1e-6
 
 
 class Processors:
-    """Folders of the processors: one for each, or collated ones for several.
-
-    Raises
-    ------
-    InputError
-        There are no such folders, or one is missing.
-    """
+    """Folders of the processors: one for each, or collated ones for several."""
 
     def __init__(self, case: Path) -> None:
         self.folders: list[Path] = []
@@ -177,11 +171,6 @@ def read_pieces(processors: Processors, files: Sequence[Path], case: Path) -> li
         ``points``, ``faces``, ``owner``, ``neighbour`` and ``boundary`` of the first folder.
     case
         The case, for messages.
-
-    Raises
-    ------
-    InputError
-        A file is missing, broken or inconsistent.
     """
     columns = []
     for path in files:

@@ -15,8 +15,6 @@ from foamprb.flow.read.field import FoamField, Kind
 from foamprb.flow.read.turbulence import given_values
 from foamprb.flow.reconstruct import Reconstruction
 
-__all__ = ["kinds_of", "read_sampled"]
-
 _KINDS = {
     name: Kind(name, inner, (), "a field that is sampled")
     for name, inner in (
@@ -88,11 +86,6 @@ def read_sampled(
         The fields, or ``grad(E)`` for the gradient of E, and the results of :func:`kinds_of`.
     whole, reconstruct
         Mesh of the case, and its reconstruction.
-
-    Raises
-    ------
-    InputError
-        A field is broken, or a value is not finite.
     """
     tables, columns = [], []
     for name, kind in zip(names, kinds, strict=True):

@@ -17,8 +17,6 @@ from foamprb.flow.read.checks import at_cells
 from foamprb.flow.read.field import FoamField, Kind
 from foamprb.flow.reconstruct import Reconstruction
 
-__all__ = ["given_values", "read_turbulence", "values_of"]
-
 K_FIELD = Kind("volScalarField", "scalar", (SPECIFIC_ENERGY,), "the turbulent kinetic energy")
 _EPSILON = Kind("volScalarField", "scalar", (DISSIPATION,), "the dissipation of turbulent kinetic energy")
 _OMEGA = Kind("volScalarField", "scalar", (RATE,), "the specific dissipation rate")
@@ -45,11 +43,6 @@ def read_turbulence(
     Returns
     -------
     (n_nodes, 8): k (m²/s²), ε (m²/s³), ∇k and ∇(k²/3ε).
-
-    Raises
-    ------
-    InputError
-        A field is missing, broken, has other dimensions, or is negative somewhere.
     """
     try:
         k_field = read("k", K_FIELD)

@@ -14,8 +14,6 @@ from foamprb.flow.read.fluid import FRACTION_FIELD, ViscosityField
 from foamprb.flow.read.turbulence import given_values, values_of
 from foamprb.flow.reconstruct import Reconstruction
 
-__all__ = ["read_viscosity_field"]
-
 
 def read_viscosity_field(
     read: Callable[[str, Kind], FoamField],
@@ -38,11 +36,6 @@ def read_viscosity_field(
     -------
     (n_nodes, 4): the viscosity, m²/s if the field is kinematic, else Pa s, and its gradient. Of a volume
     fraction, itself.
-
-    Raises
-    ------
-    InputError
-        The field is missing, broken, has other dimensions, or the viscosity is not positive somewhere.
     """
     field = read(source.name, source.kind)
     if source.kind == FRACTION_FIELD:

@@ -21,8 +21,6 @@ from typing import Any
 from foamprb.errors import InputError
 from foamprb.optional import load
 
-__all__ = ["load_pyvista", "read_vtk", "require_survival", "times_of"]
-
 _LEAST_TIME = 20
 _MOST_FILES = 10_000
 _LISTS = frozenset({".vtm", ".pvd", ".pvtu", ".pvti", ".pvtr", ".pvts", ".case"})
@@ -32,13 +30,7 @@ _server: Any = None
 
 
 def load_pyvista() -> Any:
-    """Import pyvista, by which mesh files are read.
-
-    Raises
-    ------
-    InputError
-        It is not installed.
-    """
+    """Import pyvista, by which mesh files are read."""
     return load("pyvista", "meshes", "mesh files need")
 
 

@@ -17,8 +17,6 @@ from foamprb.view.results import Table
 from foamprb.view.runs import Runs
 from foamprb.view.show import PAGE_BEGINS, spread
 
-__all__ = ["write_comparison"]
-
 Floats = NDArray[np.float64]
 
 _MOST_CURVES = 12

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from foamprb.view.geometry import Surface
 
-__all__ = ["Deposits", "deposits"]
-
 Floats = NDArray[np.float64]
 
 FEW = 30

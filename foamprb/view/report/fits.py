@@ -15,8 +15,6 @@ from foamprb.view.show import PAGE_BEGINS
 if TYPE_CHECKING:
     from foamprb.run.fit import Fits
 
-__all__ = ["write_fit_page"]
-
 _UNITS = {
     "shearModulus": "Pa", "viscosity": "Pa s", "surfaceTension": "N/m", "area": "m²", "angle": "rad",
     "treading": "1/s",
@@ -24,15 +22,7 @@ _UNITS = {
 
 
 def write_fit_page(fits: Fits, target: Path) -> Path:
-    """Write the page of a fit, and its plots as files beside it, in the folder ``fitPlots``.
-
-    Raises
-    ------
-    InputError
-        If another kind of file has its name, or Matplotlib is not installed.
-    OSError
-        If a file cannot be written.
-    """
+    """Write the page of a fit, and its plots as files beside it, in the folder ``fitPlots``."""
     refuse_other_kind(target, PAGE_BEGINS)
     columns, fitted = fits.table, fits.fitted
     made: dict[str, plots.Plot] = {}

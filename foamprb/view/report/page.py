@@ -10,8 +10,6 @@ from typing import NamedTuple
 
 from foamprb.view.report.plots import Plot
 
-__all__ = ["PageSection", "figure", "grid", "image", "page", "table"]
-
 
 class PageSection(NamedTuple):
     """Part of the page with a heading."""

@@ -15,17 +15,6 @@ from foamprb.optional import load
 from foamprb.view.colours import NAMES, readable
 from foamprb.view.report.deposits import FEW, Deposits
 
-__all__ = [
-    "FATES",
-    "Plot",
-    "by_origin",
-    "curves",
-    "dots",
-    "histogram",
-    "shares",
-    "unrolled",
-]
-
 Floats = NDArray[np.float64]
 
 FATES = {

@@ -36,8 +36,6 @@ from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import Scene
 from foamprb.view.show import PAGE_BEGINS, Request, make_still, spread, title_of
 
-__all__ = ["write_report"]
-
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
@@ -90,13 +88,6 @@ def write_report(
     Returns
     -------
     The page.
-
-    Raises
-    ------
-    InputError
-        If there is no run, its files are damaged, or it has not ended.
-    OSError
-        If a file cannot be written.
     """
     run = open_run(case, cloud, source.region if source else "", results)
     source = run.source(source)

@@ -10,6 +10,7 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from foamprb.errors import InputError
 from foamprb.flow.read.vtk_messages import vtk_messages
 
+
 def say(kind, text):
     vtkOutputWindow.GetInstance().DisplayText(f"{kind}: In reader.cxx, line 7\nvtkReader (0x1f): {text}\n\n")
 
