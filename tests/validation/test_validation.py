@@ -287,6 +287,7 @@ def fake(rows):
 
 GOOD, BAD = Row("good", 1.0, 1.001, "me", 0.01), Row("bad | bar", 1.0, 2.0, "me", 0.01, relative=True)
 INFORMS = Row("informs", 1.0, None, "me")
+THEIRS = Row("theirs", 1.0, 1.5, "they", kind="measured", reference_error=0.25)
 
 
 class TestRows:
@@ -319,6 +320,23 @@ class TestCommand:
         assert "bad \\| bar" in text
         assert "made-up.png" in text
         assert (tmp_path / "made-up.png").exists()
+
+    def test_rows_of_others_have_a_page(self, tmp_path, monkeypatch):
+        pytest.importorskip("matplotlib")
+        monkeypatch.setattr(main, "CASES", fake([GOOD, THEIRS]))
+        assert main.main(["-output", str(tmp_path)]) == 0
+        assert "1.5 ± 0.25" in (tmp_path / "others.md").read_text()
+        assert "good" not in (tmp_path / "others.md").read_text()
+        assert "(1 rows, verification)" in (tmp_path / "report.md").read_text()
+
+    def test_sections_of_other_cases_remain_in_the_order_of_the_registry(self, tmp_path, monkeypatch):
+        pytest.importorskip("matplotlib")
+        first, other = fake([GOOD])["madeUp"], fake([BAD, THEIRS])["madeUp"]
+        monkeypatch.setattr(main, "CASES", {"first": first, "other": other})
+        main.main(["-output", str(tmp_path)])
+        whole = [(tmp_path / name).read_text() for name in ("report.md", "others.md")]
+        main.main(["-case", "first", "-output", str(tmp_path)])
+        assert [(tmp_path / name).read_text() for name in ("report.md", "others.md")] == whole
 
     def test_list_names_every_case(self, capsys):
         assert main.main(["-list"]) == 0

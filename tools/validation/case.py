@@ -10,6 +10,10 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+Kind = Literal["equations", "others", "measured"]
+"""Of a reference: the same equations by another method, theory or a computation that others printed, or a
+measurement."""
+
 
 class Row(NamedTuple):
     """One number of ours beside its reference."""
@@ -24,6 +28,12 @@ class Row(NamedTuple):
     relative: bool = False
     """Whether differences are relative to the reference."""
     note: str = ""
+    kind: Kind = "equations"
+    """Of the reference."""
+    reference_error: float | None = None
+    """Half of the width of the reference's error bar, in its unit."""
+    our_error: float | None = None
+    """Largest numerical error of ours, in its unit."""
 
     @property
     def difference(self) -> float | None:

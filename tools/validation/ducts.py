@@ -80,7 +80,7 @@ def focusing(quick: bool) -> Outcome:
         for s, n in ((0.1, 24), (0.3, 24), (0.5, 24), (0.6, 48), (0.7, 48))
     ]
     (place,) = balances(PIPE)
-    rows.append(Row("pipe: s at which C = 0", place, 0.6, "Segré & Silberberg (1962), measured", None))
+    rows.append(Row("pipe: s at which C = 0", place, 0.6, "Segré & Silberberg (1962)", None, kind="measured"))
     rate, times = 1e4, np.linspace(0.0, 0.1, 41)[1:]
     ours, reference = _paths(1e-4, rate, True, times), _own(rate, times)
     for k, start in enumerate(STARTS):

@@ -24,7 +24,7 @@ def main(words: Sequence[str] | None = None) -> int:
         for name, case in cases.items():
             print(f"{name:14s} {case.title} ({case.section})")
         return 0
-    return 0 if validate(cases, arguments.output, arguments.quick) else 1
+    return 0 if validate(cases, arguments.output, arguments.quick, list(CASES)) else 1
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -124,7 +124,9 @@ def mode(quick: bool) -> Outcome:  # noqa: ARG001
         ours = _cells(1e-12 * areas, 1e3 * moduli, speed)
         for area, expected, modulus, one in zip(areas, deformations, moduli, ours, strict=True):
             title = f"cell in a cytometer, {area:.4g} µm², E = {modulus:.3g} kPa: deformation"
-            rows.append(Row(title, float(one), float(expected), source, allowed, relative=True))
+            rows.append(
+                Row(title, float(one), float(expected), source, allowed, relative=True, kind="others")
+            )
     rows += _drifts()
     return Outcome(rows, [], [SOURCES])
 

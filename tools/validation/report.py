@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import time
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from types import ModuleType
@@ -20,6 +22,7 @@ COLUMNS = (
     "ours",
     "reference",
     "source of the reference",
+    "kind",
     "difference",
     "allowed",
     "pass",
@@ -61,8 +64,8 @@ def pyplot() -> Any:
     return plt
 
 
-def validate(cases: Mapping[str, Case], folder: Path, quick: bool) -> bool:
-    """Run cases, print their rows, and write ``report.md`` and the figures.
+def validate(cases: Mapping[str, Case], folder: Path, quick: bool, order: Sequence[str]) -> bool:
+    """Run cases, print their rows, and write the report, its page of others' numbers, and the figures.
 
     Parameters
     ----------
@@ -72,6 +75,8 @@ def validate(cases: Mapping[str, Case], folder: Path, quick: bool) -> bool:
         Of the report; it is made if need be.
     quick
         Run the quick form of each case.
+    order
+        Of all cases; sections of cases that do not run remain in the report.
 
     Returns
     -------
@@ -86,7 +91,7 @@ def validate(cases: Mapping[str, Case], folder: Path, quick: bool) -> bool:
         sections.append(Section(name, case, outcome))
         print(table(outcome.rows))
         print(f"\n{name} ran in {time.perf_counter() - start:.1f} s")
-    write(sections, folder, quick, plt)
+    write(sections, folder, quick, plt, order)
     failed = [f"{s.name}: {row.quantity}" for s in sections for row in s.outcome.rows if row.passed is False]
     print(f"\n{summary(sections)}")
     for line in failed:
@@ -100,9 +105,10 @@ def cells(row: Row) -> tuple[str, ...]:
     percent = row.relative
     return (
         row.quantity,
-        _number(row.ours),
-        _number(row.reference),
+        _number(row.ours, row.our_error),
+        _number(row.reference, row.reference_error),
         row.source,
+        row.kind,
         _difference(row.difference, percent),
         _difference(row.allowed, percent),
         {True: "yes", False: "NO", None: "–"}[row.passed],
@@ -110,8 +116,9 @@ def cells(row: Row) -> tuple[str, ...]:
     )
 
 
-def _number(value: float | None) -> str:
-    return "–" if value is None else f"{value:.7g}"
+def _number(value: float | None, error: float | None) -> str:
+    bar = "" if error is None else f" ± {error:.2g}"
+    return "–" if value is None else f"{value:.7g}{bar}"
 
 
 def _difference(value: float | None, relative: bool) -> str:
@@ -141,38 +148,91 @@ def summary(sections: Sequence[Section]) -> str:
     return f"{passed} of {passed + failed} rows pass; {others} more are for information only."
 
 
-def write(sections: Sequence[Section], folder: Path, quick: bool, plt: Any) -> None:
-    """Write the report of cases that have run."""
+def write(sections: Sequence[Section], folder: Path, quick: bool, plt: Any, order: Sequence[str]) -> None:
+    """Write the report of cases that have run; other sections of a report in the folder remain."""
     folder.mkdir(parents=True, exist_ok=True)
     for section in sections:
         for figure in section.outcome.figures:
             draw(figure, folder / f"{figure.name}.png", plt)
-    (folder / "report.md").write_text(markdown(sections, quick), encoding="utf-8")
+    file = folder / "report.md"
+    texts = _sections_of(file.read_text(encoding="utf-8")) if file.is_file() else {}
+    texts |= {section.name: markdown(section) for section in sections}
+    texts = {name: texts[name] for name in order if name in texts}
+    file.write_text(
+        _joined("Validation report", _introduction(texts.values(), quick), texts), encoding="utf-8"
+    )
+    others = {name: part for name, text in texts.items() if (part := _rows_of_others(text))}
+    page = _joined("Numbers of others", _introduction_of_others(others.values()), others)
+    (folder / "others.md").write_text(page, encoding="utf-8")
 
 
-def _introduction(sections: Sequence[Section], quick: bool) -> list[str]:
+def _sections_of(text: str) -> dict[str, str]:
+    """Return the sections of a report by the name of their case."""
+    parts = text.split("\n## ")[1:]
+    return {part.split("`")[1]: f"## {part.strip()}" for part in parts}
+
+
+def _joined(title: str, introduction: str, texts: Mapping[str, str]) -> str:
+    return "\n\n".join([f"# {title}", introduction, *texts.values()]) + "\n"
+
+
+def _lines_of_rows(text: str) -> list[list[str]]:
+    """Return the cells of each row of the tables of a text."""
+    lines = [re.split(r"(?<!\\) ?\| ?", line)[1:-1] for line in text.splitlines() if line.startswith("| ")]
+    return [line for line in lines if line[0] != COLUMNS[0] and line[0] != "---"]
+
+
+def _count(texts: Iterable[str], column: str) -> Counter[str]:
+    return Counter(row[COLUMNS.index(column)] for text in texts for row in _lines_of_rows(text))
+
+
+def _introduction(texts: Iterable[str], quick: bool) -> str:
     form = "the quick form of `tools/validate`" if quick else "`tools/validate`"
-    return [
-        f"Made by {form}, version {version('foamprb')}. {summary(sections)}",
-        "Each reference is independent of the quantity checked. A difference in per cent is relative to "
-        "the reference. Rows without an allowed difference are for information only.",
-    ]
+    passed, kinds = _count(texts, "pass"), _count(texts, "kind")
+    return (
+        f"Made by {form}, version {version('foamprb').partition('+')[0]}. {passed['yes']} of "
+        f"{passed['yes'] + passed['NO']} rows pass; {passed['–']} more are for information only.\n\n"
+        "The kind of a reference: `equations`, the same equations solved by another method, or their closed "
+        f"form ({kinds['equations']} rows, verification); `others`, theory or a computation of more than the "
+        f"model that others printed ({kinds['others']} rows); `measured`, an experiment "
+        f"({kinds['measured']} rows). The last two are validation, and have [their own page](others.md). "
+        "A difference in per cent is relative to the reference. Rows without an allowed difference are for "
+        "information only."
+    )
 
 
-def markdown(sections: Sequence[Section], quick: bool) -> str:
-    """Return the report as Markdown, its figures beside it."""
-    parts = ["# Validation", *_introduction(sections, quick)]
-    for name, case, outcome in sections:
-        parts += [f"## {case.title}", f"`{name}`; {case.section}."]
-        lines = [COLUMNS, tuple("---" for _ in COLUMNS), *(cells(row) for row in outcome.rows)]
-        parts.append(
-            "\n".join("| " + " | ".join(c.replace("|", "\\|") for c in line) + " |" for line in lines)
-        )
-        parts += outcome.remarks
-        for figure in outcome.figures:
-            parts.append(f"![{figure.caption.replace('[', '(').replace(']', ')')}]({figure.name}.png)")
-            parts.append(figure.caption)
-    return "\n\n".join(parts) + "\n"
+def _introduction_of_others(texts: Iterable[str]) -> str:
+    kinds = _count(texts, "kind")
+    return (
+        "The rows of the [validation report](report.md) whose reference is theory or a computation that "
+        f"others printed (`others`, {kinds['others']} rows), or an experiment (`measured`, "
+        f"{kinds['measured']} rows). An error bar of a reference is its scatter, or the accuracy of reading "
+        "it; one of ours is numerical. The allowed difference is the model's, as its page states. "
+        "Rows without one are for information: they show where the model ends."
+    )
+
+
+def _rows_of_others(text: str) -> str:
+    """Return a section with the rows of others alone, without its figures; empty if it has none."""
+    kind = COLUMNS.index("kind")
+    rows = [row for row in _lines_of_rows(text) if row[kind] != "equations"]
+    if not rows:
+        return ""
+    head, name = text.splitlines()[0], text.split("`")[1]
+    lines = [COLUMNS, tuple("---" for _ in COLUMNS), *rows]
+    return "\n\n".join([head, f"`{name}`", "\n".join("| " + " | ".join(line) + " |" for line in lines)])
+
+
+def markdown(section: Section) -> str:
+    """Return the section of a case as Markdown, its figures beside it."""
+    name, case, outcome = section
+    lines = [COLUMNS, tuple("---" for _ in COLUMNS), *(cells(row) for row in outcome.rows)]
+    table = "\n".join("| " + " | ".join(c.replace("|", "\\|") for c in line) + " |" for line in lines)
+    parts = [f"## {case.title}", f"`{name}`; {case.section}.", table, *outcome.remarks]
+    for figure in outcome.figures:
+        parts.append(f"![{figure.caption.replace('[', '(').replace(']', ')')}]({figure.name}.png)")
+        parts.append(figure.caption)
+    return "\n\n".join(parts)
 
 
 def draw(figure: Figure, file: Path, plt: ModuleType | Any) -> None:

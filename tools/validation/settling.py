@@ -173,6 +173,7 @@ def settling(quick: bool) -> Outcome:
             "Štrakl et al. 2022",
             2e-3,
             True,
+            kind="others",
         )
         for k in range(3)
     ]
