@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,12 +28,10 @@ from foamprb.results.shapes import DERIVED, SOURCES, derived
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
 from foamprb.results.vtk_check import is_compressed, require_sizes
-from foamprb.view.dataset import dataset_of
 from foamprb.view.surfaces import MODE, bulges, unfolded
 
 if TYPE_CHECKING:
     import pyvista
-    import xarray
 
 log = logging.getLogger("foamprb")
 
@@ -251,21 +249,6 @@ class Run:
             mesh.point_data[name] = np.repeat(array, size, axis=0)
         mesh.field_data["time"] = [cloud.time]
         return mesh
-
-    def to_xarray(self, arrays: Iterable[str] | None = None) -> xarray.Dataset:
-        """Return the positions and some arrays, by default all, over ``time`` and ``particle``.
-
-        Before a particle appears its numbers are NaN, and its codes and integers −1. Attributes follow the CF
-        conventions.
-
-        Raises
-        ------
-        InputError
-            If xarray is not installed; if a file is missing or damaged.
-        """
-        version = self.record.get("versions", {}).get("foamprb", "")
-        names = None if arrays is None else dict.fromkeys(("origId", *arrays))
-        return dataset_of(self.times, partial(self.cloud, arrays=names), f"foamprb {version}".rstrip())
 
     @property
     def tracks(self) -> pyvista.PolyData | None:

@@ -116,33 +116,6 @@ def test_surfaces_have_the_quadratic_mode(tmp_path):
         assert along.min() == pytest.approx(-1.0 + epsilon)
 
 
-def test_dataset_has_all_times_of_all_particles(case):
-    pytest.importorskip("xarray")
-    run = foamprb.open_run(case)
-    data = run.to_xarray()
-    assert dict(data.sizes)["time"] == 5
-    last = run.snapshot()
-    assert data.x.isel(time=-1).values.tolist() == last.points[:, 0].tolist()
-    found = data["semiAxes"].isel(time=slice(1, 3), particle=[1, 5], semiAxes_component=0).values
-    then = run.snapshot(0.1)
-    row = then["origId"].tolist().index(5)
-    assert found[0, 1] == then["semiAxes"][row, 0]
-    # Some bodies appear later.
-    late = sorted({*range(9)} - {*run.snapshot(0.0)["origId"]})
-    assert np.isnan(data.d.isel(time=0, particle=late).values).all()
-    assert (data.status.isel(time=0, particle=late).values == -1).all()
-    assert set(run.to_xarray(["d"])) == {"x", "y", "z", "d"}
-    assert data["shearRate"].attrs["units"] == "1/s"
-    assert data.status.attrs["flag_meanings"].split()[2] == "stuck"
-    assert data.attrs["Conventions"] == "CF-1.11"
-
-
-def test_dataset_names_its_extra(case, monkeypatch):
-    monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(InputError, match=r"to_xarray needs xarray: pip install 'foamprb\[xarray\]'"):
-        foamprb.open_run(case).to_xarray()
-
-
 def test_missing_and_damaged_files_are_reported(case):
     run = foamprb.open_run(case)
     with pytest.raises(InputError, match=r"no table 'fate'. Did you mean 'fates'"):
