@@ -19,7 +19,6 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.lists import Index, Mask, ragged, starts, take_lists
 
 Labels = NDArray[np.int64]
-Pairs = NDArray[np.int64]
 """Two rows of numbers."""
 
 _OF_ALL = "_of_all_nodes"
@@ -175,11 +174,6 @@ class CellSearch:
         open_ = np.flatnonzero((self.fragment.owner < 0) | (self.fragment.neighbour < 0))
         return np.unique(take_lists(self.fragment.start, self.fragment.lists, open_)[1]).astype(np.int64)
 
-    def points_of(self, faces: Labels) -> Labels:
-        """Return the points of the locally present faces."""
-        here = np.flatnonzero(np.isin(self.fragment.faces, faces))
-        return np.unique(take_lists(self.fragment.start, self.fragment.lists, here)[1]).astype(np.int64)
-
 
 def places_of(numbers: Labels, wanted: Labels) -> Index:
     """Return the index of each wanted number in rising numbers, −1 if it is missing."""
@@ -201,8 +195,8 @@ class Grown(NamedTuple):
     """Number of layers that were added."""
 
 
-def grow(pieces: list[Fragment], team: Team, layers: int, links: Pairs) -> Grown:
-    """Add layers of cells around the owned cells, which share a point, also across coupled faces.
+def grow(pieces: list[Fragment], team: Team, layers: int) -> Grown:
+    """Add layers of cells around the owned cells, which share a point.
 
     Parameters
     ----------
@@ -212,8 +206,6 @@ def grow(pieces: list[Fragment], team: Team, layers: int, links: Pairs) -> Grown
         The nodes.
     layers
         Number of layers.
-    links
-        Boundary faces, rising, and the faces that continue them.
     """
     owned = merged(pieces)
     pieces.clear()
@@ -233,17 +225,10 @@ def grow(pieces: list[Fragment], team: Team, layers: int, links: Pairs) -> Grown
         held.extend((piece, k, number) for k, piece in pieces if len(piece.cells))
 
     # All cells around the other points are owned.
-    points, asked, crossed = search.rim(), owned.points, np.empty(0, dtype=np.int64)
-    latest = 0
+    points, asked = search.rim(), owned.points
     for number in range(1, layers + 1):
-        before, latest = latest, len(held)
+        latest = len(held)
         fetch(points, number)
-        if links.size:
-            faces = [_linked_faces(piece, links, asked) for piece, _, _ in held[before:]]
-            across = np.setdiff1d(np.concatenate([asked[:0], *faces]), crossed)
-            crossed = np.union1d(crossed, across)
-            answers = team.exchange([search.points_of(wanted) for wanted in team.of_all(across)])
-            fetch(np.unique(np.concatenate(answers)), number)
         new = [piece.points for piece, _, _ in held[latest:]]
         points = np.setdiff1d(np.concatenate([asked[:0], *new]), asked)
         asked = np.union1d(asked, points)
@@ -255,14 +240,3 @@ def grow(pieces: list[Fragment], team: Team, layers: int, links: Pairs) -> Grown
     held.clear()
     fragment = merged(parts)
     return Grown(fragment, layer.astype(np.uint8), node.astype(np.int32), layers)
-
-
-def _linked_faces(part: Fragment, links: Pairs, points: Labels) -> Labels:
-    """Return the faces that continue the faces with any of some points."""
-    outer = np.flatnonzero(np.isin(part.faces, links[0]))
-    if len(outer) == 0:
-        return part.faces[:0]
-    start, lists = take_lists(part.start, part.lists, outer)
-    touched = part.faces[outer[np.logical_or.reduceat(np.isin(lists, points), start[:-1])]]
-    partners: Labels = links[1][np.searchsorted(links[0], touched)]
-    return partners

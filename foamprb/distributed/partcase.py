@@ -33,8 +33,8 @@ from foamprb.flow.read.processors import (
 )
 from foamprb.flow.series import SeriesFlow
 
-_COUPLED = frozenset({"cyclicAMI", "nonConformalCyclic", "wedge"})
-"""Types of coupled patches whose faces do not match one to one, or that only small meshes have."""
+_COUPLED = frozenset({"cyclic", "cyclicAMI", "nonConformalCyclic", "wedge"})
+"""Types of coupled patches, whose two sides may lie on different nodes."""
 _NO_ADDRESSES = "the processor folders have no files *ProcAddressing"
 _FINE = 1e9
 
@@ -90,8 +90,7 @@ class PartCase(DecomposedCase):
         Raises
         ------
         IndivisibleMeshError
-            The folders have no addressing files, or see :func:`hold_part`; or some patches are coupled in
-            another way than ``cyclic`` ones.
+            The folders have no addressing files, or see :func:`hold_part`; or patches are coupled.
         """
         team, folder = self._team, self.mesh_folder(time)
         files = mesh_files(self._first, time, self.region)

@@ -23,7 +23,7 @@ from foamprb.flow.mesh.tree import Tree, build_tree
 from foamprb.flow.meshflow import MeshFlow, Numbering, end_triangles, shortest_extent
 from foamprb.flow.nodes import NodeValues
 from foamprb.flow.series import SeriesFlow
-from foamprb.flow.walls import Walls, images_of_walls, walls_at
+from foamprb.flow.walls import Walls, walls_at
 
 _ASIDE = 0.1
 """Distance up to which walls of other nodes are held at the start, over the diagonal of a node's cells."""
@@ -103,7 +103,7 @@ class PartFlow(MeshFlow):
         return self.halo.part.faces[mesh.n_internal + mesh.triangle_face[triangles]]
 
     def _close(self, rows: Index, lost: Index) -> None:
-        """End paths behind some tetrahedra, and at the triangles of coupled patches that lead nowhere."""
+        """End paths behind some tetrahedra, and at triangles outside the usable layers."""
         mesh, arrays = self.mesh, self._arrays
         n, triangles = len(arrays.triangles), mesh.tets[rows, 1:]
         arrays.neighbours[rows, 0] = -1 - np.arange(n, n + len(rows), dtype=np.int32)
@@ -122,15 +122,12 @@ class PartFlow(MeshFlow):
         self._hold_walls(min(self.halo.of_all(_ASIDE * float(np.linalg.norm(box[3:] - box[:3])))))
 
     def _hold_walls(self, reach: float) -> None:
-        """Add the walls of all nodes within a distance (m) of usable cells, in the order of the whole mesh.
-
-        With coupled patches, beyond which walls have images, all walls are added.
-        """
+        """Add all nodes' walls within a distance (m) of usable cells, in the order of the whole mesh."""
         mesh, arrays, n, halo = self.mesh, self._arrays, self._n_ends, self.halo
         rows = self._own_triangles(mesh)
         walls, faces, corners = walls_at(mesh, rows), self._faces_of(mesh, rows), mesh.triangles[rows]
         low, high = walls.corners.min(axis=1), walls.corners.max(axis=1)
-        self._reach = np.inf if any(patch.neighbour for patch in self.patches) else reach
+        self._reach = reach
         parcels = []
         for box in halo.of_all(self._usable_box):
             near = np.all((high >= box[:3] - self._reach) & (low <= box[3:] + self._reach), axis=1)
@@ -162,25 +159,7 @@ class PartFlow(MeshFlow):
         if reach > self._reach:
             self._hold_walls(2.0 * reach)
         some = np.flatnonzero(np.isin(self._all_walls.patches, patches))
-        walls, names = self._all_walls.take(some), (self._n_ends + some).astype(np.int32)
-        if not any(patch.neighbour for patch in self.patches):
-            return names, walls, None
-        return names, walls, images_of_walls(self.mesh, walls, reach, self._coupled_boxes())
-
-    def _coupled_boxes(self) -> dict[int, tuple[Floats, Floats]]:
-        """Return the boxes of coupled patches by index."""
-        mesh, boxes = self.mesh, {}
-        rows = self._own_triangles(mesh)
-        for coupling in mesh.couplings:
-            some = rows[mesh.triangle_patch[rows] == coupling.other]
-            corners = mesh.points[mesh.triangles[some]].reshape(-1, 3)
-            ends = self.halo.of_all(
-                (corners.min(axis=0, initial=np.inf), corners.max(axis=0, initial=-np.inf))
-            )
-            low, high = (f([end[k] for end in ends], axis=0) for k, f in enumerate((np.min, np.max)))
-            if np.all(low <= high):
-                boxes[coupling.other] = low, high
-        return boxes
+        return (self._n_ends + some).astype(np.int32), self._all_walls.take(some), None
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """See :meth:`MeshFlow.move`; with the fields that are sampled, and numbers of the cells."""
@@ -371,10 +350,10 @@ def _depths(flow: MeshArrays, points: Floats, hosts: Ints, depths: Floats) -> No
 
 
 def _ends(halo: Halo) -> tuple[Index, Index]:
-    """Return the tetrahedra behind which the usable layers end, and triangles of coupled patches that do."""
+    """Return the tetrahedra behind which the usable layers end, and the boundary triangles outside them."""
     part, mesh = halo.part, halo.part.mesh
     inside, last = part.layer <= part.depth, np.flatnonzero(part.layer == part.depth)
     rows = ragged(mesh.cell_start[last], np.diff(mesh.cell_start)[last])
     beyond = mesh.neighbours[rows, 0]
     rows = rows[(beyond >= 0) & ~inside[mesh.tets[beyond, 0] - mesh.n_points]]
-    return rows, np.flatnonzero(~part.continued[mesh.triangle_face])
+    return rows, np.flatnonzero(~inside[mesh.tets[mesh.triangle_tet, 0] - mesh.n_points])

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from foamprb.distributed.fragment import Fragment, IndivisibleMeshError, Team, grow
-from foamprb.distributed.joints import couple_parts
 from foamprb.distributed.submesh import RINGS, SubMesh, assemble_part
 from foamprb.flow.mesh.baffles import codes_of
 from foamprb.flow.mesh.boundary import PatchSurface
@@ -47,10 +46,9 @@ def hold_part(
     pieces = [read()]
     if has_baffles(pieces[0], team, n_internal):
         raise IndivisibleMeshError("the mesh has baffles, walls without thickness")
-    joints = couple_parts(pieces[0], patches, patch_start, n_internal, team, source)
-    grown = [grow(pieces, team, depth + RINGS, joints.links)]
+    grown = [grow(pieces, team, depth + RINGS)]
     trim()
-    part = assemble_part(grown, patches, patch_start, n_internal, joints, source)
+    part = assemble_part(grown, patches, patch_start, n_internal, source)
     if any(team.of_all(part.mesh.inverted > 0)):
         raise IndivisibleMeshError("the mesh has folded cells")
     trim()

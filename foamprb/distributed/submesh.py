@@ -16,11 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.distributed.fragment import Grown, Labels, Team, places_of
-from foamprb.distributed.joints import Joints
-from foamprb.flow.base import Floats, Ints, Patch
+from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
 from foamprb.flow.mesh.communicator import MeshCommunicator
-from foamprb.flow.mesh.coupling import Coupling
 from foamprb.flow.mesh.geometry import faces_of
 from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
 from foamprb.flow.mesh.mesh import Mesh, assemble
@@ -58,8 +56,6 @@ class SubMesh:
     """Number of faces between cells in the whole mesh."""
     depth: int
     """Number of layers in which bodies may move."""
-    continued: Mask
-    """(n_boundary,) False for faces outside these layers, and of coupled patches that lead out of them."""
 
     @property
     def owned(self) -> Mask:
@@ -79,7 +75,6 @@ def assemble_part(
     patches: Sequence[PatchSurface],
     patch_start: Index,
     n_internal: int,
-    joints: Joints,
     source: str,
 ) -> SubMesh:
     """Return the mesh of a node.
@@ -92,30 +87,15 @@ def assemble_part(
         Patches of the whole mesh, and the first boundary face of each.
     n_internal
         Number of faces between cells in the whole mesh.
-    joints, source
-        The coupled patches; the name of the mesh for messages.
+    source
+        Name of the mesh for messages.
     """
     poly, numbers, (layer, node, layers) = _local_poly(pieces.pop(), patches, patch_start, n_internal)
-    n_inside, n_outside = len(poly.faces.neighbour), int(poly.patch_start[-2])
-    boundary, depth = numbers[2][n_inside:][:n_outside], layers - RINGS
-    usable = (layer <= depth)[poly.faces.owner[n_inside : n_inside + n_outside]]
-    coupled = _local_couplings(joints, boundary)
-    mesh = assemble(poly, source, lambda *_: coupled)
+    mesh = assemble(poly, source)
     patch = np.where(mesh.triangle_patch == len(patches), np.int32(BEYOND), mesh.triangle_patch)
-    continued = np.append(usable, np.ones(len(mesh.boundary_centres) - n_outside, dtype=bool))
-    one, other = (places_of(boundary, faces) for faces in joints.links)
-    continued[one[(one >= 0) & ~np.append(usable, False)[other]]] = False
-    return SubMesh(replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, depth, continued)
-
-
-def _local_couplings(joints: Joints, boundary: Labels) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
-    """Return the patches, and the couplings with the pairs of faces of which both are here."""
-    couplings = []
-    for coupling in joints.couplings:
-        faces, partners = (places_of(boundary, side) for side in (coupling.faces, coupling.partners))
-        pairs = (faces >= 0) & (partners >= 0)
-        couplings.append(coupling._replace(faces=faces[pairs], partners=partners[pairs]))
-    return (*joints.patches, Patch(CUT.name, CUT.type)), tuple(couplings)
+    return SubMesh(
+        replace(mesh, triangle_patch=patch), *numbers, layer, node, n_internal, depth=layers - RINGS
+    )
 
 
 def _local_poly(

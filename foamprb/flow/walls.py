@@ -5,7 +5,6 @@ Walls beyond a cyclic patch or a wedge are included as images on this side of it
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -192,14 +191,12 @@ Box: TypeAlias = tuple[Floats, Floats]
 """Lower and upper corner, m."""
 
 
-def images_of_walls(mesh: Mesh, walls: Walls, reach: float, boxes: Mapping[int, Box] | None = None) -> Walls:
+def images_of_walls(mesh: Mesh, walls: Walls, reach: float) -> Walls:
     """Return images of the walls beyond coupled patches, within ``reach`` (m) of them.
 
-    Where two pairs of patches meet, there are images of images. ``boxes`` are those of the coupled patches,
-    by index, if the mesh is a part of another.
+    Where two pairs of patches meet, there are images of images.
     """
-    if boxes is None:
-        boxes = {c.other: patch_box(mesh, c.other) for c in mesh.couplings if len(c.partners)}
+    boxes = {c.other: patch_box(mesh, c.other) for c in mesh.couplings if len(c.partners)}
     found: list[Walls] = []
     sources = [(-1, walls)]
     for _ in range(2):

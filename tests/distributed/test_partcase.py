@@ -105,7 +105,7 @@ INDIVISIBLE = {
     "some": (without("pointProcAddressing"), r"the processor folders have no files \*ProcAddressing"),
     **{
         kind: (of_type(kind), f"the mesh has patches of type {kind}")
-        for kind in ("cyclicAMI", "nonConformalCyclic", "wedge")
+        for kind in ("cyclic", "cyclicAMI", "nonConformalCyclic", "wedge")
     },
 }
 

@@ -8,7 +8,7 @@ linear on them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -141,15 +141,13 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     return assemble(poly_of_grid(grid, surfaces, source), source)
 
 
-def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) -> Mesh:
+def assemble(poly: PolyMesh, source: str) -> Mesh:
     """Find neighbours, tetrahedra and coupled patches of a mesh.
 
     Parameters
     ----------
     poly, source
         Points, faces and patches; the name of the mesh for messages.
-    coupled
-        Finds the coupled patches as :func:`foamprb.flow.mesh.coupling.couple` does.
 
     Raises
     ------
@@ -161,7 +159,7 @@ def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) 
     points, faces, cell_points = part_points(points, faces, cell_start, cell_points)
     poly = poly._replace(points=points, faces=faces)
     for _ in range(_MOST_TURNS):
-        mesh, astray = _assemble(poly, (cell_start, cell_points), source, coupled)
+        mesh, astray = _assemble(poly, (cell_start, cell_points), source)
         if len(astray) == 0:
             return mesh
         turn_alike(faces, astray)
@@ -171,9 +169,7 @@ def assemble(poly: PolyMesh, source: str, coupled: Callable[..., Any] = couple) 
     )
 
 
-def _assemble(
-    poly: PolyMesh, cells: tuple[Ints, Ints], source: str, coupled: Callable[..., Any]
-) -> tuple[Mesh, Index]:
+def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Mesh, Index]:
     """Return the mesh, and the cells with neighbouring faces that turn against each other."""
     points, faces, surfaces, patch_start = poly
     # The bases of the fans must not depend on the number of turns of a face.
@@ -189,9 +185,8 @@ def _assemble(
         else patch
         for patch, first, end in zip(surfaces, patch_start[:-1], patch_start[1:], strict=True)
     ]
-    patches, couplings = coupled(
-        patches_of(surfaces, patch_start),
-        *(patch_start, boundary_centres, boundary_areas, surfaces, source),
+    patches, couplings = couple(
+        patches_of(surfaces, patch_start), patch_start, boundary_centres, boundary_areas, surfaces, source
     )
     _, centres, volumes = cell_geometry(faces, face_centres, face_areas)
     del face_centres, face_areas
