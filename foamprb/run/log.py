@@ -26,7 +26,7 @@ from foamprb.flow.base import Caveat, Sampled
 from foamprb.results.folder import FAILURES
 from foamprb.run.checks import SMALL_REYNOLDS
 from foamprb.run.job import Job
-from foamprb.run.slip import SlipRecord, drag_excess
+from foamprb.run.slip import Slip, drag_excess, slip_of
 from foamprb.run.validity import PathRecord
 
 log = logging.getLogger("foamprb")
@@ -133,7 +133,7 @@ class RunLog:
         self._listed = set(failed[:_MAX_LISTED_FAILURES].tolist())
         """Numbers of failed particles that need no line; no more than lines."""
         self._unstable = 0
-        self._slip = SlipRecord()
+        self._slip = Slip()
 
     def begin(self) -> None:
         """Log the start of the time loop."""
@@ -210,11 +210,10 @@ class RunLog:
 
     def _log_slip(self) -> None:
         """Record the slip of the particles, and warn of the first Reynolds number that is too large."""
-        before = self._slip.worst.reynolds[0]
-        cloud = self._job.cloud
-        for record in cloud.map_in_flow(SlipRecord.of, cloud.medium, cloud.size):
-            self._slip.add(record)
-        worst = self._slip.worst.reynolds[0]
+        before, cloud = self._slip.reynolds, self._job.cloud
+        for slip in cloud.map_in_flow(slip_of, cloud.medium, cloud.size):
+            self._slip = self._slip.or_more(slip)
+        worst = self._slip.reynolds
         if before <= SMALL_REYNOLDS < worst:
             log.warning(
                 "the Reynolds number of slip is up to %.3g: drag is that of Stokes flow, which is %.2g %% "

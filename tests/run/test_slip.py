@@ -12,7 +12,7 @@ from foamprb import Medium, analytic, spheres
 from foamprb.cloud.cloud import Cloud
 from foamprb.run import slip
 from foamprb.run.log import RunLog
-from foamprb.run.slip import SlipRecord, drag_excess
+from foamprb.run.slip import Slip, drag_excess, slip_of
 
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
 RATE, D, RHO = 100.0, 1e-4, 2500.0
@@ -26,35 +26,33 @@ def sliding(speeds):
     return cloud
 
 
-def record_of(cloud):
-    return cloud.map_in_flow(SlipRecord.of, WATER, cloud.size)[0]
+def largest_in(cloud):
+    return cloud.map_in_flow(slip_of, WATER, cloud.size)[0]
 
 
-def test_usual_and_worst_of_both_numbers():
-    record = SlipRecord()
-    assert record.lines() == []
+def test_largest_of_both_numbers():
+    assert Slip().lines() == []
+    largest = Slip()
     # 0.1 m/s of 1e-4 m in water are a Reynolds number of 10.
     for speeds in np.array_split(np.repeat([1e-5, 1.01e-4, 0.1], [10, 995, 5]), 8):
-        record.add(record_of(sliding(speeds)))
-    assert record.worst.reynolds[0] == pytest.approx(10.0)
-    assert record.worst.stokes[0] == pytest.approx(RATE * RHO * D**2 / (18.0 * WATER.mu))
-    reynolds, stokes = record.lines()
-    assert reynolds == "Reynolds number of slip  99 % below 0.0102, at most 10"
-    assert stokes.startswith("Stokes number            99 % below 0.139")
+        largest = largest.or_more(largest_in(sliding(speeds)))
+    assert largest == pytest.approx((10.0, RATE * RHO * D**2 / (18.0 * WATER.mu)))
+    assert largest.lines() == [
+        "Reynolds number of slip  at most 10",
+        "Stokes number            at most 0.139",
+    ]
 
 
-def test_of_a_large_cloud_some_particles_are_recorded(monkeypatch):
+def test_of_a_large_cloud_some_particles_are_compared(monkeypatch):
     """Those of evenly spread numbers, on whichever process they are."""
     monkeypatch.setattr(slip, "_MOST", 20)
-    record = record_of(sliding(np.repeat([1e-4, 0.1], [990, 10])))
-    assert record.counts.sum(axis=1).tolist() == [20, 20]
-    assert record.worst.reynolds[0] == pytest.approx(1e-2)
+    assert largest_in(sliding(np.repeat([1e-4, 0.1], [990, 10]))).reynolds == pytest.approx(1e-2)
 
 
 def test_the_velocity_of_its_eddy_is_no_slip_of_a_particle():
     cloud = sliding([0.1])
     cloud.particles.eddy[:, 0] = 0.09
-    assert record_of(cloud).worst.reynolds[0] == pytest.approx(1.0)
+    assert largest_in(cloud).reynolds == pytest.approx(1.0)
 
 
 def test_drag_of_a_sphere_exceeds_that_of_stokes():
