@@ -215,9 +215,6 @@ class Communicator:
         """Return the number of particles of each status."""
         return self.rank.particles.counts()
 
-    def regroup(self) -> None:
-        """Distribute the particles again if that pays; no-op on one rank."""
-
     def piece_files(self, stem: Any) -> tuple[Any, ...]:  # noqa: ARG002
         """Return the files of a snapshot that several ranks write; none on one rank."""
         return ()

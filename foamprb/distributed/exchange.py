@@ -97,11 +97,6 @@ def firsts_of(n: int, size: int) -> NDArray[np.int64]:
     return -(-np.arange(size + 1, dtype=np.int64) * n // size)
 
 
-def idle_share(before: int, after: int) -> float:
-    """Return the share of a step that a smaller largest load saves; 0 if the load grows."""
-    return max(0, before - after) / max(before, 1)
-
-
 def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:
     """Return the exchange after which all have as many active particles; None if it does not pay.
 

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.distributed.fragment import IndivisibleMeshError, Labels
 from foamprb.distributed.node import Summary
-from foamprb.distributed.partcase import ends_of
 from foamprb.distributed.submesh import layers_over
 from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError, suggestion
@@ -33,7 +32,7 @@ log = logging.getLogger("foamprb")
 LEAST_LAYERS = 3
 """Smallest number of layers around the cells of a node."""
 Summaries: TypeAlias = Sequence[Summary | None]
-OpenParts: TypeAlias = Callable[[int, NDArray[np.int64] | None], Summaries]
+OpenParts: TypeAlias = Callable[[int], Summaries]
 _CELLS_AT_ONCE = 1 << 24
 """Cells whose sizes all nodes send together."""
 
@@ -104,8 +103,7 @@ class DistributedFlow:
         Applies a function to the workers of all processes; see :meth:`foamprb.distributed.ranks.Ranks.call`.
     open_parts
         Lets all nodes read their parts with at least a number of layers around their cells in which bodies
-        may move, and a load of the processor folders.
-        Returns the summaries of all processes; None unless a process is the first of its node.
+        may move. Returns the summaries of all processes; None unless a process is the first of its node.
     step
         Time between two points where particles can change nodes, s.
     summaries
@@ -115,15 +113,12 @@ class DistributedFlow:
     kernels = MeshFlow.kernels
     nothing: Callable[[], Any] = staticmethod(MeshFlow.nothing)
     lists_walls = True
-    seconds = 0.0
-    """Duration of the last reading."""
     span = (-math.inf, math.inf)
 
     def __init__(
         self, call: Callable[..., list[Any]], open_parts: OpenParts, step: float, summaries: Summaries
     ) -> None:
         self._call, self._open_parts, self._step = call, open_parts, step
-        self._load: NDArray[np.int64] | None = None
         self._shared: tuple[Any, ...] | None = None
         self.shared_bytes = 0
         self._slip = 0.0
@@ -140,7 +135,7 @@ class DistributedFlow:
         if layers <= self.depth:
             return
         while self.depth < layers:
-            self._summarise(self._open_parts(layers, self._load))
+            self._summarise(self._open_parts(layers))
             layers = self._layers
         self._share_again()
 
@@ -169,23 +164,6 @@ class DistributedFlow:
     def _layers(self) -> int:
         """Return the number of layers that no body crosses in a step."""
         return layers_over(self.rate * self._step)
-
-    @property
-    def folders(self) -> NDArray[np.int64]:
-        """Number of cells of each processor folder."""
-        return np.concatenate([summary.folders for summary in self.summaries])
-
-    def loads(self, load: NDArray[np.int64], again: bool) -> NDArray[np.int64]:
-        """Return the load of each node, with its present folders, or with folders assigned ``again``."""
-        counts = [0, *(len(summary.folders) for summary in self.summaries)]
-        ends = ends_of(self.folders, load, len(self.summaries)) if again else np.cumsum(counts)
-        return np.diff(np.concatenate([[0], np.cumsum(load)])[ends])
-
-    def regroup(self, load: NDArray[np.int64]) -> None:
-        """Let the nodes take processor folders again, by the cells and by the load of each."""
-        self._load = load
-        self._summarise(self._open_parts(self.depth, load))
-        self._share_again()
 
     def load(self, start: float, end: float) -> float:  # noqa: ARG002
         """Return infinity: the flow is steady."""
@@ -366,7 +344,7 @@ class DistributedSeries(Timeline, DistributedFlow):
 
 def distributed_flow(call: Callable[..., list[Any]], open_parts: OpenParts, step: float) -> DistributedFlow:
     """Return the flow of which all nodes hold parts; see :class:`DistributedFlow`."""
-    summaries = open_parts(LEAST_LAYERS, None)
+    summaries = open_parts(LEAST_LAYERS)
     first = next(summary for summary in summaries if summary is not None)
     kind = DistributedSeries if first.times else DistributedFlow
     return kind(call, open_parts, step, summaries)

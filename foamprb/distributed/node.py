@@ -60,8 +60,6 @@ class PlacesInWhole(NamedTuple):
     """(n_cells,) the first tetrahedron of each cell in the whole mesh."""
     start: Ints
     """(n_cells + 1,) and here."""
-    folder: Ints
-    """(n_cells,) the processor folder of each owned cell."""
 
 
 class Shared(NamedTuple):
@@ -88,8 +86,6 @@ class Summary(NamedTuple):
     notes: tuple[str, ...]
     counts: tuple[int, int, int]
     """Cells, points and tetrahedra of the whole mesh."""
-    folders: tuple[int, ...]
-    """Number of owned cells in each processor folder of the node."""
     owned: int
     """Number of owned cells."""
     depth: int
@@ -112,10 +108,9 @@ class Summary(NamedTuple):
 def summary_of(flow: PartFlow) -> Summary:
     """Return the summary of a part; all nodes call it together."""
     halo, time = flow.halo, flow.at_nodes()[0]
-    owned, numbers = halo.part.owned, halo.folders.numbers
-    folders = np.bincount(halo.folders.of_cells[owned] - numbers.start, minlength=len(numbers))
+    owned = halo.part.owned
     return Summary(
-        flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts, tuple(folders.tolist()),
+        flow.patches[:-1], flow.bounds, flow.width, flow.notes, flow.counts,
         int(owned.sum()), halo.part.depth, len(owned),
         max(halo.of_all(flow.rate)), max(halo.of_all(flow.steepness)), flow.field_columns, time,
         *((flow.times, flow.period) if isinstance(flow, PartSeries) else ((), None)),
@@ -190,7 +185,7 @@ class Part:
         root, times, source
             The case, the times of the flow, and the names of its fields.
         layers
-            Least number of layers, and loads of the folders; see :class:`PartCase`.
+            Least number of layers; see :class:`PartCase`.
         """
 
         def read(team: MpiTeam) -> Summary:

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.distributed.fragment import Fragment, IndivisibleMeshError, Labels, Team, merged
+from foamprb.distributed.fragment import Fragment, IndivisibleMeshError, Team, merged
 from foamprb.distributed.partflow import PartFlow, PartSeries
 from foamprb.distributed.parting import hold_part
-from foamprb.distributed.submesh import CUT, Folders, Halo
+from foamprb.distributed.submesh import CUT, Halo
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import Transform
 from foamprb.flow.mesh.lists import even_ends, ragged, starts, take_lists
@@ -36,7 +36,6 @@ from foamprb.flow.series import SeriesFlow
 _COUPLED = frozenset({"cyclic", "cyclicAMI", "nonConformalCyclic", "wedge"})
 """Types of coupled patches, whose two sides may lie on different nodes."""
 _NO_ADDRESSES = "the processor folders have no files *ProcAddressing"
-_FINE = 1e9
 
 
 class PartCase(DecomposedCase):
@@ -52,8 +51,6 @@ class PartCase(DecomposedCase):
         The nodes.
     depth
         Least number of layers in which bodies may move.
-    load
-        (n,) particles in each of all processor folders, if they count.
 
     Raises
     ------
@@ -67,7 +64,6 @@ class PartCase(DecomposedCase):
         region: str,
         team: Team,
         depth: int,
-        load: Labels | None = None,
     ) -> None:
         super().__init__(root, region)
         self._team, self._depth = team, depth
@@ -77,7 +73,7 @@ class PartCase(DecomposedCase):
         cells = team.spread(self.processors.cells(folder) if team.rank == 0 else None)
         if cells is None:
             raise IndivisibleMeshError(_NO_ADDRESSES)
-        self.processors.selected = range(*ends_of(cells, load, team.size)[team.rank :][:2])
+        self.processors.selected = range(*even_ends(cells, team.size)[team.rank :][:2])
 
     def damaged(self, times: Sequence[str], name: str) -> dict[str, str]:
         """See :meth:`~foamprb.flow.read.openfoam.Case.damaged`; of all nodes."""
@@ -134,10 +130,7 @@ class PartCase(DecomposedCase):
             for piece, address in zip(pieces, addresses, strict=True)
         ]
         part = hold_part(own_cells, surfaces, ranges, n_internal, self._depth, team, str(folder))
-        of_cells = np.zeros(len(part.cells), dtype=np.int32)
-        for number, address in zip(self.processors.selected, addresses, strict=True):
-            of_cells[np.searchsorted(part.cells, address.cells)] = number
-        self._halo, mesh = Halo(part, team, Folders(self.processors.selected, of_cells)), part.mesh
+        self._halo, mesh = Halo(part, team), part.mesh
         self.comm = self._halo
         counts, first = np.diff(mesh.patch_start).tolist(), (mesh.n_internal + mesh.patch_start).tolist()
         infos = [*self._patches, PatchInfo(CUT.name, CUT.type, 0, 0, "", Transform(), {})]
@@ -251,20 +244,3 @@ def fragment_of(piece: Piece, part: Address) -> Fragment:
     numbers = part.points[points].astype(np.int64), piece.points[points], part.faces[faces].astype(np.int64)
     sides = owner[faces], neighbour[faces]
     return Fragment(cells.astype(np.int64), *numbers, start, lists.astype(np.int64), *sides)
-
-
-def ends_of(cells: Labels, load: Labels | None, nodes: int) -> list[int]:
-    """Return where the processor folders of each node end; see :func:`even_ends`.
-
-    Parameters
-    ----------
-    cells, load
-        Cells and particles of each folder. Without particles the cells count alone. Otherwise all cells count
-        as much as all particles, so that no node has more than about two even shares of either.
-    nodes
-        Number of nodes.
-    """
-    if load is None or not load.any():
-        return even_ends(cells, nodes)
-    shares = cells / max(int(cells.sum()), 1) + load / load.sum()
-    return even_ends(np.rint(_FINE * shares).astype(np.int64), nodes)

@@ -162,10 +162,9 @@ class PartFlow(MeshFlow):
         return (self._n_ends + some).astype(np.int32), self._all_walls.take(some), None
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """See :meth:`MeshFlow.move`; with the fields that are sampled, and numbers of the cells."""
+        """See :meth:`MeshFlow.move`; with the fields that are sampled."""
         super().move(place)
-        self._first_tet, folders = place(self._first_tet), self.halo.folders
-        self.halo.folders = folders._replace(of_cells=place(folders.of_cells))
+        self._first_tet = place(self._first_tet)
         self.field_table = place(self.field_table)
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
@@ -282,10 +281,10 @@ class PartFlow(MeshFlow):
         most = largest_fluxes(mesh.points, faces, u, further)
         return float((most / mesh.volumes)[self.halo.part.owned].max(initial=0.0))
 
-    def places_in_whole(self) -> tuple[Labels, Ints, Labels, Ints, Ints]:
+    def places_in_whole(self) -> tuple[Labels, Ints, Labels, Ints]:
         """Return the columns of :class:`~foamprb.distributed.node.PlacesInWhole`."""
         halo = self.halo
-        return halo.part.cells, halo.part.node, self._first_tet, self.mesh.cell_start, halo.folders.of_cells
+        return halo.part.cells, halo.part.node, self._first_tet, self.mesh.cell_start
 
     def own_patch_faces(self, name: str, t: float) -> tuple[Labels, PatchFaces]:
         """Return the triangles of a patch at owned cells, with the numbers of faces and hosts."""

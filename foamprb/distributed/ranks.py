@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import logging
 import pickle
-import time as clock
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -30,7 +29,7 @@ from foamprb.cloud.measures import largest_slip
 from foamprb.cloud.report import Contents
 from foamprb.cloud.state import VARIABLES, Particles, Status, empty
 from foamprb.cloud.tracker import Outcome
-from foamprb.distributed.exchange import firsts_of, idle_share, plan_exchange
+from foamprb.distributed.exchange import firsts_of, plan_exchange
 from foamprb.distributed.flow import DistributedFlow, distributed_flow, require_divisible
 from foamprb.distributed.fragment import IndivisibleMeshError
 from foamprb.distributed.shared_memory import Publisher
@@ -183,10 +182,9 @@ class Ranks(Communicator):
     ) -> Any:
         """Return the flow with a part on each node; None if it cannot be divided."""
 
-        def open_parts(depth: int, load: NDArray[np.int64] | None) -> list[Any]:
-            return self.call(Worker.open_part, case, times, source, depth, load)
+        def open_parts(depth: int) -> list[Any]:
+            return self.call(Worker.open_part, case, times, source, depth)
 
-        started = clock.perf_counter()
         try:
             require_divisible(case, source, nodes, followed)
             flow = distributed_flow(self.call, open_parts, step)
@@ -194,7 +192,6 @@ class Ranks(Communicator):
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
             self.call(Worker.close_part)
             return None
-        flow.seconds = clock.perf_counter() - started
         for number, summary in enumerate(flow.summaries):
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.owned,
                      summary.held - summary.owned)  # fmt: skip
@@ -258,11 +255,6 @@ class Ranks(Communicator):
         counts_of_ranks = self._counts or [state.counts for state in self.call(Worker.state)]
         total = np.sum(counts_of_ranks, axis=0)
         return {status: int(total[status]) for status in Status}
-
-    def regroup(self) -> None:
-        """See :meth:`Communicator.regroup`."""
-        assert self._way is not None
-        self._way.regroup()
 
     def piece_files(self, stem: Path) -> tuple[Path, ...]:
         """See :meth:`Communicator.piece_files`."""
@@ -335,9 +327,6 @@ class _WholeFlow:
         self._ranks.exchange(self.ranks_of)
         return self._ranks.take_steps(Worker.take_steps, stop, step, steps, bounds)
 
-    def regroup(self) -> None:
-        """No-op: any process can advance any particle."""
-
 
 class _PartedFlow:
     """Steps of ranks whose nodes hold a part of the mesh each, with the particles in it.
@@ -354,7 +343,6 @@ class _PartedFlow:
         numbers = ranks.call(Worker.node_number)
         self.ranks_of = [[r for r, n in enumerate(numbers) if n == k] for k in range(max(numbers) + 1)]
         """Ranks of each node."""
-        self._seconds, self._lost = 0.0, 0.0
         log.info("    %-24s %d", "steps between exchanges", self._few)
 
     @property
@@ -368,14 +356,12 @@ class _PartedFlow:
     def advance(self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool]) -> Outcome:
         """Advance all shares by few steps at a time, and let particles migrate after each call."""
         last, few, outcome = step + steps, self._few, Outcome()
-        started = clock.perf_counter()
         while step < last and outcome.finished:
             self._ranks.exchange(self.ranks_of)
             # Calls end at multiples, as strides of several tracking steps do.
             end = min(last, (step // few + 1) * few)
             outcome += self._ranks.take_steps(Worker.take_steps_in_part, stop, step, end - step, bounds)
             step = end
-        self._seconds += clock.perf_counter() - started
         return outcome
 
     @property
@@ -385,30 +371,6 @@ class _PartedFlow:
         # A body may go through one layer less than there are, so that it ends before the last.
         most = max(1, int((flow.depth - 1) / max(flow.rate * self._dt * stretch, 1e-300)))
         return stretch * min(most, MOST_AT_ONCE)
-
-    def regroup(self) -> None:
-        """Let the nodes take other processor folders, if the most loaded one then has fewer particles.
-
-        They do when as much time has been lost as reading the parts takes. This is at most twice the time
-        that the best choice in hindsight would take.
-        """
-        flow, ranks = self._flow, self._ranks
-        load = sum(ranks.call(Worker.load_of_folders, len(flow.folders)))
-        before, after = (int(flow.loads(load, again).max()) for again in (False, True))
-        self._lost += self._seconds * idle_share(before, after)
-        self._seconds = 0.0
-        if not self._pays():
-            return
-        log.info("Nodes take processor folders again: one has at most %d particles, instead of %d",
-                 after, before)  # fmt: skip
-        started, self._lost = clock.perf_counter(), 0.0
-        ranks.call(Worker.prepare_repartition)
-        flow.regroup(load)
-        ranks.distribute()
-        flow.seconds = clock.perf_counter() - started
-
-    def _pays(self) -> bool:
-        return bool(self._lost > self._flow.seconds)
 
 
 MOST_AT_ONCE = 1000

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -131,14 +131,6 @@ def _local_poly(
     return poly, numbers, (grown.layer, grown.node, grown.layers)
 
 
-class Folders(NamedTuple):
-    """Processor folders that a node has read."""
-
-    numbers: range
-    of_cells: Ints
-    """(n_cells,) the folder of each owned cell."""
-
-
 class Halo(MeshCommunicator):
     """Exchange of values between the nodes that hold a mesh in parts.
 
@@ -148,13 +140,10 @@ class Halo(MeshCommunicator):
         Cells of this node.
     team
         The nodes.
-    folders
-        Processor folders that this node has read, if there are several.
     """
 
-    def __init__(self, part: SubMesh, team: Team, folders: Folders | None = None) -> None:
+    def __init__(self, part: SubMesh, team: Team) -> None:
         self.part, self.team, self.rank = part, team, team.rank
-        self.folders = folders or Folders(range(1), np.zeros(len(part.cells), dtype=np.int32))
         mesh, cells = part.mesh, part.cells
         everyone = range(team.size)
         n_boundary = int(mesh.patch_start[-2])

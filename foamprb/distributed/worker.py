@@ -241,17 +241,6 @@ class Worker(Rank):
             self._part = None
             gc.collect()
 
-    def load_of_folders(self, n: int) -> NDArray[np.int64]:
-        """Return the number of active particles in each of n processor folders."""
-        p, part = self.particles, self._held
-        cells = part.cells_of(p.host[p.status == Status.ACTIVE])
-        return np.bincount(part.places.folder[cells], minlength=n)
-
-    def prepare_repartition(self) -> None:
-        """Prepare the particles for another part of the mesh, for which they will be distributed again."""
-        self._use_whole_hosts()
-        self._allocated = False
-
     def share_part(self, *walls: Any) -> int:
         """Place the arrays of the node's flow, with some walls, in its memory; return bytes shared once."""
         size = self._held.share(*walls)

@@ -91,8 +91,6 @@ def execute(
                 counts = {time: cloud.counts_at(time) for time in map(cloud.time_of, due)}
                 results.write(due)
                 log.write_times(counts)
-                if cloud.step < job.steps:
-                    cloud.comm.regroup()
         if following is not None:
             following.report_end(job.settings.solution.endTime)
         results.end()

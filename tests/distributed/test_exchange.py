@@ -17,7 +17,7 @@ from pipe_case import copy_of_pipe, message
 from foamprb.cloud.communicator import Share
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
-from foamprb.distributed.exchange import firsts_of, idle_share, pack, plan_exchange, unpack, with_others
+from foamprb.distributed.exchange import firsts_of, pack, plan_exchange, unpack, with_others
 from foamprb.distributed.route import Route
 
 
@@ -47,13 +47,6 @@ def test_every_particle_is_written_by_one_rank(n, size):
     # The first process writes the first rows of a checkpoint.
     assert (counts[0] > 0) == (n > 0)
     assert counts.max() - counts.min() <= 1
-
-
-def test_without_particles_no_time_is_lost():
-    """Nodes read their folders again in vain where all particles were pending or had ended."""
-    assert idle_share(0, 0) == 0.0
-    assert idle_share(10, 10) == idle_share(10, 12) == 0.0
-    assert idle_share(10, 4) == pytest.approx(0.6, rel=1e-15)
 
 
 def test_records_hold_every_bit_of_a_particle(random):

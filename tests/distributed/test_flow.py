@@ -11,8 +11,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from foam_writer import decompose, header, write_case
-from hypothesis import given
-from hypothesis import strategies as st
 from thread_mpi import on_nodes
 from transient_case import scaled
 
@@ -22,7 +20,7 @@ from foamprb.cloud.state import empty
 from foamprb.distributed.flow import deepest, distributed_flow, require_divisible
 from foamprb.distributed.fragment import IndivisibleMeshError
 from foamprb.distributed.node import summary_of
-from foamprb.distributed.partcase import PartCase, ends_of
+from foamprb.distributed.partcase import PartCase
 from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError
 from foamprb.flow.read.decomposed import DecomposedCase
@@ -321,22 +319,3 @@ def test_a_case_without_processor_folders_is_not_decomposed(case, tmp_path):
     whole = shutil.copytree(case, tmp_path / "case", ignore=shutil.ignore_patterns("processor*"))
     with pytest.raises(IndivisibleMeshError, match="it is not decomposed"):
         require_divisible(whole, FlowSource(), 2)
-
-
-@given(st.lists(st.tuples(st.integers(1, 1000), st.integers(1, 1000)), min_size=4, max_size=30))
-def test_folders_are_shared_by_cells_and_particles(folders):
-    """A node has at most two even shares of either, and one folder."""
-    shares = np.array(folders) / np.sum(folders, axis=0)
-    cells, load = np.array(folders).T
-    ends = np.array(ends_of(cells, load, 4))
-    assert (ends[0], ends[-1]) == (0, len(folders))
-    assert (np.diff(ends) > 0).all()
-    assert np.add.reduceat(shares, ends[:-1]).max() <= 2.0 / 4 + shares.sum(axis=1).max() + 1e-6
-    assert ends_of(cells, np.zeros_like(load), 4) == ends_of(cells, None, 4)
-
-
-def test_loads_of_nodes(flow):
-    """Of two folders each node has one."""
-    assert flow.folders.sum() == flow.mesh.n_cells
-    load = np.array([5, 7])
-    assert flow.loads(load, again=False).tolist() == flow.loads(load, again=True).tolist() == [5, 7]

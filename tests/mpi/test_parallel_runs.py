@@ -319,12 +319,6 @@ def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
     assert_same(case, alone, functions=False)
 
 
-REGROUPING = """
-# Nodes read their parts again at each write time.
-_PartedFlow._pays = lambda self: True
-"""
-
-
 CONTROL = "deltaT 0.1; endTime 1.5; writeControl runTime; writeInterval 1;"
 SOLVER = """
 # Each wait for the solver brings the next time.
@@ -392,7 +386,7 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
     assert main(["run", "-case", str(alone)]) == 0
     (distances,) = re.findall(r"distance to walls/radius.*", capsys.readouterr().out)
     # However small the mesh is, its arrays are shared.
-    hook = "shared_memory._SMALLEST = 100\n" + REGROUPING
+    hook = "shared_memory._SMALLEST = 100\n"
     if following:
         for folder in [f / t for f in case.glob("processor*") for t in ("0.5", "1.5")]:
             folder.rename(folder.with_name("late" + folder.name))
@@ -404,7 +398,6 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
         reason = "-follow reads times while the solver writes them"
         assert f"Each of 2 nodes holds the whole mesh: {reason}." in done.stdout
     else:
-        assert "Nodes take processor folders again" in done.stdout
         assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
     assert distances in done.stdout
     assert_same(case, alone)
@@ -637,8 +630,7 @@ def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_pa
     decomposed(case, 5)
     kill = after_hook(
         tmp_path,
-        REGROUPING
-        + """
+        """
 migrate = Worker.migrate
 def hooked(self):
     if rank == 1 and max(self.particles.t, default=0.0) > 0.0115:
@@ -652,7 +644,6 @@ Worker.migrate = hooked
     assert "Continuing from the checkpoint at t = 0.005 s" in killed.stdout
     own = re.findall(r"node \d +(\d+) cells, and \d+ around them", killed.stdout)
     assert (len(own), sum(map(int, own))) == (3, mesh.n_cells)
-    assert "Nodes take processor folders again: one has at most" in killed.stdout
     assert not (folder_of(case) / "fates.csv").exists()
     capsys.readouterr()
     assert main(["run", "-case", str(case), "-resume"]) == 0
