@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from foamprb.flow.read.source import FlowSource
     from foamprb.settings.solution import StartFrom
 
-PURPOSE = "run a case for all combinations of values of some entries"
+PURPOSE = "run a case for many values of some entries, combined or drawn"
 EXAMPLE = "sweep study.toml -list"
 
 log = logging.getLogger("foamprb")

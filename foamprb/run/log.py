@@ -24,6 +24,7 @@ from foamprb.cloud.surroundings.wall_lift import WallLift, count_close, share_of
 from foamprb.cloud.viscosity import medium_at
 from foamprb.flow.base import Caveat, Sampled
 from foamprb.results.folder import FAILURES
+from foamprb.results.intervals import share
 from foamprb.run.checks import SMALL_REYNOLDS
 from foamprb.run.job import Job
 from foamprb.run.slip import Slip, drag_excess, slip_of
@@ -220,20 +221,23 @@ class RunLog:
                 "too small for a sphere there.", worst, 100.0 * drag_excess(worst))  # fmt: skip
 
     def _log_fates(self) -> None:
-        """Log the number of particles by fate and patch; their sum is the number injected."""
+        """Log number and share of the particles by fate and patch; their sum is the number injected."""
         job, counts = self._job, self._job.cloud.counts()
         answers = job.cloud.map_in_flow(_fates_of, len(job.patch_names))
         at_patches, close = zip(*answers, strict=True)
         log.info("Fate of the particles")
-        log.info("    %-24s %10d", "injected", sum(counts.values()) - counts[Status.PENDING])
+        injected = sum(counts.values()) - counts[Status.PENDING]
+        log.info("    %-24s %10d", "injected", injected)
         for status in tuple(Status)[Status.ACTIVE :]:
             if status > Status.FAILED and not job.cloud.models.has_fates:
                 continue
-            log.info("    %-24s %10d", status.name.lower(), counts[status])
+            log.info(
+                "    %-24s %10d%s", status.name.lower(), counts[status], _share(counts[status], injected)
+            )
             for index, name in enumerate(job.patch_names):
                 at = sum(table[status, index] for table in at_patches)
                 if at:
-                    log.info("        %-20s %10d", name, at)
+                    log.info("        %-20s %10d%s", name, at, _share(at, injected))
         if any(isinstance(model, WallLift) for model in job.cloud.models.surroundings):
             log.info("    %s", share_of_close(*(sum(numbers) for numbers in zip(*close, strict=True))))
         for line in self._slip.lines():
@@ -263,6 +267,10 @@ class RunLog:
             log.warning("%s", warning)
         if not models.has_quadratic and (advice := record.advice()):
             log.info("%s", advice)
+
+
+def _share(count: int, injected: int) -> str:
+    return f"   {share(int(count), injected).percent()}" if count else ""
 
 
 def _steps_of(p: Particles, _flow: Sampled, _t: float, dt: float) -> tuple[int, float, float, int]:

@@ -1,4 +1,4 @@
-"""Study of a case: a run for each combination of values of some entries, with one flow for all."""
+"""Study of a case: runs whose values of some entries are combined or drawn, with one flow for all."""
 
 from __future__ import annotations
 
@@ -6,14 +6,20 @@ import logging
 import math
 import os
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any, TypeGuard
 
 import numpy as np
+from numpy.typing import NDArray
 
+from foamprb.cloud.injection.distribution import DISTRIBUTIONS, Distribution
+from foamprb.dictionary.grammar import parse_dictionary
+from foamprb.dictionary.overrides import override
+from foamprb.dictionary.schema import read_entries
 from foamprb.errors import InputError, RunStopped, suggestion
 from foamprb.flow.base import Flow
 from foamprb.flow.read.source import FlowSource
@@ -27,10 +33,14 @@ from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
 
-_KEYS = ("case", "dict", "time", "region", "entries")
+_KEYS = ("case", "dict", "time", "region", "design", "entries")
 _RANGE = ("from", "to", "number", "spacing")
 _SPACINGS = ("linear", "log")
+_DESIGN = ("type", "number", "seed")
+_DESIGNS = ("latinHypercube", "sobol")
 _MOST_RUNS, _MOST_BYTES = 100_000, 16 << 20
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -43,8 +53,10 @@ class Study:
         File of the study.
     case, dictionary, time, region
         As the options of ``foamprb run``.
-    values
-        Values of each entry, by its path: ``"solution/deltaT"``.
+    paths
+        Paths of the entries: ``"solution/deltaT"``.
+    rows
+        Values of the entries in each run.
     """
 
     file: Path
@@ -52,18 +64,15 @@ class Study:
     dictionary: Path | None
     time: str | None
     region: str
-    values: Mapping[str, tuple[object, ...]]
+    paths: tuple[str, ...]
+    rows: Sequence[tuple[object, ...]]
 
     def __len__(self) -> int:
-        return math.prod(map(len, self.values.values()))
+        return len(self.rows)
 
     def overrides(self, number: int) -> dict[str, object]:
-        """Return the values of the entries in a run, from 1 on; the last entry changes first."""
-        overrides, left = {}, number - 1
-        for path, values in reversed(list(self.values.items())):
-            left, k = divmod(left, len(values))
-            overrides[path] = values[k]
-        return {path: overrides[path] for path in self.values}
+        """Return the values of the entries in a run, from 1 on."""
+        return dict(zip(self.paths, self.rows[number - 1], strict=True))
 
     def folder(self, number: int) -> Path:
         """Return the folder of a run's results: beside the file, ``<name of the file>/<number>``."""
@@ -74,10 +83,10 @@ class Study:
     def short_names(self) -> dict[str, str]:
         """For each entry the shortest end of its path that no other one has."""
         names = {}
-        for path in self.values:
+        for path in self.paths:
             words = path.split("/")
             ends = ("/".join(words[-k:]) for k in range(1, len(words) + 1))
-            others = [f"/{other}" for other in self.values if other != path]
+            others = [f"/{other}" for other in self.paths if other != path]
             names[path] = next(e for e in ends if not any(o.endswith(f"/{e}") for o in others) or e == path)
         return names
 
@@ -90,8 +99,9 @@ class Study:
 def read_study(path: Path) -> Study:
     """Read a study, in TOML.
 
-    Paths in it are relative to the file. Each entry of ``entries`` is a list of values, or a range ``{ from =
-    1, to = 100, number = 5, spacing = "log" }``.
+    Paths in it are relative to the file. Without a design, each entry of ``entries`` is a list of values, or
+    a range ``{ from = 1, to = 100, number = 5, spacing = "log" }``, and the runs are all combinations. With
+    one, entries have distributions from which the runs are drawn.
 
     Raises
     ------
@@ -116,34 +126,47 @@ def _study(path: Path, document: dict[str, Any]) -> Study:
         raise InputError(
             f'{path}: no entries. Needed: [entries], and in it "solution/deltaT" = [1e-5, 2e-5], for example.'
         )
-    values: dict[str, tuple[object, ...]] = {}
+    values: dict[str, object] = {}
     for name, value in _flat(entries):
         if name in values:
             raise InputError(f"{path}: entries has {name} twice, in quotes and as a table. Keep one.")
-        values[name] = _values(path, name, value)
-    study = Study(
+        values[name] = value
+    rows: Sequence[tuple[object, ...]]
+    if "design" in document:
+        rows = _drawn(path, document["design"], values)
+    else:
+        lists = [_values(path, name, value) for name, value in values.items()]
+        _require_few(path, math.prod(map(len, lists)), "combinations")
+        # The last entry changes first.
+        rows = list(product(*lists))
+    return Study(
         path,
         path.parent / (words["case"] or "."),
         None if words["dict"] is None else path.parent / words["dict"],
         words["time"],
         words["region"] or "",
-        values,
+        tuple(values),
+        rows,
     )
-    if len(study) > _MOST_RUNS:
-        raise InputError(f"{path}: {len(study)} combinations. Allowed: up to {_MOST_RUNS} runs.")
-    return study
+
+
+def _require_few(path: Path, n: int, what: str) -> None:
+    if n > _MOST_RUNS:
+        raise InputError(f"{path}: {n} {what}. Allowed: up to {_MOST_RUNS} runs.")
 
 
 def _flat(entries: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
     """Yield the entries by their paths; tables of TOML are dictionaries of the settings."""
     for key, value in entries.items():
-        if isinstance(value, dict) and not set(value) <= set(_RANGE):
+        table = isinstance(value, dict) and not isinstance(value.get("distribution"), str)
+        if table and not set(value) <= set(_RANGE):
             yield from _flat(value, f"{above}{key}/")
         else:
             yield f"{above}{key}", value
 
 
 def _values(path: Path, name: str, value: object) -> tuple[object, ...]:
+    """Return the values of an entry that is combined with the others."""
     where = f"{path}: {name}"
     if isinstance(value, list):
         if not value:
@@ -151,19 +174,113 @@ def _values(path: Path, name: str, value: object) -> tuple[object, ...]:
         return tuple(value)
     if not isinstance(value, dict):
         return (value,)
-    spacing, number = value.get("spacing", "linear"), value.get("number")
-    low, high = value.get("from"), value.get("to")
+    if "distribution" in value:
+        raise InputError(f"{where} has a distribution. Needed: [design], with the number of the runs.")
+    low, high, log_spacing = _range(where, value)
+    number = value.get("number")
+    if not _is_count(number, 2):
+        raise InputError(f"{where}: number is {number!r}. Allowed: an integer from 2 to {_MOST_RUNS}.")
+    if not log_spacing:
+        return tuple(np.linspace(low, high, number).tolist())
+    return tuple(float(f"{x:.12g}") for x in np.geomspace(low, high, number).tolist())
+
+
+def _range(where: str, value: Mapping[str, Any]) -> tuple[float, float, bool]:
+    """Return the ends of a range, and whether its spacing is logarithmic."""
+    low, high, spacing = value.get("from"), value.get("to"), value.get("spacing", "linear")
     if spacing not in _SPACINGS:
         raise InputError(f"{where}: spacing is {spacing!r}. {suggestion(str(spacing), _SPACINGS)}")
     if not (_is_number(low) and _is_number(high)):
         raise InputError(f"{where}: a range needs from and to, two numbers; there is {value}.")
-    if not isinstance(number, int) or isinstance(number, bool) or not 2 <= number <= _MOST_RUNS:
-        raise InputError(f"{where}: number is {number!r}. Allowed: an integer from 2 to {_MOST_RUNS}.")
-    if spacing == "linear":
-        return tuple(np.linspace(low, high, number).tolist())
-    if min(low, high) <= 0.0:
+    if spacing == "log" and min(low, high) <= 0.0:
         raise InputError(f"{where}: a range with the spacing log needs from and to above 0.")
-    return tuple(float(f"{x:.12g}") for x in np.geomspace(low, high, number).tolist())
+    return low, high, spacing == "log"
+
+
+def _drawn(path: Path, design: object, entries: Mapping[str, object]) -> list[tuple[object, ...]]:
+    """Return the values of a design, a row for each run.
+
+    A Sobol design is the one of Saltelli et al., Comput. Phys. Commun. 181 (2010) 259: for each of ``number``
+    rows a row a, the same with the value of each entry in turn from a row b, and b.
+    """
+    from scipy.stats import qmc
+
+    where = f"{path}: design"
+    if not isinstance(design, dict):
+        raise InputError(f"{where} is {design!r}. Needed: a table with {', '.join(_DESIGN)}.")
+    for key in design:
+        if key not in _DESIGN:
+            raise InputError(f"{where}: {key} is not known. {suggestion(key, _DESIGN)}")
+    kind, number, seed = design.get("type"), design.get("number"), design.get("seed", 0)
+    if kind not in _DESIGNS:
+        raise InputError(f"{where}: type is {kind!r}. {suggestion(str(kind), _DESIGNS)}")
+    if not _is_count(number, 2) or (kind == "sobol" and number & (number - 1)):
+        power = ", a power of 2" if kind == "sobol" else ""
+        raise InputError(f"{where}: number is {number!r}. Allowed: an integer from 2 to {_MOST_RUNS}{power}.")
+    if not isinstance(seed, int) or isinstance(seed, bool) or seed < 0:
+        raise InputError(f"{where}: seed is {seed!r}. Allowed: an integer >= 0.")
+    samplers = [_sampler(f"{path}: {name}", value) for name, value in entries.items()]
+    varied = [
+        k
+        for k, value in enumerate(entries.values())
+        if isinstance(value, dict) or (isinstance(value, list) and len(value) > 1)
+    ]
+    d, random = len(varied), np.random.default_rng(seed)
+    if not varied:
+        raise InputError(f"{where}: no entry varies. Needed: a range, a distribution or a list of values.")
+    if kind == "latinHypercube":
+        shares = qmc.LatinHypercube(d, rng=random).random(number)
+    else:
+        _require_few(path, number * (d + 2), "runs of a Sobol design")
+        both = qmc.Sobol(2 * d, rng=random).random(number)
+        a, b = both[:, None, :d], both[:, None, d:]
+        # Row a, then a with one value of b each, then b.
+        of_b = np.concatenate([np.zeros((1, d)), np.eye(d), np.ones((1, d))]) > 0.0
+        shares = np.where(of_b, b, a).reshape(-1, d)
+    every = np.zeros((len(shares), len(entries)))
+    every[:, varied] = shares
+    columns = [sample(share) for sample, share in zip(samplers, every.T, strict=True)]
+    return list(zip(*columns, strict=True))
+
+
+def _sampler(where: str, value: object) -> Callable[[Floats], list[object]]:
+    """Return the function that gives the values of an entry for shares from 0 to 1, its quantiles."""
+    if isinstance(value, list):
+        if not value:
+            raise InputError(f"{where} has no values.")
+        # All are equally likely.
+        return lambda shares: [value[int(k)] for k in np.minimum(shares * len(value), len(value) - 1)]
+    if not isinstance(value, dict):
+        return lambda shares: [value] * len(shares)
+    if "distribution" in value:
+        return _rounded(_distribution(where, value).quantile)
+    if "number" in value:
+        raise InputError(f"{where}: a range with a number in a design, which draws the values. Omit number.")
+    low, high, log_spacing = _range(where, value)
+    if low == high:
+        raise InputError(f"{where}: from and to are both {low:g}. Needed: two numbers, or one value alone.")
+    if log_spacing:
+        return _rounded(lambda shares: low * (high / low) ** shares)
+    return _rounded(lambda shares: low + shares * (high - low))
+
+
+def _rounded(quantile: Callable[[Floats], Floats]) -> Callable[[Floats], list[object]]:
+    return lambda shares: [float(f"{x:.12g}") for x in quantile(shares).tolist()]
+
+
+def _distribution(where: str, value: Mapping[str, object]) -> Distribution:
+    """Return the distribution ``{ distribution = "normal", expectation = 1, … }``."""
+    name = str(value["distribution"])
+    if name not in DISTRIBUTIONS:
+        raise InputError(f"{where}: distribution is {name!r}. {suggestion(name, DISTRIBUTIONS)}")
+    entries = {key: item for key, item in value.items() if key != "distribution"}
+    texts = override(parse_dictionary("", Path(where), Path()), entries)
+    text = " ".join(f"{key} {words}" for key, words in texts.items())
+    return read_entries(DISTRIBUTIONS[name], parse_dictionary(text, Path(where), Path()))
+
+
+def _is_count(value: object, least: int) -> TypeGuard[int]:
+    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= _MOST_RUNS
 
 
 def _is_number(value: object) -> TypeGuard[float]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.optional import load
+from foamprb.results.intervals import Estimate
 
 Table = NDArray[np.uint8]
 
@@ -110,6 +111,14 @@ def written(value: float, unit: str, most: float) -> str:
     factor, name = readable(unit, most)
     text = f"{value / factor:.4g}".replace("-", "−")
     return f"{text} {name}" if name else text
+
+
+def with_interval(estimate: Estimate, unit: str = "1") -> str:
+    """Return an estimate in a readable unit, with its interval if it has one: ``40 (38 to 43) ms``."""
+    factor, name = readable(unit, abs(estimate.value))
+    value, low, high = (f"{x / factor:.4g}".replace("-", "−") for x in estimate)
+    text = value if math.isnan(estimate.low + estimate.high) else f"{value} ({low} to {high})"
+    return f"{text} {name}".removesuffix(" 1").rstrip()
 
 
 def number(value: float, digits: int = 3) -> str:

@@ -21,6 +21,7 @@ from foamprb.flow.read.vtk_guard import require_survival
 from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
 from foamprb.results.folder import FATES, HOW, ResultsFolder
+from foamprb.results.intervals import share
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.reading import reading
 from foamprb.results.record import Record, read_record
@@ -161,6 +162,22 @@ class Run:
         with reading(self.file("fates"), "is not the table that foamprb run writes"):
             return table | {name: table[name].astype(kind) for name, kind in _OF_FATES.items()}
 
+    def summary(self) -> Table:
+        """Return the number and share of the released particles by fate and patch, the most frequent first.
+
+        Columns: ``fate``, ``patch``, ``particles``, ``share``, and its interval of 95 % after Wilson,
+        ``shareLow`` and ``shareHigh``.
+
+        Raises
+        ------
+        InputError
+            If the run has not ended; see also :meth:`fates`.
+        """
+        fates = self.fates()
+        if fates is None:
+            raise InputError(f"{self.folder}: no fates, the run has not ended. {HOW}")
+        return summary_of(fates)
+
     def nearest(self, time: float) -> int:
         """Return the index of the written time that is nearest to ``time``, s."""
         return int(np.argmin(np.abs(self.times - time)))
@@ -290,6 +307,17 @@ class Run:
             raise InputError(f"{file}: not the paths that the cloud function particleTracks writes.")
         values = {name: at_points[name][order] for name in wanted}
         return Tracks(_points(data)[order], start, values, {"origId": at_lines["origId"]})
+
+
+def summary_of(fates: Table) -> Table:
+    """Return :meth:`Run.summary` of a table of fates."""
+    pairs = np.stack([fates["fate"], fates["patch"]], axis=1)[fates["fate"] != "pending"]
+    kinds, counts = np.unique(pairs, axis=0, return_counts=True)
+    order = np.argsort(-counts, kind="stable")
+    kinds, counts = kinds[order], counts[order]
+    estimates = np.array([share(int(count), len(pairs)) for count in counts]).reshape(-1, 3)
+    columns = dict(zip(("share", "shareLow", "shareHigh"), estimates.T, strict=True))
+    return {"fate": kinds[:, 0], "patch": kinds[:, 1], "particles": counts, **columns}
 
 
 def frame_of(table: Table) -> Any:

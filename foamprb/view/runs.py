@@ -55,6 +55,10 @@ class Runs(Mapping[str, Run]):
             for name, run in self.runs.items()
         }
 
+    def number(self, name: str) -> int | None:
+        """Return the number of a run in its study, by the names of its folders; None without one."""
+        return next((int(part) for part in reversed(self.paths[name].parts) if part.isdigit()), None)
+
     def table(self, name: str = "fates") -> Table:
         """Return the rows of a table of all runs, with the columns ``run`` and one for each replaced entry.
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.stats import norm
 
 import foamprb
 from foamprb.cli import main
@@ -39,15 +40,15 @@ def test_values_are_lists_ranges_and_tables_and_the_last_changes_first(tmp_path)
     found = read_study(path)
     assert found.case == tmp_path / "pipe"
     assert len(found) == 3 * 2 * 2
-    assert found.values["solution/deltaT"] == (1e-6, 1e-5, 1e-4)
+    assert [found.overrides(k)["solution/deltaT"] for k in (1, 5, 9)] == [1e-6, 1e-5, 1e-4]
     names = ["solution/deltaT", "solution/maxSubSteps", "constantProperties/solid/nu"]
-    assert list(found.values) == [*names, "constantProperties/solid/shape"]
+    assert found.paths == (*names, "constantProperties/solid/shape")
     assert [found.overrides(k)["constantProperties/solid/shape"] for k in (1, 2, 3)] == [
         "sphere",
         [1, 2],
         "sphere",
     ]
-    assert found.overrides(3) == dict(zip(found.values, (1e-6, 7, 0.4, "sphere"), strict=True))
+    assert found.overrides(3) == dict(zip(found.paths, (1e-6, 7, 0.4, "sphere"), strict=True))
     every = {tuple(map(str, found.overrides(k).values())) for k in range(1, 13)}
     assert len(every) == 12
     assert found.described(12) == "deltaT 0.0001, maxSubSteps 7, nu 0.4, shape (1 2)"
@@ -57,6 +58,67 @@ def test_values_are_lists_ranges_and_tables_and_the_last_changes_first(tmp_path)
 def test_names_of_entries_are_as_long_as_they_must_be(tmp_path):
     path = study(tmp_path, '[entries]\n"a/b/c" = 1\n"d/b/c" = 2\n"c" = 3\n')
     assert read_study(path).described(1) == "a/b/c 1, d/b/c 2, c 3"
+
+
+def test_a_latin_hypercube_has_a_value_in_each_part_of_each_distribution(tmp_path):
+    path = study(
+        tmp_path,
+        """
+        [design]
+        type = "latinHypercube"
+        number = 20
+        seed = 7
+        [entries]
+        a = { from = 1, to = 10000, spacing = "log" }
+        fixed = 3
+        b = { distribution = "normal", expectation = 10, variance = 1.4142135, minValue = 0, maxValue = 20 }
+        c = ["yes", "no"]
+        """,
+    )
+    found = read_study(path)
+    a, fixed, b, c = zip(*found.rows, strict=True)
+    assert len(found) == 20
+    assert set(fixed) == {3}
+    assert sorted(c) == 10 * ["no"] + 10 * ["yes"]
+    shares = np.log10(a) / 4.0, norm.cdf(b, 10.0, 1.0)
+    for values in shares:
+        assert np.floor(np.sort(values) * 20.0).tolist() == list(range(20))
+    assert read_study(path) == found
+    path.write_text(path.read_text().replace("seed = 7", "seed = 8"))
+    assert read_study(path).rows[0] != found.rows[0]
+
+
+def test_a_sobol_design_changes_one_entry_at_a_time(tmp_path):
+    text = '[design]\ntype = "sobol"\nnumber = 8\n[entries]\na = { from = 0, to = 1 }\nb = [1, 2, 3]'
+    rows = read_study(study(tmp_path, text)).rows
+    assert len(rows) == 8 * 4
+    for k in range(0, 32, 4):
+        (a, b), (c, d), (e, f), other = rows[k : k + 4]
+        assert (c, f) == other
+        assert (a, b) == (e, d)
+
+
+def test_mistakes_in_designs_are_named(tmp_path):
+    head = "[design]\ntype = 'sobol'\nnumber = 4\n"
+    cases = {
+        "design = 1\n[entries]\na = 1": "design is 1. Needed: a table with type, number, seed",
+        "[design]\nkind = 1\n[entries]\na = 1": "design: kind is not known",
+        "[design]\ntype = 'sobel'\n[entries]\na = 1": "Did you mean 'sobol'",
+        "[design]\ntype = 'sobol'\nnumber = 6\n[entries]\na = [1]": "from 2 to 100000, a power of 2",
+        f"{head}seed = -1\n[entries]\na = [1]": "seed is -1. Allowed: an integer >= 0",
+        f"{head}[entries]\na = [1]": "no entry varies",
+        f"{head}[entries]\na = {{ from = 1, to = 1 }}": "from and to are both 1",
+        f"{head}[entries]\na = {{ from = 1, to = 2, number = 3 }}": "Omit number",
+        f"{head}[entries]\na = {{ distribution = 'uniform', least = 2 }}": "toml: a.*least is not known",
+        f"{head}[entries]\na = {{ distribution = 'norm' }}": "distribution is 'norm'. Did you mean 'normal'",
+        f"{head}[entries]\na = {{ distribution = 'uniform', minValue = 2, maxValue = 1 }}": "toml: a.*below",
+        f"{head}[entries]\na = {{ distribution = 'uniform', minValue = 2 }}": "study.toml: a.*maxValue",
+        "[entries]\na = { distribution = 'uniform', minValue = 2, maxValue = 3 }": "Needed: .design.",
+        "[design]\ntype = 'sobol'\nnumber = 65536\n[entries]\na = [1, 2]": "196608 runs of a Sobol design",
+    }
+    for text, message in cases.items():
+        with pytest.raises(InputError, match=message):
+            read_study(study(tmp_path, text))
 
 
 @pytest.mark.parametrize(
@@ -138,7 +200,7 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
     for name, run in runs.items():
         fates = run.table()
         D = fates["D"][fates["fate"] != "pending"]
-        last = "".join(f'<td class="n">{np.quantile(D, share):.4g}</td>' for share in (0.5, 0.95))
+        last = "".join(rf'<td class="n">{np.quantile(D, share):.4g} \([^<]*\)</td>' for share in (0.5, 0.95))
         assert re.search(rf"<tr><t[dh][^>]*>{name}</t[dh]>(?:(?!</tr>).)*{last}</tr>", page)
 
 

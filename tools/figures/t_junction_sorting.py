@@ -25,6 +25,7 @@ from t_junction import DIAMETER, DT, END, HALF_WIDTH, REFERENCE_RATE, RELEASE
 
 import foamprb
 from foamprb.body.quadratic import bullet_amplitude
+from foamprb.results.intervals import share as share_of
 
 Floats = NDArray[np.float64]
 
@@ -98,12 +99,6 @@ def send(job: foamprb.Job, x: Floats, Ca: float, chosen: foamprb.Models) -> Sort
     return Sorted(patch, float(D), float(epsilon))
 
 
-def wilson(k: int, n: int) -> tuple[float, float]:
-    """Return the interval of a share k/n."""
-    centre, spread = k + 0.5 * Z * Z, Z * np.sqrt(k * (n - k) / n + 0.25 * Z * Z)
-    return (centre - spread) / (n + Z * Z), (centre + spread) / (n + Z * Z)
-
-
 def paired(more: int, fewer: int, n: int) -> tuple[float, float]:
     """Return the difference of two shares of the same n starts, and half its interval."""
     return (more - fewer) / n, Z * np.sqrt(more + fewer - (more - fewer) ** 2 / n) / n
@@ -154,7 +149,7 @@ def main() -> None:
             beads, finer = (send(job, x, Ca, models(name, part * TOLERANCE)) for part in (1.0, 0.5))
             side = beads.patch == "side"
             stiffest = side if stiffest is None else stiffest
-            low, high = wilson(int(side.sum()), n)
+            _, low, high = share_of(int(side.sum()), n)
             difference, error = paired(int((side & ~stiffest).sum()), int((~side & stiffest).sum()), n)
             changed = int((beads.patch != finer.patch).sum())
             others = ", ".join(str((beads.patch == word).sum()) for word in ("wall", "", "failed"))

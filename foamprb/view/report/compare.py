@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -10,16 +10,20 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import refuse_other_kind, write_text
-from foamprb.view.colours import written
+from foamprb.results.intervals import Estimate, difference, pair_correlation, quantile, share
+from foamprb.view.colours import with_interval
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, page, table
 from foamprb.view.results import Table
 from foamprb.view.runs import Runs
+from foamprb.view.sensitivity import Design, design_of, sobol_indices
 from foamprb.view.show import PAGE_BEGINS, spread
 
 Floats = NDArray[np.float64]
 
 _MOST_CURVES = 12
+_MOST_CONTRASTS = 50
+"""Most runs whose differences from the first are listed."""
 
 
 def write_comparison(runs: Runs, target: Path) -> Path:
@@ -53,6 +57,7 @@ def write_comparison(runs: Runs, target: Path) -> Path:
     sections = [
         PageSection("runs", "Runs", _rows(runs, released)),
         PageSection("fates", "Places", _places(labels, released)),
+        *_contrasts(runs, labels, released),
         PageSection("distributions", "Distributions", _distributions(labels, released)),
     ]
     text = page(
@@ -65,6 +70,18 @@ def write_comparison(runs: Runs, target: Path) -> Path:
     target.parent.mkdir(parents=True, exist_ok=True)
     write_text(target, text)
     return target
+
+
+def _contrasts(runs: Runs, labels: dict[str, str], released: dict[str, Table]) -> Iterator[PageSection]:
+    """Yield the section of the indices of a Sobol design, or of the differences of other runs."""
+    entries = runs.entries
+    design = design_of(
+        {name: runs.number(name) for name in released}, {name: entries[name] for name in released}
+    )
+    if design is not None:
+        yield PageSection("indices", "Sensitivity", _indices(released, design))
+    elif 1 < len(released) <= _MOST_CONTRASTS:
+        yield PageSection("differences", "Differences", _differences(labels, released))
 
 
 def _released(fates: Table) -> Table:
@@ -89,29 +106,28 @@ def _rows(runs: Runs, released: dict[str, Table]) -> str:
     rows = []
     for name, fates in released.items():
         counts = [int((fates["fate"] == fate).sum()) for fate in fates_of]
+        D = fates.get("D", np.zeros(0))
         rows.append(
             (
                 name,
                 *(entries[name].get(path, "") for path in paths),
                 len(fates["id"]),
                 *counts,
-                _quantile(fates["t1"] - fates["t0"], 0.5, "s"),
-                *(_quantile(fates.get("D", np.zeros(0)), share) for share in (0.5, 0.95)),
+                *(_text(quantile(values, p), unit) for values, p, unit in (
+                    (fates["t1"] - fates["t0"], 0.5, "s"), (D, 0.5, "1"), (D, 0.95, "1")
+                )),
             )
-        )
+        )  # fmt: skip
     head = (
         *("run", *(path.split("/")[-1] for path in paths), "injected", *fates_of),
         *("median residence time", "median D", "D of 19 in 20 below"),
     )
-    return table("A row for each run; D at the end of each particle", head, rows)
+    caption = "A row for each run; D at the end of each particle; in parentheses 95 % intervals"
+    return table(caption, head, rows)
 
 
-def _quantile(values: Floats, share: float, unit: str = "") -> str:
-    values = values[np.isfinite(values)]
-    if not len(values):
-        return ""
-    quantile = float(np.quantile(values, share))
-    return written(quantile, unit, quantile) if unit else f"{quantile:.4g}"
+def _text(estimate: Estimate, unit: str = "1") -> str:
+    return "" if np.isnan(estimate.value) else with_interval(estimate, unit)
 
 
 def _places(labels: dict[str, str], released: dict[str, Table]) -> str:
@@ -120,21 +136,101 @@ def _places(labels: dict[str, str], released: dict[str, Table]) -> str:
         name: dict(zip(*np.unique(_where(fates), return_counts=True), strict=True))
         for name, fates in released.items()
     }
-    places = sorted({str(place) for by_place in counts.values() for place in by_place})
+    places = _all_places(released)
     rows = [
-        (
-            labels[name],
-            *(f"{100.0 * counts[name].get(place, 0) / len(released[name]['id']):.1f} %" for place in places),
-        )
-        for name in released
-        if len(released[name]["id"])
+        (labels[name], *(share(int(counts[name].get(p, 0)), len(fates["id"])).percent() for p in places))
+        for name, fates in released.items()
+        if len(fates["id"])
     ]
-    return table("Share of the particles by fate and patch", ("run", *places), rows)
+    caption = "Share of the particles by fate and patch; in parentheses 95 % intervals, after Wilson"
+    return table(caption, ("run", *places), rows)
 
 
 def _where(fates: Table) -> NDArray[np.str_]:
     pairs = zip(fates["fate"].tolist(), fates["patch"].tolist(), strict=True)
     return np.array([f"{fate}: {patch}" if patch else fate for fate, patch in pairs])
+
+
+def _all_places(released: dict[str, Table]) -> list[str]:
+    return sorted({str(place) for fates in released.values() for place in _where(fates)})
+
+
+def _differences(labels: dict[str, str], released: dict[str, Table]) -> str:
+    """Return the differences of the other runs from the first."""
+    first, *others = released
+    places, there, before = _all_places(released), _where(released[first]), _samples(released[first])
+    rows = []
+    for name in others:
+        pairs = _same_starts(released[name], released[first])
+        here, after = _where(released[name]), _samples(released[name])
+        shares = (_difference_of_shares(here == place, there == place, pairs) for place in places)
+        medians = (
+            _text(_difference_of_medians(after[what], before[what], pairs), unit)
+            for what, unit in _QUANTITIES.items()
+        )
+        rows.append((labels[name], "yes" if pairs else "no", *shares, *medians))
+    caption = (
+        f"Differences from the first run, {labels[first]}; in parentheses 95 % intervals. Runs that release "
+        "the same particles are compared in pairs."
+    )
+    head = ("run", "same particles", *places, *(f"median {what}" for what in _QUANTITIES))
+    return table(caption, head, rows)
+
+
+_QUANTITIES = {"residence time": "s", "D": "1"}
+"""Quantities whose medians are compared, with their units."""
+
+
+def _samples(fates: Table) -> dict[str, Floats]:
+    none = np.full(len(fates["id"]), np.nan)
+    return {"residence time": fates["t1"] - fates["t0"], "D": fates.get("D", none)}
+
+
+def _same_starts(a: Table, b: Table) -> bool:
+    """Return True if two runs have released the same particles at the same places and times."""
+    columns = ("id", "t0", "x0", "y0", "z0")
+    return all(name in a and name in b and np.array_equal(a[name], b[name]) for name in columns)
+
+
+def _difference_of_shares(a: NDArray[np.bool_], b: NDArray[np.bool_], pairs: bool) -> str:
+    of_a, of_b = (share(int(of_run.sum()), len(of_run)) for of_run in (a, b))
+    change = difference(of_a, of_b, pair_correlation(a, b) if pairs else 0.0)
+    return _text(Estimate(*(100.0 * x for x in change)), "%")
+
+
+def _difference_of_medians(a: Floats, b: Floats, pairs: bool) -> Estimate:
+    of_a, of_b, correlation = quantile(a), quantile(b), 0.0
+    if pairs:
+        both = np.isfinite(a) & np.isfinite(b)
+        correlation = pair_correlation(a[both] < of_a.value, b[both] < of_b.value)
+    return difference(of_a, of_b, correlation)
+
+
+def _indices(released: dict[str, Table], design: Design) -> str:
+    """Return the indices of Sobol of the runs of a design."""
+    names = [str(name) for name in design.runs.ravel()]
+    quantities = {
+        f"share {place}": [float(np.mean(_where(released[name]) == place)) for name in names]
+        for place in _all_places(released)
+    }
+    for what in _QUANTITIES:
+        values = (float(quantile(_samples(released[name])[what]).value) for name in names)
+        quantities[f"median {what}"] = list(values)
+    rows = []
+    for what, numbers in quantities.items():
+        # A result that is the same in all runs has no variance.
+        if np.isfinite(numbers).all() and np.ptp(numbers) > 1e-12 * np.max(np.abs(numbers)):
+            indices = sobol_indices(np.reshape(numbers, design.runs.shape))
+            rows += [
+                (what, path.split("/")[-1], _text(index.first), _text(index.total))
+                for path, index in zip(design.paths, indices, strict=True)
+            ]
+    caption = (
+        f"Indices of Sobol by {len(names)} runs: the share of the variance that an entry explains by itself, "
+        "and with its interactions; in parentheses 95 % intervals"
+    )
+    lost = f"{design.missing} rows of the design are left out; n is a power of 2." if design.missing else ""
+    return f"<p>{lost}</p>" * bool(lost) + table(caption, ("result", "entry", "first order", "total"), rows)
 
 
 def _distributions(labels: dict[str, str], released: dict[str, Table]) -> str:

@@ -22,11 +22,12 @@ from foamprb.flow.read.flows import read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
 from foamprb.results.folder import file_name
+from foamprb.results.intervals import quantile, share
 from foamprb.results.manifest import Manifest
 from foamprb.results.reading import reading
 from foamprb.results.record import RECORD_FORMAT
 from foamprb.run.validity import COLUMNS, limits_of
-from foamprb.view.colours import DARK, LIGHT, written
+from foamprb.view.colours import DARK, LIGHT, with_interval, written
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
 from foamprb.view.report import plots
@@ -180,7 +181,7 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
     counts = {name: int((fates["fate"] == name).sum()) for name in ("pending", *plots.FATES)}
     cards = [(f"{len(fates['id']) - counts.pop('pending')}", "injected")]
     cards += [
-        (f"{count}", f"{name}, {_share(count, sum(counts.values()))}")
+        (f"{count}", f"{name}, {share(count, sum(counts.values())).percent()}")
         for name, count in counts.items()
         if count
     ]
@@ -188,14 +189,6 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
     if np.isfinite(D).any():
         cards.append((f"{np.nanmax(D):.3g}", "largest D on the paths"))
     return cards
-
-
-def _share(count: int, total: int) -> str:
-    """Return the share of some particles and its interval of 95 %, after Wilson."""
-    from scipy.stats import binomtest
-
-    ends = binomtest(count, total).proportion_ci(method="wilson")
-    return f"{100.0 * count / total:.3g} % ({100.0 * ends.low:.3g}–{100.0 * ends.high:.3g} %)"
 
 
 def _drawn(scene: Scene) -> str:
@@ -242,7 +235,7 @@ def _fates(report: _Report) -> PageSection | None:
     met = {fate for by_fate in counts.values() for fate in by_fate}
     shown = [fate for k, fate in enumerate(plots.FATES) if k < _ALWAYS or fate in met]
     rows = [
-        (place, *(by_fate.get(fate, 0) for fate in shown), _share(sums[place], total))
+        (place, *(by_fate.get(fate, 0) for fate in shown), share(sums[place], total).percent())
         for place, by_fate in counts.items()
     ]
     caption = "Particles by place and fate; in parentheses the 95 % interval of the share, after Wilson"
@@ -308,7 +301,9 @@ def _residence(report: _Report) -> PageSection | None:
         (
             fate,
             len(times),
-            *(written(float(q), "s", float(times.max())) for q in np.quantile(times, (0.1, 0.5, 0.9))),
+            written(float(np.quantile(times, 0.1)), "s", float(times.max())),
+            with_interval(quantile(times), "s"),
+            written(float(np.quantile(times, 0.9)), "s", float(times.max())),
         )
         for fate, times in ended.items()
     ]
@@ -318,7 +313,9 @@ def _residence(report: _Report) -> PageSection | None:
         "Time from release to the end of each particle, or of the run.",
     )
     listed = table(
-        "Time from release, by fate", ("fate", "particles", "1 in 10 below", "median", "9 in 10 below"), rows
+        "Time from release, by fate; in parentheses the 95 % interval of the median",
+        ("fate", "particles", "1 in 10 below", "median", "9 in 10 below"),
+        rows,
     )
     return PageSection("residence", "Residence time", grid(drawn, listed))
 
