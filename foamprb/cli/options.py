@@ -43,7 +43,6 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
     add("--decomposed", action="store_true", help="read the processor folders")
     add("--flow", type=Path, metavar="FILE", help="read the flow from a mesh file")
     add("--velocity", default="U", metavar="NAME", help="velocity field [U]")
-    add("--gradient", default="", metavar="NAME", help="gradient field [reconstructed]")
     divided = group.add_mutually_exclusive_group()
     divided.add_argument(
         "--patchArray", default="", metavar="NAME", help="array of a mesh file with patch indices"
@@ -101,7 +100,6 @@ def source_of(arguments: argparse.Namespace) -> FlowSource:
         arguments.flow,
         arguments.region,
         arguments.velocity,
-        arguments.gradient,
         Division(arguments.patchArray, angle) if divided else None,
         arguments.decomposed,
         scale=scale,

@@ -98,7 +98,7 @@ class Reconstruction:
             np.concatenate([mesh.cell_points, rows]), np.concatenate([of_cells, n + columns]), mesh.n_points
         )
 
-    def __call__(self, cells: Floats, boundary: Floats, l: Floats | None = None) -> tuple[Floats, Floats]:
+    def __call__(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
         """Reconstruct a field.
 
         Parameters
@@ -107,8 +107,6 @@ class Reconstruction:
             (n_cells, 3) velocity at cell centres, m/s.
         boundary
             (n_boundary, 3) velocity at boundary faces; rows of faces without a value are ignored.
-        l
-            (n_cells, 3, 3) gradient at cell centres, l_ij = ∂u_i/∂x_j, 1/s, if it is given.
 
         Returns
         -------
@@ -117,7 +115,7 @@ class Reconstruction:
         """
         n, n_points = self.mesh.n_cells, self.mesh.n_points
         u = np.concatenate([cells, boundary[self._valued], self._images.turned(cells)])
-        slopes, bends = self._derivatives(u, l)
+        slopes, bends = self._derivatives(u)
         u_nodes, l_nodes = np.empty((n_points + n, 3)), np.empty((n_points + n, 3, 3))
         u_nodes[n_points:], l_nodes[n_points:] = cells, slopes[:n]
         at_points = u_nodes[:n_points], l_nodes[:n_points]
@@ -242,7 +240,7 @@ class Reconstruction:
 
         share(len(points), part)
 
-    def _derivatives(self, u: Floats, given: Floats | None) -> tuple[Floats, Floats]:
+    def _derivatives(self, u: Floats) -> tuple[Floats, Floats]:
         """Return first derivatives (n_sites, 3, 3) and second derivatives (n_sites, 3, 6) at all sites.
 
         Values of boundary faces in ``u`` that are those of their cells are continued to the faces.
@@ -252,11 +250,8 @@ class Reconstruction:
         own = np.flatnonzero(self._open & np.all(u[self._of_faces] == u[owner], axis=1))
         slopes, bends = np.zeros((len(u), 3, 3)), np.zeros((len(u), 3, 6))
         around, nothing = np.empty((n + n_points, 3, 3)), np.empty((n_points, 3))
-        if given is None:
-            self._gradient(u, slopes[:n])
-            self.comm.fill("cells", slopes[:n])
-        else:
-            slopes[:n] = given
+        self._gradient(u, slopes[:n])
+        self.comm.fill("cells", slopes[:n])
         self._beyond(u, slopes, bends, own)
         for number in range(self._passes):
             if number == 0:
@@ -269,10 +264,9 @@ class Reconstruction:
                 self._inside.fit.bends(around, bends[:n])
                 bends[self._settled] = kept
             self.comm.fill("cells", bends[:n])
-            before = slopes[:n].copy() if given is None and self._passes > 1 else slopes[:0]
-            if given is None:
-                self._gradient(u, slopes[:n], bends=bends[:n])
-                self.comm.fill("cells", slopes[:n])
+            before = slopes[:n].copy() if self._passes > 1 else slopes[:0]
+            self._gradient(u, slopes[:n], bends=bends[:n])
+            self.comm.fill("cells", slopes[:n])
             self._beyond(u, slopes, bends, own)
             before -= slopes[: len(before)]
             if len(before) == 0 or self._norm(before) <= _CHANGE * self._norm(slopes[:n]):

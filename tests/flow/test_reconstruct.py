@@ -317,18 +317,3 @@ def test_slopes_of_scalars_are_those_of_a_linear_field(random):
         values, slopes = Reconstruction(mesh).scalars(mesh.centres @ slope.T, mesh.boundary_centres @ slope.T)
         np.testing.assert_allclose(slopes, np.broadcast_to(slope, slopes.shape), atol=1e-10)
         assert values[mesh.n_points :] == pytest.approx(mesh.centres @ slope.T)
-
-
-def test_a_gradient_that_is_known_is_taken(random):
-    """At the cells as it is, and at the points by its own second derivatives."""
-    mesh = build_mesh(block(3, 0.2))
-    x = mesh.centres
-    u, l = quadratic(x)
-    reconstruct = Reconstruction(mesh)
-    u_nodes, l_nodes = reconstruct(u, quadratic(mesh.boundary_centres)[0], l)
-    np.testing.assert_array_equal(l_nodes[mesh.n_points :], l)
-    np.testing.assert_array_equal(u_nodes[mesh.n_points :], u)
-    other = reconstruct(u, quadratic(mesh.boundary_centres)[0], 2.0 * l)[1]
-    np.testing.assert_allclose(other[: mesh.n_points], 2.0 * l_nodes[: mesh.n_points], atol=1e-9)
-    exact = quadratic(mesh.nodes)[1]
-    assert np.abs(l_nodes - exact).max() < 0.35 * np.abs(exact).max()

@@ -136,12 +136,9 @@ def test_hints_name_the_region(tmp_path, capsys):
 
 
 def test_hints_repeat_the_options_of_the_flow():
-    source = FlowSource(
-        Path("a b.vtu"), "air", "Urel", "gradU", Division(feature_angle=40.0), True, scale=1e-6
-    )
+    source = FlowSource(Path("a b.vtu"), "air", "Urel", Division(feature_angle=40.0), True, scale=1e-6)
     assert source.options == (
-        " -flow 'a b.vtu' -region air -velocity Urel -gradient gradU -featureAngle 40.0 -scale 1e-06"
-        " -decomposed"
+        " -flow 'a b.vtu' -region air -velocity Urel -featureAngle 40.0 -scale 1e-06 -decomposed"
     )
     assert FlowSource().options == ""
 

@@ -15,7 +15,6 @@ import numpy as np
 
 from foamprb.dictionary.dimensions import (
     DENSITY,
-    RATE,
     VELOCITY,
     Dimensions,
     described,
@@ -46,7 +45,6 @@ class Kind(NamedTuple):
 
 
 VELOCITY_FIELD = Kind("volVectorField", "vector", (VELOCITY,), "a velocity")
-GRADIENT_FIELD = Kind("volTensorField", "tensor", (RATE,), "the gradient of a velocity")
 DENSITY_FIELD = Kind("volScalarField", "scalar", (DENSITY,), "a density")
 PRESSURE_FIELD = Kind("volScalarField", "scalar", ((1, -1, -2, 0, 0, 0, 0),), "a pressure")
 TEMPERATURE_FIELD = Kind("volScalarField", "scalar", ((0, 0, 0, 1, 0, 0, 0),), "a temperature")

@@ -60,7 +60,6 @@ def read_mesh_file(
     velocity: str = "U",
     *,
     time: float | str = "latestTime",
-    gradient: str = "",
     division: Division | None = None,
     scale: float = 1.0,
     curved: bool = False,
@@ -77,9 +76,6 @@ def read_mesh_file(
         arrays of its components, ``(Ux Uy Uz)``.
     time
         Value of a time, or ``latestTime``, for files that have times.
-    gradient
-        Name of a cell array of the velocity's gradient with nine components, of which the (3i + j)-th is
-        ∂u_j/∂x_i, as OpenFOAM writes ``grad(U)``; empty to reconstruct the gradient.
     division
         Division of a boundary without named patches.
     scale
@@ -94,7 +90,7 @@ def read_mesh_file(
     """
     path = Path(path)
     file = open_file(path, velocity, time, division, scale)
-    field = _NodalVelocity(path, file, velocity, gradient, scale)
+    field = _NodalVelocity(path, file, velocity)
     u, l = field(file.grid, file.surfaces)
     notes: list[str] = [*file.notes, *field.notes]
     fluxes = balanced(field.conserve, u, l, CONSTANT, path, notes=notes)
@@ -108,7 +104,6 @@ def read_mesh_series(
     period: float | None = None,
     velocity: str = "U",
     *,
-    gradient: str = "",
     division: Division | None = None,
     scale: float = 1.0,
     accept: Sequence[str] = (),
@@ -124,7 +119,7 @@ def read_mesh_series(
         See :func:`~foamprb.flow.read.times.choose_times`.
     period
         Duration after which the flow repeats itself, s.
-    velocity, gradient, division, scale, curved
+    velocity, division, scale, curved
         See :func:`read_mesh_file`.
     accept
         See :class:`~foamprb.flow.read.source.FlowSource`.
@@ -139,11 +134,9 @@ def read_mesh_series(
     names = choose_times(path, all_times, times) if all_times else ()
     if len(names) < 2:
         time = names[0] if names else "latestTime"
-        return read_mesh_file(
-            path, velocity, time=time, gradient=gradient, division=division, scale=scale, curved=curved
-        )
+        return read_mesh_file(path, velocity, time=time, division=division, scale=scale, curved=curved)
     file = open_file(path, velocity, names[0], division, scale, among=names)
-    field = _NodalVelocity(path, file, velocity, gradient, scale)
+    field = _NodalVelocity(path, file, velocity)
     topology = _topology(file.grid, file.surfaces)
 
     def read(name: str) -> tuple[Any, ...]:
@@ -172,14 +165,13 @@ class _NodalVelocity:
         The file, for messages.
     file
         Its contents.
-    velocity, gradient, scale
-        See :func:`read_mesh_file`.
+    velocity
+        Name of the array.
     """
 
-    def __init__(self, path: Path, file: MeshFile, velocity: str, gradient: str, scale: float) -> None:
+    def __init__(self, path: Path, file: MeshFile, velocity: str) -> None:
         mesh, grid = file.mesh, file.grid
-        self._path, self._mesh, self._velocity, self._gradient = path, mesh, velocity, gradient
-        self._scale = scale
+        self._path, self._mesh, self._velocity = path, mesh, velocity
         self.notes: list[str] = []
         self._reconstruct: Reconstruction | None = None
         faces = np.zeros(len(mesh.boundary_centres), dtype=bool)
@@ -197,10 +189,6 @@ class _NodalVelocity:
                 self.notes += ["The fluid is at rest on walls, as they show."] * bool(faces.any())
             self._reconstruct = Reconstruction(mesh, valued=faces)
         elif velocity in grid.point_data:
-            if gradient:
-                raise InputError(
-                    f"{path}: {velocity} is given at points; {gradient} is only read beside cells."
-                )
             self.notes = ["Velocities are point values; their gradient is first-order accurate."]
         else:
             raise InputError(f"{path}: {_other_names(grid, velocity)}")
@@ -210,18 +198,14 @@ class _NodalVelocity:
         """Return velocity and gradient at the nodes, from the data read at any time."""
         name, path, mesh = self._velocity, self._path, self._mesh
         if self._reconstruct is None:
-            return from_points(mesh, _array(grid.point_data, name, 3, path, "at point"))
-        cells = _array(grid.cell_data, name, 3, path, "at cell")
+            return from_points(mesh, _array(grid.point_data, name, path, "at point"))
+        cells = _array(grid.cell_data, name, path, "at cell")
         boundary = np.zeros((len(mesh.boundary_centres), 3))
         for index in self._valued:
             rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
             patch, surface = surfaces[index]
-            boundary[rows] = _array(surface.cell_data, name, 3, path, f"on patch {patch}, face")
-        slopes = None
-        if self._gradient:
-            gradients = _array(grid.cell_data, self._gradient, 9, path, "at cell")
-            slopes = gradients.reshape(-1, 3, 3).transpose(0, 2, 1) / self._scale
-        return self._reconstruct(cells, boundary, slopes)
+            boundary[rows] = _array(surface.cell_data, name, path, f"on patch {patch}, face")
+        return self._reconstruct(cells, boundary)
 
 
 def _other_names(grid: Any, velocity: str) -> str:
@@ -235,18 +219,13 @@ def _other_names(grid: Any, velocity: str) -> str:
     return f'{missing} {others} Three scalars are read by -velocity "(Ux Uy Uz)".'
 
 
-def _array(data: Any, name: str, components: int, path: Path, where: str) -> Floats:
-    """Return an array (n, components) of finite numbers; InputError if it is missing or of another shape."""
+def _array(data: Any, name: str, path: Path, where: str) -> Floats:
+    """Return an array (n, 3) of finite numbers; InputError if it is missing or of another shape."""
     if name not in data:
-        kind = "cell array" if components == 9 else "array"
-        at = "" if components == 9 else " at one of its times"
-        raise InputError(f"{path}: no {kind} {name}{at}. {suggestion(name, data.keys())}")
+        raise InputError(f"{path}: no array {name} at one of its times. {suggestion(name, data.keys())}")
     values = np.asarray(data[name], dtype=np.float64)
-    if values.ndim != 2 or values.shape[1] != components:
-        what = "a gradient" if components == 9 else "a velocity"
-        raise InputError(
-            f"{path}: array {name} has shape {values.shape}, but {what} has {components} components."
-        )
+    if values.ndim != 2 or values.shape[1] != 3:
+        raise InputError(f"{path}: array {name} has shape {values.shape}, but a velocity has 3 components.")
     require_numbers(values, path, "value", where)
     return values
 

@@ -53,7 +53,7 @@ from foamprb.flow.read.checks import (
     require_volumes,
 )
 from foamprb.flow.read.density import mass_of
-from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, Kind, read_field
+from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
@@ -169,7 +169,6 @@ def read_case(
     time: float | str = "latestTime",
     velocity: str = "U",
     region: str = "",
-    gradient: str = "",
     turbulent: bool = False,
     curved: bool = False,
 ) -> MeshFlow:
@@ -185,9 +184,6 @@ def read_case(
         Name of the velocity field, a ``volVectorField`` in m/s.
     region
         Region of the mesh, if the case has several.
-    gradient
-        Name of the velocity's gradient at the cells, a ``volTensorField`` in 1/s such as ``grad(U)``; empty
-        to reconstruct it from the velocity.
     turbulent
         Read also k and ε, or k and ω.
     curved
@@ -199,7 +195,7 @@ def read_case(
     InputError
         The case, the time, the field, the mesh or a patch is missing, broken or inconsistent.
     """
-    source = FlowSource(velocity=velocity, gradient=gradient, turbulent=turbulent, curved=curved)
+    source = FlowSource(velocity=velocity, turbulent=turbulent, curved=curved)
     return steady_flow(Case(Path(case), region), time, source)
 
 
@@ -209,7 +205,6 @@ def read_series(
     period: float | None = None,
     velocity: str = "U",
     region: str = "",
-    gradient: str = "",
     turbulent: bool = False,
     curved: bool = False,
 ) -> MeshFlow:
@@ -217,7 +212,7 @@ def read_series(
 
     Parameters
     ----------
-    case, velocity, region, gradient, turbulent, curved
+    case, velocity, region, turbulent, curved
         See :func:`read_case`.
     times
         See :func:`~foamprb.flow.read.times.choose_times`.
@@ -229,7 +224,7 @@ def read_series(
     InputError
         See :func:`read_case`; or the mesh moves, or the times do not fill the period.
     """
-    source = FlowSource(velocity=velocity, gradient=gradient, turbulent=turbulent, curved=curved)
+    source = FlowSource(velocity=velocity, turbulent=turbulent, curved=curved)
     return transient_flow(Case(Path(case), region), times, period, source)
 
 
@@ -256,13 +251,13 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
     kinds = kinds_of(source.sampled, case.fields, (name,))
-    operators, given = _Operators(whole.mesh, case.comm), _given(case, name, source, whole)
+    operators = _Operators(whole.mesh, case.comm)
     more = _further(case, name, source, whole, operators)
     sampled = read_sampled(read, source.sampled, kinds, whole, operators.reconstruct) if kinds else None
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity, case.comm)
     notes: list[Any] = [*case.notes, *whole.notes]
     file = (case.folder(name) / source.velocity).relative_to(case.root)
-    u, l = operators.reconstruct(cells, boundary, given)
+    u, l = operators.reconstruct(cells, boundary)
     # Its arrays take half as much memory as the flow.
     operators.free()
     trim()
@@ -323,7 +318,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         index = names.index(name)
         mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity, case.comm)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
-        u, l = operators.reconstruct(*values, _given(case, name, source, whole))
+        u, l = operators.reconstruct(*values)
         fluxes = balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
         more = _further(case, name, source, whole, operators)
         curvatures = [mean_curvatures(whole.mesh, l, case.comm)] if source.curved else []
@@ -395,12 +390,6 @@ class _Operators:
         self._reconstruct = self._conserve = None
 
 
-def _given(case: Case, time: str, source: FlowSource, whole: CaseMesh) -> Floats | None:
-    """Return the gradient at the cells if it is read."""
-    field = case.field(time, source.gradient, GRADIENT_FIELD) if source.gradient else None
-    return None if field is None else gradients(field, whole.mesh)
-
-
 def _further(case: Case, time: str, source: FlowSource, whole: CaseMesh, operators: _Operators) -> list[Any]:
     """Return turbulence and viscosity at the nodes, as the source requests."""
     read, arrays = partial(case.field, time), []
@@ -455,8 +444,3 @@ def velocities(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
         rows = boundary[first : first + patch.faces]
         require_numbers(rows, field.path, "value", f"on patch {patch.name}, face")
     return cells, boundary
-
-
-def gradients(field: FoamField, mesh: Mesh) -> Floats:
-    """Return l_ij = ∂u_i/∂x_j (n_cells, 3, 3), 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i."""
-    return at_cells(field, mesh).reshape(-1, 3, 3).transpose(0, 2, 1)

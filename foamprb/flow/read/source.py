@@ -50,8 +50,6 @@ class FlowSource:
     """Region of the case's mesh."""
     velocity: str = "U"
     """Name of the velocity."""
-    gradient: str = ""
-    """Name of the velocity's gradient, ``grad(U)``; empty to reconstruct it."""
     division: Division | None = None
     """Division of the boundary of a mesh file without named patches."""
     decomposed: bool = False
@@ -80,7 +78,6 @@ class FlowSource:
     def of_file(self) -> dict[str, Any]:
         """Return the options of reading a mesh file, beside its velocity."""
         return {
-            "gradient": self.gradient,
             "division": self.division,
             "scale": self.length_scale,
             "curved": self.curved,
@@ -94,7 +91,6 @@ class FlowSource:
             "flow": self.file,
             "region": self.region,
             "velocity": "" if self.velocity == "U" else self.velocity,
-            "gradient": self.gradient,
             "patchArray": divided.array,
             "featureAngle": divided.feature_angle,
             "scale": self.scale,

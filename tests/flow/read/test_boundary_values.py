@@ -288,16 +288,3 @@ def test_dimensions_must_be_those_of_a_velocity(dimensions, message, case):
     path.write_text(path.read_text().replace("dimensions [0 1 -1 0 0 0 0];", line))
     with pytest.raises(InputError, match=message):
         read_case(case)
-
-
-def test_dimensions_of_a_given_gradient(case):
-    patches = "".join(
-        f"{name} {{ type calculated; value uniform (0 0 0 0 0 0 0 0 0); }}"
-        for name in ("floor", "lid", "sides")
-    )
-    (case / "1e1/grad(U)").write_text(
-        header("volTensorField", "grad(U)") + "dimensions [0 1 -1 0 0 0 0];\n"
-        f"internalField uniform (0 0 0 0 0 0 0 0 0);\nboundaryField {{ {patches} }}\n"
-    )
-    with pytest.raises(InputError, match=r"those of a velocity; this should be the gradient of a velocity"):
-        read_case(case, gradient="grad(U)")

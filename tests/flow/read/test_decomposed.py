@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import Format, decompose, header, rows, write_case
+from foam_writer import Format, decompose, header, write_case
 
 from foamprb.cli import main
 from foamprb.errors import InputError
@@ -26,12 +26,12 @@ MESH = Path("constant/polyMesh")
 TIMES = ("0", "0.5", "1e1")
 
 
-def read_parts(case, time="latestTime", region="", gradient=""):
-    return steady_flow(DecomposedCase(case, region), time, FlowSource(gradient=gradient))
+def read_parts(case, time="latestTime", region=""):
+    return steady_flow(DecomposedCase(case, region), time, FlowSource())
 
 
-def series_of_parts(case, region="", gradient=""):
-    return transient_flow(DecomposedCase(case, region), None, None, FlowSource(gradient=gradient))
+def series_of_parts(case, region=""):
+    return transient_flow(DecomposedCase(case, region), None, None, FlowSource())
 
 
 @pytest.fixture(scope="module")
@@ -178,33 +178,11 @@ def into_region(case):
     return case
 
 
-def add_gradient(case):
-    """Give every cell of a case and its parts a gradient of its own, at each time another."""
-    values = np.random.default_rng(2).random((read_case(case).mesh.n_cells, 9))
-    parts = [(case, np.arange(len(values)))]
-    for path in case.glob("processor*"):
-        parts.append((path, FoamFile(path / "constant/polyMesh/cellProcAddressing").labels()))
-    for folder, cells in parts:
-        names = re.findall(r"(\w+)\s*\{ type", (folder / "constant/polyMesh/boundary").read_text())
-        patches = "".join(
-            f"{name} {{ type {'processor' if name.startswith('proc') else 'calculated'};"
-            " value uniform (0 0 0 0 0 0 0 0 0); }\n"
-            for name in ["floor", "lid", "sides", *(n for n in names if n.startswith("proc"))]
-        )
-        for factor, time in enumerate(TIMES):
-            (folder / time / "grad(U)").write_text(
-                header("volTensorField", "grad(U)") + "dimensions [0 0 -1 0 0 0 0];\n"
-                f"internalField nonuniform List<tensor> {len(cells)}\n(\n{rows(factor * values[cells])}\n);\n"
-                f"boundaryField\n{{\n{patches}}}\n"
-            )
-    return case
-
-
-def test_regions_and_given_gradients_are_put_together_too(case, random):
-    into_region(add_gradient(case))
-    a, b = (read(case, 0.5, region="air", gradient="grad(U)") for read in (read_case, read_parts))
+def test_regions_are_put_together_too(case, random):
+    into_region(case)
+    a, b = (read(case, 0.5, region="air") for read in (read_case, read_parts))
     np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
-    whole, parts = (read(case, region="air", gradient="grad(U)") for read in (read_series, series_of_parts))
+    whole, parts = (read(case, region="air") for read in (read_series, series_of_parts))
     x = random.random((20, 3))
     for t in (0.0, 0.2, 7.0):
         found, expected = (flow.sample(x, flow.locate(x), t) for flow in (parts, whole))
@@ -224,8 +202,6 @@ def test_regions_of_parts_alone(case, capsys):
     out = capsys.readouterr().out
     assert re.search(r"^Region +air$", out, re.MULTILINE)
     assert re.search(r"^ +0.5 +U \(volVectorField\)$", out, re.MULTILINE)
-    with pytest.raises(InputError, match=r"processor0/0\.5/air/grad\(U\): no such file"):
-        read_parts(case, 0.5, region="air", gradient="grad(U)")
 
 
 def test_compressed_files_are_read_alike(case):

@@ -280,16 +280,6 @@ def test_a_patch_that_moves_later_is_no_wall(tmp_path):
         assert flow.sample(x, flow.locate(x), t)[0] == pytest.approx(share * last, abs=1e-12)
 
 
-def test_a_gradient_is_taken_at_every_time(tmp_path, random):
-    gradients = random.random((3, 27, 3, 3))
-    shapes = [at(time) for time in TIMES]
-    for shape, l in zip(shapes, gradients, strict=True):
-        shape.cell_data["grad(U)"] = l.transpose(0, 2, 1).reshape(-1, 9)
-    flow = read_mesh_series(write_times(tmp_path, ".pvd", shapes), gradient="grad(U)")
-    x = flow.mesh.centres
-    assert flow.sample(x, flow.locate(x), 0.75)[1] == pytest.approx(gradients[:2].mean(axis=0), abs=1e-12)
-
-
 def other_points(shape):
     shape.points[13] += 0.01
 
@@ -356,20 +346,6 @@ def test_physical_groups_of_gmsh_name_the_patches(tmp_path):
     assert {patch.name for patch in flow.patches} == {"boundary", "inlet", "outlet"}
 
 
-def test_a_given_gradient_is_taken(tmp_path, random):
-    shape = flowing("prisms")
-    gradients = random.random((shape.n_cells, 3, 3))
-    shape.cell_data["grad(U)"] = gradients.transpose(0, 2, 1).reshape(-1, 9)
-    shape.save(tmp_path / "flow.vtu")
-    flow = read_mesh_file(tmp_path / "flow.vtu", gradient="grad(U)")
-    centres = flow.mesh.centres
-    assert flow.sample(centres, flow.locate(centres), 0.0)[1] == pytest.approx(gradients, abs=1e-12)
-    with pytest.raises(InputError, match=r"no cell array grad\(V\)"):
-        read_mesh_file(tmp_path / "flow.vtu", gradient="grad(V)")
-    with pytest.raises(InputError, match="a gradient has 9 components"):
-        read_mesh_file(tmp_path / "flow.vtu", gradient="U")
-
-
 def test_the_fluid_is_at_rest_on_the_walls_that_cells_show(tmp_path):
     """Poiseuille flow; a fluid that slides along its walls is continued to them."""
     shape = pipe(6)
@@ -386,19 +362,15 @@ def test_the_fluid_is_at_rest_on_the_walls_that_cells_show(tmp_path):
 
 
 def test_lengths_are_scaled_and_velocities_are_not(tmp_path, random):
-    """A gradient in the file is one over its lengths."""
     shape = flowing("prisms")
-    shape.cell_data["grad(U)"] = np.tile(GRADIENT.T.reshape(-1), (shape.n_cells, 1))
     shape.points *= 1e6
-    shape.cell_data["grad(U)"] *= 1e-6
     shape.save(tmp_path / "flow.vtu")
     x = random.random((20, 3))
-    for gradient in ("", "grad(U)"):
-        flow = read_mesh_file(tmp_path / "flow.vtu", scale=1e-6, gradient=gradient)
-        u, l = flow.sample(x, flow.locate(x), 0.0)
-        assert u == pytest.approx(x @ GRADIENT.T, abs=1e-5)
-        assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
-        assert not any("-scale" in note for note in flow.notes)
+    flow = read_mesh_file(tmp_path / "flow.vtu", scale=1e-6)
+    u, l = flow.sample(x, flow.locate(x), 0.0)
+    assert u == pytest.approx(x @ GRADIENT.T, abs=1e-5)
+    assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
+    assert not any("-scale" in note for note in flow.notes)
     notes = read_mesh_file(tmp_path / "flow.vtu").notes
     assert sum(isinstance(note, Caveat) and "the mesh is 1.73e+06 m across" in note for note in notes) == 1
 

@@ -214,27 +214,6 @@ def test_regions(case):
         read_case(case, region="iron")
 
 
-def test_a_gradient_can_be_given(case, random):
-    gradients = random.random((8, 3, 3))
-    body = "\n".join("(" + " ".join(f"{x:.9g}" for x in g.T.ravel()) + ")" for g in gradients)
-    (case / "1e1" / "grad(U)").write_text(
-        header("volTensorField", "grad(U)") + "dimensions [0 0 -1 0 0 0 0];\n"
-        f"internalField nonuniform List<tensor> 8\n(\n{body}\n);\n"
-        "boundaryField { floor { type calculated; value uniform (0 0 0 0 0 0 0 0 0); }\n"
-        "sides { type calculated; value uniform (0 0 0 0 0 0 0 0 0); }\n"
-        "lid { type calculated; value uniform (0 0 0 0 0 0 0 0 0); } }\n"
-    )
-    flow = read_case(case, gradient="grad(U)")
-    centres = flow.mesh.centres
-    l = flow.sample(centres, flow.locate(centres), 0.0)[1]
-    assert l == pytest.approx(gradients, abs=1e-6)
-    assert flow.at_nodes()[1][-len(centres) :] == pytest.approx(centres @ GRADIENT.T, abs=1e-5)
-    with pytest.raises(InputError, match="U: the class is volVectorField, but the gradient of a velocity is"):
-        read_case(case, gradient="U")
-    with pytest.raises(InputError, match=r"no field grad\(V\)"):
-        read_case(case, gradient="grad(V)")
-
-
 def test_cyclic_patches_of_a_case(tmp_path):
     write_case(tmp_path, perturbation=0.0)
     edit(tmp_path / POLY / "boundary", "type wall; inGroups", "type cyclic; neighbourPatch lid; inGroups")
