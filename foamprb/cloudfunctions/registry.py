@@ -57,13 +57,6 @@ FUNCTIONS: dict[str, type[CloudFunction]] = {
 class CloudFunctions:
     """The cloud functions of a run with their data.
 
-    Parameters
-    ----------
-    functions
-        By their names.
-    cloud
-        The cloud at the start.
-
     Raises
     ------
     InputError

@@ -41,19 +41,7 @@ class CellSums(NamedTuple):
 
 
 class Sampling:
-    """Functions that observe the particles of a rank, with their events and sums of cells.
-
-    Parameters
-    ----------
-    functions
-        The functions, by their names.
-    memory
-        Their initial data, without particles.
-    interactions, medium
-        See :class:`foamprb.cloud.cloud.Cloud`.
-    names
-        See :class:`ObservedCloud`.
-    """
+    """Functions that observe the particles of a rank, with their events and sums of cells."""
 
     def __init__(
         self,

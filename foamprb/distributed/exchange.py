@@ -87,11 +87,6 @@ def firsts_of(n: int, size: int) -> NDArray[np.int64]:
     """Return the number of the first particle that each rank writes to checkpoints, and n, (size + 1,).
 
     A rank writes particles of consecutive numbers.
-
-    Parameters
-    ----------
-    n, size
-        Number of particles and of ranks.
     """
     # Rounded up, so that the first process has some if there are any.
     return -(-np.arange(size + 1, dtype=np.int64) * n // size)

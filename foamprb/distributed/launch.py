@@ -27,10 +27,6 @@ def run_together(lead: Callable[[Ranks | None], int]) -> int:
     lead
         Called on the first process with all processes, None if there is only one; it returns
         an exit status. The others meanwhile execute its calls.
-
-    Returns
-    -------
-    The exit status.
     """
     try:
         role = connect()

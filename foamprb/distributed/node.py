@@ -26,13 +26,7 @@ T = TypeVar("T")
 
 
 class MpiTeam(Team):
-    """Nodes, by their first processes.
-
-    Parameters
-    ----------
-    comm
-        The first processes of all nodes.
-    """
+    """Nodes, by their first processes."""
 
     def __init__(self, comm: Any) -> None:
         self._comm = comm

@@ -297,17 +297,7 @@ class PartFlow(MeshFlow):
 
 
 class PartSeries(PartFlow, SeriesFlow):
-    """Flow that changes in time on a part of a mesh; all nodes load times together.
-
-    Parameters
-    ----------
-    halo
-        The part, and the other nodes.
-    mesh, times
-        See :class:`SeriesFlow`.
-    keep, options
-        See :class:`SeriesFlow`.
-    """
+    """Flow that changes in time on a part of a mesh; all nodes load times together."""
 
     def __init__(
         self, halo: Halo, mesh: Mesh, times: Sequence[float], *arguments: Any, keep: int = 0, **options: Any

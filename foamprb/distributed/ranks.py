@@ -49,15 +49,7 @@ BLOCKS = 4
 
 
 class Ranks(Communicator):
-    """Processes of ``mpirun``, commanded by the first of them.
-
-    Parameters
-    ----------
-    worker
-        Worker of this process.
-    threads
-        Number of threads of each process.
-    """
+    """Processes of ``mpirun``, commanded by the first of them."""
 
     rank: Worker
 

@@ -54,13 +54,7 @@ class Answer(NamedTuple):
 
 
 class Worker(Rank):
-    """Rank of several, each a process of MPI; it executes the calls of the first one.
-
-    Parameters
-    ----------
-    MPI
-        The module ``mpi4py.MPI``.
-    """
+    """Rank of several, each a process of MPI; it executes the calls of the first one."""
 
     def __init__(self, MPI: Any) -> None:
         super().__init__()
@@ -117,15 +111,7 @@ class Worker(Rank):
             getattr(self.windows, name)(*arguments)
 
     def allocate(self, libs: Sequence[Path], firsts: NDArray[np.int64]) -> None:
-        """Make room for the particles that this process writes to checkpoints.
-
-        Parameters
-        ----------
-        libs
-            Files of models to load.
-        firsts
-            See :func:`foamprb.distributed.exchange.firsts_of`.
-        """
+        """Make room for the particles that this process writes to checkpoints."""
         load_libs(libs)
         self._firsts, self.sampling = firsts, None
         self._become(Share(empty(int(firsts[self.number + 1] - firsts[self.number]))))
@@ -159,11 +145,6 @@ class Worker(Rank):
 
         Injection models release particles roughly in the order of their numbers. The processes of a node take
         them in turn, and therefore have similar numbers of active particles.
-
-        Parameters
-        ----------
-        ranks_of
-            Processes of each node.
         """
         with self.collective():
             self._ranks_of = ranks_of
@@ -369,15 +350,7 @@ class Worker(Rank):
         of: str | None,
         *arguments: Any,
     ) -> list[Any]:
-        """Apply a function to some blocks of this rank, while particles are in the order of their numbers.
-
-        Parameters
-        ----------
-        function, of, arguments
-            See :meth:`Share.apply`.
-        blocks
-            Ranks, and rows of their particles.
-        """
+        """Apply a function to some blocks of this rank, while particles are in the order of their numbers."""
         shares = (self.share.take(rows) for rank, rows in blocks if rank == self.number)
         return [share.apply(function, of, *arguments) for share in shares]
 
@@ -439,15 +412,6 @@ class Worker(Rank):
         """Write the particles; return the file and its arrays.
 
         Without particles only the first process writes a file.
-
-        Parameters
-        ----------
-        folder
-            Folder of the pieces.
-        time
-            Time of the state, s.
-        contents
-            The arrays to write.
         """
         p = self.at_instant(time, contents.of_flow or len(self.seen.field_columns) > 0)
         if self.number and not len(injected(p)):

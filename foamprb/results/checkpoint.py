@@ -163,21 +163,7 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> str:
 def write_arrays(
     path: Path, time: float, header: Mapping[str, Any], arrays: Iterable[tuple[str, NDArray[Any]]]
 ) -> str:
-    """Write a checkpoint, or a part of one, in one step, an array after the other.
-
-    Parameters
-    ----------
-    path
-        The file.
-    time, header
-        See :class:`Checkpoint`.
-    arrays
-        Names and arrays.
-
-    Returns
-    -------
-    The checksum.
-    """
+    """Write a checkpoint, or a part of one, in one step, array by array; return the checksum."""
     first, names, rows = _FORMAT + b"%d\n" % VERSION, [], {}
     with atomic_write(path) as temporary, temporary.open("w+b") as file:
         file.write(first + bytes(_SUM_BYTES + _PLACE_BYTES))
@@ -286,17 +272,7 @@ class StoredCheckpoint:
         return array
 
     def read_into(self, array: NDArray[Any], name: str, first: int) -> None:
-        """Read as many rows of an array as another contiguous array of its type has.
-
-        Parameters
-        ----------
-        array
-            Takes the rows.
-        name
-            The array in the checkpoint.
-        first
-            Its first row to read.
-        """
+        """Read rows of a stored array, from ``first`` on, into a contiguous array of its type."""
         rows, start = np.atleast_1d(array), 0
         for file in (self._files[0][1], *self._parts(name)):
             end = start + (file.arrays[name].shape[0] if array.ndim else 1)

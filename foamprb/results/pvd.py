@@ -54,11 +54,7 @@ class Series:
         self.entries: tuple[SnapshotFile, ...] = ()
 
     def append(self, cloud: PointCloud | Parts) -> Path:
-        """Write a snapshot and list it.
-
-        Returns
-        -------
-        The ``.vtp`` file.
+        """Write a snapshot and list it; return the ``.vtp`` file.
 
         Raises
         ------
@@ -117,12 +113,7 @@ def with_ending(stem: Path, ending: str) -> Path:
 
 
 def read_pvd(path: Path) -> tuple[SnapshotFile, ...]:
-    """Read the times and files that a ``.pvd`` lists.
-
-    Returns
-    -------
-    The entries in order of time.
-    """
+    """Read the times and files that a ``.pvd`` lists, in order of time."""
     with reading(path, "is no list of VTK files"):
         root = ElementTree.fromstring(read_bytes(path))
         entries = [SnapshotFile(float(e.attrib["timestep"]), e.attrib["file"]) for e in root.iter("DataSet")]

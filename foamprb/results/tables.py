@@ -39,11 +39,6 @@ class Rows(NamedTuple):
 def rows_of(columns: Mapping[str, Column]) -> Rows:
     """Return rows of a table as :func:`write_rows` takes them.
 
-    Parameters
-    ----------
-    columns
-        See :func:`write_table`.
-
     Raises
     ------
     ValueError
@@ -64,15 +59,7 @@ def rows_of(columns: Mapping[str, Column]) -> Rows:
 
 
 def write_rows(path: Path, parts: Iterable[Rows], before: Callable[[], object] = lambda: None) -> None:
-    """Write a table from its rows part by part; see :func:`write_table`.
-
-    Parameters
-    ----------
-    parts
-        From :func:`rows_of`, at least one.
-    path, before
-        See :func:`write_table`.
-    """
+    """Write a table from its rows part by part; see :func:`write_table`."""
     with atomic_write(path) as temporary:
         with temporary.open("wb") as file:
             for i, part in enumerate(parts):

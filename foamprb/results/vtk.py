@@ -65,18 +65,7 @@ def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, .
     """Write a cloud as VTK PolyData, in one step: a vertex per particle, with its point arrays.
 
     Field data are ``TimeValue``, ``units`` (``"rho kg/m3"``, …) and, for each array of codes,
-    ``<array>Names``. Each part of a cloud becomes a piece of the file.
-
-    Parameters
-    ----------
-    path
-        The file, ``.vtp``.
-    cloud
-        The cloud.
-
-    Returns
-    -------
-    The :func:`layout` of the cloud.
+    ``<array>Names``. Each part of a cloud becomes a piece of the file. Returns the :func:`layout`.
 
     Raises
     ------
@@ -93,13 +82,7 @@ def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, .
 
 
 class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
-    """Source of VTK's writer, which requests one piece after the other.
-
-    Parameters
-    ----------
-    pieces
-        The pieces, at least one.
-    """
+    """Source of VTK's writer, which requests one piece after the other."""
 
     def __init__(self, pieces: Iterator[PointCloud]) -> None:
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")

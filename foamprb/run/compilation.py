@@ -132,15 +132,7 @@ class Compilation:
 
 
 def compile_run(cloud: Cloud, compilation: Compilation) -> None:
-    """Compile the code of a run; no-op for compiled code.
-
-    Parameters
-    ----------
-    cloud
-        The cloud, before its first step.
-    compilation
-        Of the run.
-    """
+    """Compile the code of a run; no-op for compiled code."""
     with compilation.shown():
         arguments = cloud.make_ready()
         compilation.wait()

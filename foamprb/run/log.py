@@ -316,11 +316,6 @@ def _fates_of(
 def progress_bar(start: float, end: float) -> Iterator[Callable[[float], None]]:
     """Show a progress bar on a terminal, otherwise lines in the log.
 
-    Parameters
-    ----------
-    start, end
-        Times of the run, s.
-
     Yields
     ------
     A function to call with the current time, s.

@@ -99,10 +99,6 @@ def write_template(case: Path, source: FlowSource | None = None, output: Path | 
     output
         The file; by default ``constant/softCloudProperties`` in the case.
 
-    Returns
-    -------
-    The file.
-
     Raises
     ------
     InputError

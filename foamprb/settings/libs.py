@@ -61,10 +61,7 @@ def load_libs(files: Iterable[Path]) -> list[str]:
     They call :func:`foamprb.add_material`, :func:`foamprb.add_force` and :func:`foamprb.add_surrounding`. An
     unchanged file is not run again; the earlier models of a changed file are removed. Models of files of
     other cases stay, but for those that have the name of a model of these files.
-
-    Returns
-    -------
-    The SHA-256 of each file.
+    Returns the SHA-256 of each file.
 
     Raises
     ------

@@ -184,10 +184,6 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     file
         The file that a message names.
 
-    Returns
-    -------
-    An interaction for each patch.
-
     Raises
     ------
     InputError

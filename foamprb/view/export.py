@@ -46,10 +46,6 @@ def export(
         File or folder; by default beside the results.
     fraction
         See :func:`foamprb.view.stress.write_stress`.
-
-    Returns
-    -------
-    The file or folder.
     """
     run = open_run(case, cloud, source.region, results)
     source = run.source(source)

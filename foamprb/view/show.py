@@ -98,10 +98,6 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
         Largest size. Times that do not fit are left out, evenly.
     version
         Version of foamprb.
-
-    Returns
-    -------
-    The file.
     """
     if path is not None:
         refuse_other_kind(path, PAGE_BEGINS)

@@ -17,15 +17,7 @@ from foamprb.flow.mesh.lists import Index, Labels, int32, take_lists
 
 
 def part_points(points: Floats, faces: Faces, start: Ints, cell_points: Ints) -> tuple[Floats, Faces, Ints]:
-    """Duplicate the points of baffles.
-
-    Parameters
-    ----------
-    points, faces
-        Points and faces of the mesh.
-    start, cell_points
-        Points of each cell.
-    """
+    """Duplicate the points of baffles."""
     n, outer = len(points), np.arange(len(faces.neighbour), len(faces.owner))
     codes = codes_of(faces.start, faces.points, outer)
     if len(np.unique(codes)) == len(codes):

@@ -39,13 +39,7 @@ from foamprb.flow.read.times import choose_times, pick_time
 
 
 class DecomposedCase(Case):
-    """Case in processor folders.
-
-    Parameters
-    ----------
-    root, region
-        See :class:`Case`.
-    """
+    """Case in processor folders."""
 
     def __init__(self, root: Path, region: str = "") -> None:
         super().__init__(root, region)

@@ -492,15 +492,7 @@ def mean_field(
 
 
 def density_of_state(root: Dictionary, p: Values, T: Values) -> Values | float | None:
-    """Return the density by the ``equationOfState`` of a ``pureMixture``, kg/m³; None if it is not known.
-
-    Parameters
-    ----------
-    root
-        The dictionary of the mixture.
-    p, T
-        Pressure, Pa, and temperature, K.
-    """
+    """Return the density, kg/m³, of a ``pureMixture`` at p, Pa, and T, K; None if it is not known."""
     kind, mixture = root.entries.get("thermoType"), root.entries.get("mixture")
     if not isinstance(kind, Dictionary) or not isinstance(mixture, Dictionary):
         return None
@@ -526,15 +518,7 @@ def density_of_state(root: Dictionary, p: Values, T: Values) -> Values | float |
 
 
 def apparent_viscosity(fluid: Dictionary, rate: float, T: float) -> tuple[str, float] | None:
-    """Return the selected model of a fluid and its viscosity, m²/s; None if unknown.
-
-    Parameters
-    ----------
-    fluid
-        The dictionary of the fluid.
-    rate, T
-        Shear rate, 1/s, and temperature, K.
-    """
+    """Return the model of a fluid and its viscosity, m²/s, at a rate, 1/s, and T, K; None if unknown."""
     model = word_of(fluid, "transportModel") or word_of(fluid, "viscosityModel")
     name = model.removeprefix("Arrhenius")
     own = fluid.entries.get(f"{model}Coeffs", fluid)
@@ -621,12 +605,7 @@ class Mixture(NamedTuple):
 
 
 def read_mixture(case: Path, region: str, time: float | str | None, transient: bool = False) -> Mixture:
-    """Read the phases of a case with two.
-
-    Parameters
-    ----------
-    case, region, time, transient
-        See :func:`read_viscosity`.
+    """Read the phases of a case with two; see :func:`read_viscosity`.
 
     Raises
     ------

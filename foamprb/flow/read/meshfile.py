@@ -157,17 +157,7 @@ def read_mesh_series(
 
 
 class _NodalVelocity:
-    """Velocity and gradient at the nodes, from the arrays of a file at cells and some patches, or at points.
-
-    Parameters
-    ----------
-    path
-        The file, for messages.
-    file
-        Its contents.
-    velocity
-        Name of the array.
-    """
+    """Velocity and gradient at the nodes, from arrays of a file at cells and some patches, or at points."""
 
     def __init__(self, path: Path, file: MeshFile, velocity: str) -> None:
         mesh, grid = file.mesh, file.grid

@@ -85,10 +85,6 @@ def write_report(
         The page; by default ``report.html`` beside the results.
     paths
         Particles whose D is plotted over time; by default a selection of the tracks of ``particleTracks``.
-
-    Returns
-    -------
-    The page.
     """
     run = open_run(case, cloud, source.region if source else "", results)
     source = run.source(source)
