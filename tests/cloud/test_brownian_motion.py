@@ -73,8 +73,8 @@ def test_a_spheroid_diffuses_and_turns_as_perrin_says(ratio):
     assert tilted == pytest.approx([1.0, 1.0], rel=1.5 * tolerance)
 
 
-@pytest.mark.parametrize(("share", "stride"), [(1, 1), (16, None)])
-def test_heights_over_a_wall_come_to_boltzmanns(share, stride):
+@pytest.mark.parametrize(("steps", "share", "stride"), [(200, 1, 1), (800, 16, None)])
+def test_heights_over_a_wall_come_to_boltzmanns(steps, share, stride):
     """With the hindered mobility, heights come to exp(−W h/kT) in steps √(2 D Δt) of a tenth of kT/W.
 
     And in steps of any length, from a sixteenth of these on.
@@ -87,7 +87,7 @@ def test_heights_over_a_wall_come_to_boltzmanns(share, stride):
     dt = 0.5 * 0.1**2 * R**2 / D
     models = (WallLift(cutOff=20.0), BrownianMotion(T=T, shape=False))
     flow = analytic.shear_over_wall(0.0)
-    carried(p, 200 * share, dt / share, flow=flow, medium=HEAVY, models=models, stride=stride)
+    carried(p, steps, dt / share, flow=flow, medium=HEAVY, models=models, stride=stride)
     gaps = p.x[:, 2] / R - 1.0
     assert gaps.mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
     assert kstest(np.maximum(gaps, 0.0), "expon").pvalue > 1e-3

@@ -44,16 +44,22 @@ def force_of(name):
     return FORCES[name]
 
 
-def flow_at_rest(columns, values, growth=(), n=3):
-    """Fluid at rest in fields ``values(x)``, which grow as ``growth`` at the times 0, 0.3 and 1."""
+WIDTHS = {"E": 3, "grad(E)": 9, "grad(p2)": 3, "grad(v2)": 3, "T": 1, "grad(T)": 3}
+"""Fields that the examples need, with their numbers of components."""
+
+
+def flow_at_rest(values, growth=(1.0, 1.0, 1.0), n=3):
+    """Fluid at rest in fields ``values(x)``, which grow as ``growth`` at the times 0, 0.3 and 1.
+
+    Without a growth it is steady. Other fields that the examples need have no gradient.
+    """
     shape = block(n, 0.2)
     mesh = build_mesh(shape, box_patches(shape))
     x = np.concatenate([mesh.points, mesh.centres])
-    u, l, table = np.zeros((len(x), 3)), np.zeros((len(x), 3, 3)), values(x)
-    # Of the same width for all, so that the loop is compiled once.
-    unused = 12 - table.shape[1]
-    table = np.pad(table, ((0, 0), (0, unused)))
-    columns = (*columns, FieldColumns("unused", unused, "1")) if unused else columns
+    u, l = np.zeros((len(x), 3)), np.zeros((len(x), 3, 3))
+    fields = {name: np.full((len(x), width), float(name == "T")) for name, width in WIDTHS.items()}
+    table = np.column_stack(list((fields | values(x)).values()))
+    columns = tuple(FieldColumns(name, width, "1") for name, width in WIDTHS.items())
     if growth:
         return SeriesFlow(mesh, [0.0, 0.3, 1.0], lambda i: (u, l, growth[i] * table), sampled=columns)
     flow = MeshFlow(mesh, u, l)
@@ -61,11 +67,19 @@ def flow_at_rest(columns, values, growth=(), n=3):
     return flow
 
 
-def moved(flow, force, integrator="stokes", dt=0.02, time=0.9, rho_f=1000.0):
-    """The first coordinates of three spheres before and after some time."""
+WITHOUT_EFFECT = {
+    "dielectrophoresis": {"epsilon": 1.0, "K": 0.0},
+    "acoustics": {"kappa": 1.0, "f1": 0.0, "f2": 0.0},
+    "thermophoresis": {"k": 1.0},
+}
+
+
+def moved(flow, name, entries, integrator="stokes", dt=0.02, time=0.9, rho_f=1000.0):
+    """The first coordinates of three spheres before and after some time, in the loop with all examples."""
+    forces = tuple(force_of(n)(**(entries if n == name else e)) for n, e in WITHOUT_EFFECT.items())
     p = spheres(np.array([[0.2, 0.3, 0.4], [0.4, 0.6, 0.5], [0.1, 0.5, 0.6]]), d=2 * A, rho=1000.0, mu=1e3)
     walls, medium = [Rebound()] * len(flow.patches), Medium(MU, rho_f, (0.0, 0.0, 0.0))
-    cloud = Cloud(p, flow, medium, walls, dt, Models(integrator=integrator, forces=(force,)))
+    cloud = Cloud(p, flow, medium, walls, dt, Models(integrator=integrator, forces=forces))
     x0 = p.x.copy()
     cloud.advance(round(time / dt))
     np.testing.assert_allclose(p.x[:, 1:], x0[:, 1:], atol=1e-4)
@@ -74,18 +88,14 @@ def moved(flow, force, integrator="stokes", dt=0.02, time=0.9, rho_f=1000.0):
 
 def vector_field(x):
     """E = (1 + G x) e_x and its gradient."""
-    table = np.zeros((len(x), 12))
-    table[:, 0], table[:, 3] = 1.0 + G * x[:, 0], G
-    return table
-
-
-E = (FieldColumns("E", 3, "V/m"), FieldColumns("grad(E)", 9, "V/m2"))
+    E, gradient = np.zeros((len(x), 3)), np.zeros((len(x), 9))
+    E[:, 0], gradient[:, 0] = 1.0 + G * x[:, 0], G
+    return {"E": E, "grad(E)": gradient}
 
 
 @pytest.mark.parametrize(
     ("integrator", "dt", "growth"),
     [
-        ("stokes", 0.02, ()),
         ("stokes", 0.02, (1.0, 1.3, 2.0)),
         ("rosenbrock", 0.02, (1.0, 1.3, 2.0)),
         ("paper", 1e-5, ()),
@@ -94,8 +104,8 @@ E = (FieldColumns("E", 3, "V/m"), FieldColumns("grad(E)", 9, "V/m2"))
 def test_dielectrophoresis_is_that_of_the_closed_form(integrator, dt, growth):
     """dx/dt = c G (1 + G x) (1 + t)², c = 2/3 a² ε K/μ, with the square of the growth of the field."""
     c = 0.4
-    force = force_of("dielectrophoresis")(epsilon=1.5 * c * MU / (A * A), K=1.0)
-    x0, x = moved(flow_at_rest(E, vector_field, growth), force, integrator, dt)
+    entries = {"epsilon": 1.5 * c * MU / (A * A), "K": 1.0}
+    x0, x = moved(flow_at_rest(vector_field, growth), "dielectrophoresis", entries, integrator, dt)
     power = (1.9**3 - 1.0) / 3.0 if growth else 0.9
     expected = (x0 + 1.0 / G) * np.exp(c * G * G * power) - 1.0 / G
     np.testing.assert_allclose(x, expected, rtol=2e-4)
@@ -107,13 +117,11 @@ def test_sound_moves_spheres_as_in_the_closed_form():
     k, f1, f2, kappa, energy = 0.5 * np.pi, 0.6, 0.4, 4e-10, 4e6
 
     def values(x):
-        table, wave = np.zeros((len(x), 6)), k * np.sin(2.0 * k * x[:, 0])
-        table[:, 0], table[:, 3] = -2.0 * energy / kappa * wave, 2.0 * energy / 1000.0 * wave
-        return table
+        wave = np.outer(k * np.sin(2.0 * k * x[:, 0]), (1.0, 0.0, 0.0))
+        return {"grad(p2)": -2.0 * energy / kappa * wave, "grad(v2)": 2.0 * energy / 1000.0 * wave}
 
-    columns = (FieldColumns("grad(p2)", 3, "Pa2/m"), FieldColumns("grad(v2)", 3, "m/s2"))
-    force = force_of("acoustics")(kappa=kappa, f1=f1, f2=f2)
-    x0, x = moved(flow_at_rest(columns, values, n=12), force, time=1.0)
+    entries = {"kappa": kappa, "f1": f1, "f2": f2}
+    x0, x = moved(flow_at_rest(values, n=12), "acoustics", entries, time=1.0)
     D = 2.0 / 3.0 * (f1 / 3.0 + f2 / 2.0) * k * A * A * energy / MU
     np.testing.assert_allclose(x, np.arctan(np.tan(k * x0) * np.exp(2.0 * k * D)) / k, rtol=5e-3)
     assert (x - x0).min() > 0.04
@@ -122,11 +130,8 @@ def test_sound_moves_spheres_as_in_the_closed_form():
 def test_spheres_in_a_gas_move_to_the_cold_as_in_the_closed_form():
     """d(T²)/dt = −3 ν G²/(2 + k) along the path, in T = 1 + G x."""
     nu, k = 1.0, 1.0
-    columns = (FieldColumns("T", 1, "K"), FieldColumns("grad(T)", 3, "K/m"))
-    flow = flow_at_rest(
-        columns, lambda x: np.column_stack([1.0 + G * x[:, 0], np.full((len(x), 3), [G, 0, 0])])
-    )
-    x0, x = moved(flow, force_of("thermophoresis")(k=k), time=0.3, rho_f=MU / nu)
+    flow = flow_at_rest(lambda x: {"T": 1.0 + G * x[:, 0], "grad(T)": np.full((len(x), 3), [G, 0.0, 0.0])})
+    x0, x = moved(flow, "thermophoresis", {"k": k}, time=0.3, rho_f=MU / nu)
     expected = (np.sqrt((1.0 + G * x0) ** 2 - 3.0 * nu * G * G / (2.0 + k) * 0.3) - 1.0) / G
     np.testing.assert_allclose(x, expected, rtol=2e-4)
     assert (x0 - x).min() > 0.05
@@ -170,8 +175,8 @@ def test_mistakes_have_one_message():
     near = add_force("b", needs_x, ("gradu",))()
     with pytest.raises(InputError, match=r"b needs gradu, .* Did you mean 'grad\(u\)'\?"):
         Cloud(p, analytic.shear(1.0), medium, (), 1.0, Models(forces=(near,)))
-    scalar = (FieldColumns("E", 1, "V/m"), FieldColumns("grad(E)", 3, "V/m2"))
-    flow = flow_at_rest(scalar, lambda x: np.zeros((len(x), 4)))
+    flow = flow_at_rest(vector_field, ())
+    flow.field_columns = (FieldColumns("E", 1, "V/m"), FieldColumns("grad(E)", 3, "V/m2"))
     with pytest.raises(
         InputError, match=r"dielectrophoresis fails: .*; E is a scalar, grad\(E\) is a vector"
     ):

@@ -454,8 +454,9 @@ def test_between_two_times_the_correction_is_linear(random):
         assert series.sample(x, hosts, t)[0] == pytest.approx(u0 + 0.5 * t * (u1 - u0), abs=1e-12)
 
 
-@pytest.mark.parametrize("corrected", [True, False])
-@pytest.mark.parametrize(("kind", "n"), [("hexahedra", 5), ("tetrahedra", 3)])
+@pytest.mark.parametrize(
+    ("kind", "n", "corrected"), [("hexahedra", 5, True), ("tetrahedra", 3, True), ("hexahedra", 5, False)]
+)
 def test_a_uniform_seed_stays_uniform(kind, n, corrected):
     """χ² of the counts per cell is about their number, and followers of the fluid come to no wall.
 
@@ -467,7 +468,7 @@ def test_a_uniform_seed_stays_uniform(kind, n, corrected):
     x = np.random.default_rng(7).uniform(0.0, 1.0, (1000, 3))
     bodies = spheres(x[flow.locate(x) >= 0], d=1e-9, rho=1.0, mu=1e3)
     cloud = Cloud(bodies, flow, Medium(1e-3, 1.0, (0.0, 0.0, 0.0)), [Stick()], 0.05, Models("roscoe"))
-    cloud.advance(800)
+    cloud.advance(400)
     p = cloud.particles
     active = p.status == Status.ACTIVE
     count = np.bincount(flow.cell_of(p.host[active]), minlength=flow.mesh.n_cells)
@@ -477,5 +478,5 @@ def test_a_uniform_seed_stays_uniform(kind, n, corrected):
         assert np.count_nonzero(~active) <= 3
         assert chi < 1.0 + 4.0 * np.sqrt(2.0 / len(count))
     else:
-        assert np.count_nonzero(~active) > 100
-        assert chi > 3.0
+        assert np.count_nonzero(~active) > 50
+        assert chi > 2.0
