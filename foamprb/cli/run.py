@@ -51,6 +51,11 @@ def declare(parser: argparse.ArgumentParser) -> None:
         metavar="SECONDS",
         help="with -follow: give up after SECONDS without a new time",
     )
+    parser.add_argument(
+        "--estimateErrors",
+        action="store_true",
+        help="repeat the run with finer steps and other gradients, and log which fates change",
+    )
     parser.add_argument("--dry-run", action="store_true", help="check the input, print the plan and exit")
 
 
@@ -61,6 +66,8 @@ def execute(arguments: argparse.Namespace) -> int:
     from foamprb.run.log import log_description, log_dry_run
     from foamprb.run.loop import execute_until_signal
 
+    if arguments.estimateErrors and (arguments.parallel or arguments.follow or arguments.dry_run):
+        raise UsageError("-estimateErrors does not go with -parallel, -follow or -dry-run.")
     comm = arguments.comm or Communicator()
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
@@ -84,6 +91,10 @@ def execute(arguments: argparse.Namespace) -> int:
         log_dry_run(job)
         return 0
     execute_until_signal(job, start_from)
+    if arguments.estimateErrors:
+        from foamprb.run.errors_of_fates import estimate_errors, log_errors
+
+        log_errors(estimate_errors(job))
     return 0
 
 

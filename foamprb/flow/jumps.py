@@ -41,6 +41,25 @@ def count_jumps(l: Floats, first: Ints, second: Ints, at_walls: Mask) -> NDArray
     return counts
 
 
+def relative_jumps(l: Floats, first: Ints, second: Ints) -> Floats:
+    """Return the mean difference of ∇u in each cell from its neighbours over its norm, at most 1, (n_cells,).
+
+    Parameters
+    ----------
+    l, first, second
+        As in :func:`count_jumps`, of all faces between two cells.
+    """
+    n, norms = len(l), _norms(l)
+    total, faces = np.zeros(n), np.zeros(n)
+    for k in range(0, len(first), _AT_ONCE):
+        a, b = first[k : k + _AT_ONCE], second[k : k + _AT_ONCE]
+        jump = _norms(l[a] - l[b])
+        for cells in (a, b):
+            total += np.bincount(cells, jump, n)
+            faces += np.bincount(cells, minlength=n)
+    return np.minimum(total / np.maximum(faces * norms, 1e-300), 1.0)
+
+
 def _norms(rows: Floats) -> Floats:
     norms: Floats = np.sqrt(np.einsum("ij,ij->i", rows, rows))
     return norms

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import copy
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +15,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
-from foamprb.flow.jumps import count_jumps
+from foamprb.flow.jumps import count_jumps, relative_jumps
 from foamprb.flow.mesh.arrays import FREE, GRADIENT, VELOCITY, MeshArrays, no_mesh
 from foamprb.flow.mesh.communicator import single_node, total_of
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
@@ -403,6 +404,19 @@ class MeshFlow:
         faces = np.flatnonzero(self._numbering().own[mesh.owner[:n]])
         l = self.values_at_nodes().l[mesh.n_points :]
         return count_jumps(l, mesh.owner[faces], mesh.neighbour[faces], at_walls)
+
+    def with_jumps(self, part: float) -> Self:
+        """Return the same flow with ∇u times 1 + part j, where j is the relative jump between cells there."""
+        mesh, n = self.mesh, self.mesh.n_internal
+        nodes = self._arrays.nodes.copy()
+        at_cells = relative_jumps(nodes[mesh.n_points :, GRADIENT:], mesh.owner[:n], mesh.neighbour[:n])
+        cells = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
+        around = np.bincount(mesh.cell_points, minlength=mesh.n_points)
+        at_points = np.bincount(mesh.cell_points, at_cells[cells], mesh.n_points) / np.maximum(around, 1)
+        nodes[:, GRADIENT:] *= 1.0 + part * np.concatenate([at_points, at_cells])[:, None]
+        other = copy(self)
+        other._arrays, other._near = self._arrays._replace(nodes=nodes), None
+        return other
 
     def fields(self, start: float, end: float) -> Fields:  # noqa: ARG002
         """Return the fields that are sampled, from time ``start`` to ``end``, s."""

@@ -73,7 +73,7 @@ def execute(
         schedule = _Schedule(stepper, job.compilation, results.store_between)
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
-            while cloud.step < job.steps and (cloud.step == 0 or _moving(cloud)) and not _failing(job):
+            while cloud.step < job.steps and (cloud.step == 0 or moving(cloud)) and not _failing(job):
                 before = cloud.step
                 try:
                     due = _advance_to_write(job, results, schedule, stop, show)
@@ -145,7 +145,7 @@ def _reasons_of(p: Particles) -> NDArray[np.int64]:
     return np.bincount(p.reason[p.status == Status.FAILED], minlength=len(Reason))
 
 
-def _moving(cloud: Cloud) -> int:
+def moving(cloud: Cloud) -> int:
     """Return the number of particles that are pending, active, or stuck for a time."""
     counts = cloud.counts()
     return sum(counts[status] for status in cloud.tracker.movable)
@@ -166,7 +166,7 @@ def _advance_to_write(
     """
     cloud, first, following = job.cloud, job.cloud.step, job.following
     # The target is an earlier one if the solver of the flow has ended meanwhile.
-    while cloud.step < (due := job.next_write(first)) and _moving(cloud):
+    while cloud.step < (due := job.next_write(first)) and moving(cloud):
         results.check()
         if stop() or (following is not None and not following.wait(cloud, stop)):
             return None
@@ -175,7 +175,7 @@ def _advance_to_write(
         if computed > cloud.step:
             schedule.advance(computed, stop)
         show(cloud.time)
-    if not _moving(cloud):
+    if not moving(cloud):
         # Later results would repeat those after the last end.
         cloud.step = job.next_write(max(first, cloud.steps_before(cloud.last_end)))
     return job.writes(first, cloud.step)
@@ -218,7 +218,7 @@ class _Schedule:
 
     def _next_steps(self, target: int) -> int:
         cloud = self.stepper.cloud
-        most = MOST_STEPS / _moving(cloud)
+        most = MOST_STEPS / moving(cloud)
         steps = min(most, self._steps or _FIRST_CALL * most)
         left, stretch = target - cloud.step, cloud.tracker.stretch_steps
         # Calls of similar length: not a long one and a remainder.

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mesh_shapes import block, pipe, pipe_patches
+from mesh_shapes import block, box_patches, pipe, pipe_patches
 
 from foamprb.flow.fluxes import Conservation, free_nodes
-from foamprb.flow.jumps import count_jumps, medians
+from foamprb.flow.jumps import count_jumps, medians, relative_jumps
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction, wall_offsets
@@ -105,6 +105,24 @@ def test_nothing_flows_through_walls_of_tetrahedra(tetrahedra, random):
     through = np.einsum("ni,ni->n", u, mesh.triangle_normals[on_wall])
     # The correction is stored in single precision.
     assert np.abs(through).max() < 1e-6 * np.abs(u).max()
+
+
+def test_gradients_change_by_their_relative_jumps():
+    """The mean difference from the neighbours over the norm, at most 1; the flow itself stays as it is."""
+    l = np.zeros((4, 9))
+    l[:, 1] = [1.0, 2.0, 2.0, 0.0]
+    jumps = relative_jumps(l, np.array([0, 1, 2]), np.array([1, 2, 3]))
+    np.testing.assert_allclose(jumps, [1.0, 0.25, 0.5, 1.0])
+    shape = block(2, 0.0)
+    mesh = build_mesh(shape, box_patches(shape))
+    shear = np.zeros((len(mesh.nodes), 3, 3))
+    # Half as large in the cells with x > ½: of the three faces of a cell, one has a jump.
+    shear[:, 0, 1] = np.where(mesh.nodes[:, 0] > 0.5, 1.0, 2.0)
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), shear)
+    cells = mesh.centres[:, 0] > 0.5
+    rates = flow.with_jumps(0.1).at_nodes()[2][mesh.n_points :, 1]
+    np.testing.assert_allclose(rates, np.where(cells, 1.0 + 0.1 / 3.0, 2.0 + 0.1 / 3.0))
+    np.testing.assert_allclose(flow.at_nodes()[2][mesh.n_points :, 1], np.where(cells, 1.0, 2.0))
 
 
 def test_jumps_of_the_gradient():
