@@ -8,8 +8,8 @@ from pathlib import Path
 
 from foamprb.cli.options import add_cloud, add_flow, fraction, source_of
 
-PURPOSE = "write the results for OpenFOAM"
-EXAMPLE = "export openfoam -case myCase"
+PURPOSE = "write the results for OpenFOAM, or as one VTKHDF file"
+EXAMPLE = "export vtkhdf -case myCase -output bodies.vtkhdf"
 
 log = logging.getLogger("foamprb")
 
@@ -19,7 +19,11 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add_flow(parser)
     add_cloud(parser)
     add = parser.add_argument
-    add("kind", choices=("openfoam", "stress"), help="the cloud, or its stress for a solver")
+    add(
+        "kind",
+        choices=("openfoam", "vtkhdf", "stress"),
+        help="format of the files, or their stress for a solver",
+    )
     add("--output", type=Path, metavar="PATH", help="file or folder [postProcessing/CLOUD/...]")
     add(
         "--volumeFraction",

@@ -7,7 +7,7 @@ import logging
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from foamprb.cli.options import add_browser, add_flow, show_page, source_of
+from foamprb.cli.options import add_browser, add_cache, add_flow, show_page, source_of
 from foamprb.errors import InputError, RunInterrupted
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ log = logging.getLogger("foamprb")
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command."""
     add_flow(parser)
+    add_cache(parser)
     add = parser.add_argument
     add(
         "--measured",

@@ -8,7 +8,7 @@ import math
 from pathlib import Path
 
 from foamprb.cli.fit import add_device, read_device
-from foamprb.cli.options import add_flow
+from foamprb.cli.options import add_cache, add_flow
 from foamprb.errors import InputError
 
 PURPOSE = "write a table of moduli over area and deformation, for dclab"
@@ -20,6 +20,7 @@ log = logging.getLogger("foamprb")
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command."""
     add_flow(parser)
+    add_cache(parser)
     add = parser.add_argument
     ends = ("LOW", "HIGH")
     add("--diameters", type=float, nargs=2, required=True, metavar=ends, help="of the bodies, m")

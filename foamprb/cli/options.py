@@ -57,6 +57,13 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
     add("--scale", type=float, metavar="S", help="lengths in a mesh file times S are m [1]")
 
 
+def add_cache(parser: argparse.ArgumentParser) -> None:
+    """Add the option ``-cache``."""
+    parser.add_argument(
+        "--cache", type=Path, metavar="DIR", help="folder that keeps prepared flows of cases for later runs"
+    )
+
+
 def add_browser(parser: argparse.ArgumentParser) -> None:
     """Add the option ``-noBrowser``."""
     parser.add_argument("--noBrowser", action="store_true", help="write the page, do not open it")
@@ -103,4 +110,5 @@ def source_of(arguments: argparse.Namespace) -> FlowSource:
         Division(arguments.patchArray, angle) if divided else None,
         arguments.decomposed,
         scale=scale,
+        cache=getattr(arguments, "cache", None),
     )

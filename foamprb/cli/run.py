@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from foamprb.cli.options import add_flow, source_of
+from foamprb.cli.options import add_cache, add_flow, source_of
 from foamprb.errors import InputError, UsageError
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ EXAMPLE = "run -case myCase -dry-run"
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command."""
     add_flow(parser)
+    add_cache(parser)
     when = parser.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(

@@ -7,6 +7,7 @@ import logging
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from foamprb.cli.options import add_cache
 from foamprb.errors import InputError, RunInterrupted, RunStopped
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--overwrite", action="store_true", help="start over [continue, and keep what has ended]")
     add("--threads", type=int, metavar="N", help="threads [all processors]")
     add("--outsideLibs", action="store_true", help="run also Python files of libs outside the case")
+    add_cache(parser)
 
 
 def execute(arguments: argparse.Namespace) -> int:
@@ -57,7 +59,9 @@ def execute(arguments: argparse.Namespace) -> int:
     for number in numbers:
         what = f"Run {number} of {n}: {study.described(number)}"
         try:
-            job = execute_run(study, number, flows, start_from, arguments.threads, arguments.outsideLibs)
+            job = execute_run(
+                study, number, flows, start_from, arguments.threads, arguments.outsideLibs, arguments.cache
+            )
         except RunInterrupted as stopped:
             raise RunInterrupted(f"{what}: stopped. The same command continues.", stopped.signal) from stopped
         except (InputError, RunStopped) as error:

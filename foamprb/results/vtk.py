@@ -1,8 +1,8 @@
-"""Clouds and tracks as VTK PolyData: ``.vtp`` files, and ``.pvtp`` files of several pieces."""
+"""Clouds and tracks as VTK PolyData: ``.vtp`` files, ``.pvtp`` files of several pieces, and VTKHDF files."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,6 +15,7 @@ from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -22,6 +23,8 @@ from foamprb.results.atomic import atomic_write, write_text
 
 _BLOCK_BYTES = 1 << 20
 """Size of a compressed block; VTK's default of 32 kB is slower."""
+_CHUNK = 4096
+"""Values in a compressed block of a VTKHDF file, the smallest size of an array there."""
 
 
 @dataclass(frozen=True)
@@ -73,39 +76,87 @@ def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, .
         Any exception of the parts; ``path`` is unchanged then.
     """
     parts = Parts(cloud.time, 1, iter([cloud])) if isinstance(cloud, PointCloud) else cloud
-    source = _Source(parts.snapshots)
+    source = _Source(lambda _: next(parts.snapshots))
     writer = vtkXMLPolyDataWriter()
     writer.SetInputConnection(source.GetOutputPort())
     writer.SetNumberOfPieces(parts.number)
-    _write(path, writer, source)
+    _write_xml(path, writer, source)
     return source.layout
 
 
-class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
-    """Source of VTK's writer, which requests one piece after the other."""
+def write_vtkhdf(path: Path, times: Sequence[float], cloud_of: Callable[[int], PointCloud]) -> None:
+    """Write the clouds of all times into one file, in one step, with one cloud at a time in memory.
 
-    def __init__(self, pieces: Iterator[PointCloud]) -> None:
+    Parameters
+    ----------
+    path
+        The file, ``.vtkhdf``.
+    times
+        Increasing times, s; the file stores them in single precision.
+    cloud_of
+        Returns the cloud of a time, by its index; all have the same arrays.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    Exception
+        Any exception of ``cloud_of``; ``path`` is unchanged then.
+    """
+    from vtkmodules.vtkIOHDF import vtkHDFWriter
+
+    source, writer = _Source(cloud_of, times), vtkHDFWriter()
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetWriteAllTimeSteps(True)
+    writer.SetCompressionLevel(1)
+    writer.SetChunkSize(_CHUNK)
+    _write(path, writer, source)
+
+
+class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
+    """Source of VTK's writers, which request one piece after the other, or one time after the other.
+
+    Parameters
+    ----------
+    cloud_of
+        Returns the cloud of a time, by its index; without times, the next piece.
+    times
+        Times of the clouds, s.
+    """
+
+    def __init__(self, cloud_of: Callable[[int], PointCloud], times: Sequence[float] = ()) -> None:
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
-        self._pieces = pieces
+        self._cloud_of, self._times = cloud_of, np.array(times, dtype=np.float64)
         self._last = vtkPolyData()
         self.layout: tuple[PieceArray, ...] = ()
         self.error: Exception | None = None
-        """First exception of ``pieces``, which VTK does not pass on."""
+        """First exception of ``cloud_of``, which VTK does not pass on."""
 
     def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:  # noqa: ARG002
-        outputs.GetInformationObject(0).Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
+        information, times = outputs.GetInformationObject(0), self._times.tolist()
+        if times:
+            information.Set(Pipeline.TIME_STEPS(), times, len(times))
+            information.Set(Pipeline.TIME_RANGE(), [times[0], times[-1]], 2)
+        else:
+            information.Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
         return 1
 
     def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:  # noqa: ARG002
+        requested = outputs.GetInformationObject(0).Get(Pipeline.UPDATE_TIME_STEP())
+        output, index = vtkPolyData.GetData(outputs), 0
+        if requested is not None and len(self._times):
+            index = int(np.argmin(abs(self._times - requested)))
         if self.error is None:
             try:
-                snapshot = next(self._pieces)
+                snapshot = self._cloud_of(index)
                 self.layout = self.layout or layout(snapshot)
                 self._last = poly_data(snapshot)
             except Exception as error:
                 self.error = error
         # Also after an error: a writer whose source fails after the first piece repeats its request for ever.
-        vtkPolyData.GetData(outputs).ShallowCopy(self._last)
+        output.ShallowCopy(self._last)
+        if len(self._times):
+            output.GetInformation().Set(output.DATA_TIME_STEP(), float(self._times[index]))
         return 1
 
 
@@ -160,13 +211,18 @@ def write_pieces(path: Path, arrays: Sequence[PieceArray], pieces: Sequence[Path
     )
 
 
-def _write(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None = None) -> None:
-    """Write a compressed file in one step; other threads run while VTK writes."""
+def _write_xml(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None = None) -> None:
+    """Write a compressed XML file in one step."""
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
     # Mantissas of doubles hardly compress, so the slower zlib would gain little.
     writer.SetCompressorTypeToLZ4()
     writer.SetBlockSize(_BLOCK_BYTES)
+    _write(path, writer, source)
+
+
+def _write(path: Path, writer: Any, source: _Source | None = None) -> None:
+    """Write a file in one step; other threads run while VTK writes."""
     # VTK does not print errors that are observed; the error code gives their reason.
     sources = () if source is None else (source, source.GetExecutive())
     for part in (writer, writer.GetExecutive(), *sources):
@@ -216,7 +272,7 @@ def write_tracks(path: Path, tracks: Tracks) -> None:
     _add_texts(data, tracks.units, tracks.names)
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
-    _write(path, writer)
+    _write_xml(path, writer)
 
 
 def write_triangles(path: Path, corners: NDArray[np.float64]) -> None:
@@ -225,7 +281,7 @@ def write_triangles(path: Path, corners: NDArray[np.float64]) -> None:
     data.SetPolys(_cells(3 * np.arange(len(corners) + 1, dtype=np.int64)))
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
-    _write(path, writer)
+    _write_xml(path, writer)
 
 
 def poly_data(snapshot: PointCloud) -> vtkPolyData:

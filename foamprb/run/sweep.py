@@ -300,6 +300,7 @@ def execute_run(
     start_from: StartFrom = "latestTime",
     threads: int | None = None,
     outside_libs: bool = False,
+    cache: Path | None = None,
 ) -> Job:
     """Execute a run of a study, or continue it; its log is the file ``log.foamprb`` in its folder.
 
@@ -313,6 +314,8 @@ def execute_run(
         ``"startTime"`` to start over.
     threads, outside_libs
         See :func:`foamprb.run.job.prepare`.
+    cache
+        See :class:`~foamprb.flow.read.source.FlowSource`.
 
     Raises
     ------
@@ -322,7 +325,7 @@ def execute_run(
         If a signal stopped it.
     """
     folder, overrides = study.folder(number), study.overrides(number)
-    source = FlowSource(region=study.region)
+    source = FlowSource(region=study.region, cache=cache)
     folder.mkdir(parents=True, exist_ok=True)
     with _logged_to(folder / "log.foamprb"):
         try:

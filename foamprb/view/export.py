@@ -14,11 +14,13 @@ from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.source import FlowSource
+from foamprb.results.atomic import refuse_other_kind
 from foamprb.results.foam import remove_lagrangian, write_lagrangian
+from foamprb.results.vtk import write_vtkhdf
 from foamprb.view.results import Run, open_run
 from foamprb.view.stress import write_stress
 
-_TARGETS = {"openfoam": "openfoam", "stress": "sigma"}
+_TARGETS = {"openfoam": "openfoam", "vtkhdf": "{}.vtkhdf", "stress": "sigma"}
 """Default file or folder of each kind, beside the results."""
 
 
@@ -37,7 +39,7 @@ def export(
     Parameters
     ----------
     kind
-        ``openfoam`` or ``stress``.
+        ``openfoam``, ``vtkhdf`` or ``stress``.
     case, cloud, results
         See :func:`foamprb.view.results.open_run`.
     source, time
@@ -49,14 +51,18 @@ def export(
     """
     run = open_run(case, cloud, source.region, results)
     source = run.source(source)
-    target = output or run.folder / _TARGETS[kind]
-    flow = read_flow(case, time, source)
-    if kind == "stress":
-        write_stress(target, run, case, flow.mesh, fraction)
-        return target
-    if target.resolve() != case.resolve():
-        _link_case(target, case, run.name)
-    _write_lagrangian(target, run, flow)
+    target = output or run.folder / _TARGETS[kind].format(run.name)
+    if kind == "vtkhdf":
+        refuse_other_kind(target, b"\x89HDF")
+        write_vtkhdf(target, [entry.time for entry in run.entries], run.cloud)
+    else:
+        flow = read_flow(case, time, source)
+        if kind == "stress":
+            write_stress(target, run, case, flow.mesh, fraction)
+            return target
+        if target.resolve() != case.resolve():
+            _link_case(target, case, run.name)
+        _write_lagrangian(target, run, flow)
     return target
 
 

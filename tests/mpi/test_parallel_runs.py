@@ -391,7 +391,7 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
         for folder in [f / t for f in case.glob("processor*") for t in ("0.5", "1.5")]:
             folder.rename(folder.with_name("late" + folder.name))
         hook += SOLVER
-    options = ["-follow"] if following else []
+    options = ["-follow"] if following else ["-cache", str(tmp_path / "cache")]
     done = run(2, case, *options, script=after_hook(tmp_path, hook))
     assert done.returncode == 0, done.stderr
     if following:
@@ -399,8 +399,13 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
         assert f"Each of 2 nodes holds the whole mesh: {reason}." in done.stdout
     else:
         assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
+        # With the cells around its own each node has the whole mesh.
+        assert len(list((tmp_path / "cache").iterdir())) == 3
     assert distances in done.stdout
     assert_same(case, alone)
+    if not following:
+        assert run(2, case, *options, "-overwrite", script=after_hook(tmp_path, hook)).returncode == 0
+        assert_same(case, alone)
 
 
 LANDING = """

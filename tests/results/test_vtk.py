@@ -9,12 +9,13 @@ from clouds import cloud, in_parts
 from hypothesis import given
 from hypothesis import strategies as st
 from limits import limit_of_file_size
+from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.pieces import XMLPPolyDataReader
 from foamprb.results.pvd import Series, SnapshotFile, files_of, read_pvd
-from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot
+from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot, write_vtkhdf
 from foamprb.results.vtk_check import require_sizes
 
 
@@ -218,6 +219,45 @@ def test_a_series_goes_on_in_pieces_and_back(tmp_path: Path) -> None:
         "cloud_000001.pvtp",
         "cloud_000002.vtp",
     ]
+
+
+def test_each_time_has_its_own_cloud_of_its_own_size(tmp_path: Path, random: np.random.Generator) -> None:
+    clouds = [
+        PointCloud(time, random.random((n, 3)), {"d": random.random(n)})
+        for time, n in ((0.5, 2), (1.0, 0), (1.25, 7))
+    ]
+    write_vtkhdf(tmp_path / "a.vtkhdf", [each.time for each in clouds], clouds.__getitem__)
+    assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
+    reader = vtkHDFReader()
+    reader.SetFileName(str(tmp_path / "a.vtkhdf"))
+    reader.UpdateInformation()
+    times = reader.GetOutputInformation(0).Get(reader.GetExecutive().TIME_STEPS())
+    assert times == (0.5, 1.0, 1.25)
+    for time, written in zip(times, clouds, strict=True):
+        reader.UpdateTimeStep(time)
+        found = pyvista.wrap(reader.GetOutputDataObject(0))
+        assert found.n_points == len(written.points)
+        if len(written.points):
+            np.testing.assert_array_equal(found.points, written.points)
+            np.testing.assert_array_equal(found.point_data["d"], written.arrays["d"])
+
+
+def test_failed_vtkhdf_file_keeps_the_old_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.vtkhdf"
+    path.write_text("before")
+
+    def broken(index: int) -> PointCloud:
+        if index:
+            raise InputError("damaged")
+        return PointCloud(0.0, np.zeros((2, 3)), {"d": np.ones(2)})
+
+    with pytest.raises(InputError, match="damaged"):
+        write_vtkhdf(path, [0.0, 1.0], broken)
+    assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
+    assert path.read_text() == "before"
+    with pytest.raises(OSError, match=r"a\.vtkhdf"):
+        write_vtkhdf(tmp_path / "a.vtkhdf/no/b.vtkhdf", [0.0], broken)
+    assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
 
 
 def test_sizes_of_a_file_of_several_pieces_are_checked(tmp_path: Path) -> None:

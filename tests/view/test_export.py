@@ -6,7 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import pyvista
 from view_run import motion, write_run
+from vtkmodules.vtkIOHDF import vtkHDFReader
 
 import foamprb
 from foamprb import read_case
@@ -22,6 +24,25 @@ def case(tmp_path):
 
 def export(case: Path, kind: str, *options: str) -> None:
     assert main(["export", kind, "-case", str(case), *options]) == 0
+
+
+def test_one_file_has_every_array_of_every_time(case):
+    export(case, "vtkhdf")
+    run = foamprb.open_run(case)
+    reader = vtkHDFReader()
+    reader.SetFileName(str(run.folder / "softCloud.vtkhdf"))
+    reader.UpdateInformation()
+    key = reader.GetExecutive().TIME_STEPS()
+    times = reader.GetOutputInformation(0).Get(key)
+    np.testing.assert_allclose(times, run.times, rtol=1e-7)
+    for time, exact in zip(times, run.times, strict=True):
+        reader.UpdateTimeStep(time)
+        found, expected = pyvista.wrap(reader.GetOutputDataObject(0)), run.snapshot(exact)
+        np.testing.assert_array_equal(found.points, expected.points)
+        for name in expected.point_data:
+            np.testing.assert_array_equal(found.point_data[name], expected.point_data[name])
+    # Bodies that are released later are missing at first.
+    assert run.snapshot(0.0).n_points < run.snapshot().n_points
 
 
 def numbers(path: Path) -> np.ndarray:
@@ -62,7 +83,7 @@ def test_a_foreign_cloud_of_the_same_name_is_kept(case, capsys):
     assert not list(case.glob("0.[0-3]/lagrangian"))
 
 
-@pytest.mark.parametrize("command", [["view"], ["report"], ["view", "-png"]])
+@pytest.mark.parametrize("command", [["view"], ["report"], ["view", "-png"], ["export", "vtkhdf"]])
 def test_an_output_replaces_no_file_of_another_kind(command, case, capsys):
     file = case / "constant/softCloudProperties"
     file.write_text("solution { }")
@@ -102,10 +123,10 @@ def test_a_body_a_little_outside_is_in_the_cell_at_the_wall(case):
 
 def test_impossible_exports_are_reported(case, capsys, tmp_path_factory):
     empty = tmp_path_factory.mktemp("empty")
-    assert main(["export", "openfoam", "-case", str(empty)]) == 1
+    assert main(["export", "vtkhdf", "-case", str(empty)]) == 1
     assert "no results here" in capsys.readouterr().err
     assert main(["export", "excel", "-case", str(case)]) == 2
-    assert "openfoam" in capsys.readouterr().err
+    assert "vtkhdf" in capsys.readouterr().err
 
 
 def test_a_stress_has_openfoams_order(tmp_path):

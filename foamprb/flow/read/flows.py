@@ -88,6 +88,8 @@ def rotations_of(case: Path, source: FlowSource) -> tuple[Rotation, ...]:
 
 
 def _refuse_of_case(source: FlowSource) -> None:
+    if source.cache is not None:
+        raise InputError(f"{source.file}: -cache keeps flows of cases only. Allowed: no -cache.")
     if source.turbulent:
         raise InputError(
             f"{source.file}: only the velocity is read from a mesh file, but the dispersionModel needs k and "

@@ -58,6 +58,7 @@ from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
+from foamprb.flow.read.prepared import PreparedTimes
 from foamprb.flow.read.sampled import kinds_of, read_sampled
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.read.times import listed
@@ -257,12 +258,18 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity, case.comm)
     notes: list[Any] = [*case.notes, *whole.notes]
     file = (case.folder(name) / source.velocity).relative_to(case.root)
-    u, l = operators.reconstruct(cells, boundary)
-    # Its arrays take half as much memory as the flow.
-    operators.free()
-    trim()
-    fluxes = balanced(operators.conserve, u, l, mass, file, notes=notes)
-    operators.free()
+
+    def make() -> tuple[Floats, Floats, Floats | None]:
+        u, l = operators.reconstruct(cells, boundary)
+        # Its arrays take half as much memory as the flow.
+        operators.free()
+        trim()
+        fluxes = balanced(operators.conserve, u, l, mass, file, notes=notes)
+        operators.free()
+        return u, l, fluxes
+
+    prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
+    u, l, fluxes = prepared.get((cells, boundary, mass), make)
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     caveats = _caveats(case, name, source, relative=bool(rotations))
@@ -306,6 +313,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady, case.comm)
     operators = _Operators(whole.mesh, case.comm)
+    prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators.reconstruct)
@@ -318,8 +326,12 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         index = names.index(name)
         mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity, case.comm)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
-        u, l = operators.reconstruct(*values)
-        fluxes = balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
+
+        def make() -> tuple[Floats, Floats, Floats]:
+            u, l = operators.reconstruct(*values)
+            return u, l, balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
+
+        u, l, fluxes = prepared.get((*values, mass), make)
         more = _further(case, name, source, whole, operators)
         curvatures = [mean_curvatures(whole.mesh, l, case.comm)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)

@@ -68,6 +68,8 @@ class FlowSource:
     """Faults of a transient flow with which to go on, of :data:`~foamprb.flow.base.FAULTS`."""
     scale: float | None = None
     """Factor of the lengths in a mesh file, m; by default 1."""
+    cache: Path | None = None
+    """Folder that keeps the times of cases; see :class:`~foamprb.flow.read.prepared.PreparedTimes`."""
 
     @property
     def length_scale(self) -> float:
