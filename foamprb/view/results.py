@@ -309,9 +309,16 @@ class Run:
         return Tracks(_points(data)[order], start, values, {"origId": at_lines["origId"]})
 
 
+def released_of(fates: Table) -> Table:
+    """Return the rows of the released particles of a table of fates."""
+    here = fates["fate"] != "pending"
+    return {name: column[here] for name, column in fates.items()}
+
+
 def summary_of(fates: Table) -> Table:
     """Return :meth:`Run.summary` of a table of fates."""
-    pairs = np.stack([fates["fate"], fates["patch"]], axis=1)[fates["fate"] != "pending"]
+    released = released_of(fates)
+    pairs = np.stack([released["fate"], released["patch"]], axis=1)
     kinds, counts = np.unique(pairs, axis=0, return_counts=True)
     order = np.argsort(-counts, kind="stable")
     kinds, counts = kinds[order], counts[order]

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder
-from foamprb.view.results import Run, Table, frame_of, open_run
+from foamprb.view.results import Run, Table, frame_of, open_run, released_of
+from foamprb.view.sensitivity import design_of, index_table
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,9 +56,33 @@ class Runs(Mapping[str, Run]):
             for name, run in self.runs.items()
         }
 
-    def number(self, name: str) -> int | None:
-        """Return the number of a run in its study, by the names of its folders; None without one."""
-        return next((int(part) for part in reversed(self.paths[name].parts) if part.isdigit()), None)
+    @property
+    def numbers(self) -> dict[str, int | None]:
+        """Number of each run in its study, by the names of its folders; None without one."""
+        return {
+            name: next((int(part) for part in reversed(path.parts) if part.isdigit()), None)
+            for name, path in self.paths.items()
+        }
+
+    def indices(self) -> Table:
+        """Return the indices of Sobol of a study with such a design.
+
+        Columns: ``result`` (the share of a fate and patch, the median residence time or D), ``entry`` (its
+        path), ``first`` and ``total``, each with the ends of its interval of 95 %, ``firstLow``, ….
+
+        Raises
+        ------
+        InputError
+            If the runs are none of a Sobol design, or too few of it have ended.
+        """
+        ended = {name: released_of(fates) for name, run in self.runs.items() if (fates := run.fates())}
+        design = design_of(self.numbers, self.entries, ended)
+        if design is None:
+            raise InputError(
+                f"no Sobol design among the {len(ended)} runs that have ended. Needed: foamprb sweep, with "
+                '[design] type = "sobol".'
+            )
+        return index_table(design, ended)
 
     def table(self, name: str = "fates") -> Table:
         """Return the rows of a table of all runs, with the columns ``run`` and one for each replaced entry.

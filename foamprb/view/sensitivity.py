@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.results.intervals import Estimate
+from foamprb.results.intervals import share
+from foamprb.view.results import Table
 
-__all__ = ["Design", "Indices", "design_of", "sobol_indices"]
+__all__ = ["QUANTITIES", "Design", "design_of", "index_table", "places_of", "samples_of", "sobol_indices"]
 
 Floats = NDArray[np.float64]
 
 _LEVEL, _RESAMPLES = 0.95, 1000
 _FEWEST = 4
 """Fewest rows for which indices are computed."""
+_ROUND_OFF = 1e-12
+QUANTITIES = {"residence time": "s", "D": "1"}
+"""Quantities of particles whose medians are results, with their units."""
 
 
 class Design(NamedTuple):
@@ -31,16 +35,21 @@ class Design(NamedTuple):
     """Number of rows that are left out."""
 
 
-class Indices(NamedTuple):
-    """Shares of the variance of a quantity that one entry explains."""
-
-    first: Estimate
-    """By itself."""
-    total: Estimate
-    """With all its interactions."""
+def places_of(fates: Table) -> NDArray[np.str_]:
+    """Return where particles ended, ``"escaped: outlet"``, (n,)."""
+    pairs = zip(fates["fate"].tolist(), fates["patch"].tolist(), strict=True)
+    return np.array([f"{fate}: {patch}" if patch else fate for fate, patch in pairs], dtype=np.str_)
 
 
-def design_of(numbers: Mapping[str, int | None], entries: Mapping[str, Mapping[str, str]]) -> Design | None:
+def samples_of(fates: Table) -> dict[str, Floats]:
+    """Return the values of :data:`QUANTITIES` of particles, (n,) each; NaN if they are unknown."""
+    unknown = np.full(len(fates["id"]), np.nan)
+    return {"residence time": fates["t1"] - fates["t0"], "D": fates.get("D", unknown)}
+
+
+def design_of(
+    numbers: Mapping[str, int | None], entries: Mapping[str, Mapping[str, str]], ended: Collection[str]
+) -> Design | None:
     """Return the Sobol design to which runs belong; None if they belong to none.
 
     Parameters
@@ -49,15 +58,18 @@ def design_of(numbers: Mapping[str, int | None], entries: Mapping[str, Mapping[s
         Number of each run in its study, from 1 on, by name.
     entries
         Values of the replaced entries by path, of each run by name.
+    ended
+        Names of the runs that have ended.
     """
     by_path: dict[str, set[str]] = {}
-    for values in entries.values():
-        for path, text in values.items():
+    for name in ended:
+        for path, text in entries[name].items():
             by_path.setdefault(path, set()).add(text)
     paths = tuple(path for path, texts in by_path.items() if len(texts) > 1)
-    width, names = len(paths) + 2, {number: name for name, number in numbers.items() if number is not None}
+    names = {number: name for name in ended if (number := numbers[name]) is not None}
     if not paths or not names:
         return None
+    width = len(paths) + 2
     groups = [range(k + 1, k + width + 1) for k in range(0, max(names), width)]
     whole = [[names[number] for number in group] for group in groups if all(n in names for n in group)]
     for group in whole:
@@ -70,26 +82,57 @@ def design_of(numbers: Mapping[str, int | None], entries: Mapping[str, Mapping[s
     return Design(paths, np.array(whole[:n]), len(groups) - n)
 
 
-def sobol_indices(values: Floats) -> list[Indices]:
+def index_table(design: Design, released: Mapping[str, Table]) -> Table:
+    """Return :meth:`foamprb.view.runs.Runs.indices` of the released particles of each run, by its name."""
+    results: dict[str, list[float]] = {}
+    tables = [released[str(name)] for name in design.runs.ravel()]
+    places = [places_of(fates) for fates in tables]
+    for place in sorted({str(place) for of_run in places for place in np.unique(of_run)}):
+        counts = (int(np.count_nonzero(of_run == place)) for of_run in places)
+        shares = (share(count, len(of_run)) for count, of_run in zip(counts, places, strict=True))
+        results[f"share {place}"] = [estimate.value for estimate in shares]
+    for what in QUANTITIES:
+        samples = (samples_of(fates)[what] for fates in tables)
+        finite = (values[np.isfinite(values)] for values in samples)
+        results[f"median {what}"] = [float(np.median(x)) if len(x) else np.nan for x in finite]
+    rows: dict[str, list[Any]] = {"result": [], "entry": []}
+    for name, values in results.items():
+        # A result that is the same in all runs has no variance.
+        if np.isfinite(values).all() and np.ptp(values) > _ROUND_OFF * np.max(np.abs(values)):
+            columns = sobol_indices(np.reshape(values, design.runs.shape))
+            columns |= {"result": [name] * len(design.paths), "entry": list(design.paths)}
+            for key, column in columns.items():
+                rows.setdefault(key, []).extend(column)
+    return {key: np.array(column) for key, column in rows.items()}
+
+
+def sobol_indices(values: Floats) -> dict[str, list[Any]]:
     """Return the indices of each entry, by Saltelli et al. (2010), with intervals by resampling the rows.
 
     Parameters
     ----------
     values
-        A quantity in the runs of :class:`Design`, (n, d + 2).
+        A result in the runs of :class:`Design`, (n, d + 2).
+
+    Returns
+    -------
+    The share of the variance that each entry explains by itself, ``first``, and with all its interactions,
+    ``total``; the ends of the intervals of 95 %, ``firstLow``, …, NaN for an entry without effect.
     """
     from scipy import stats
 
     f: Any = {"f_A": values[None, :, 0], "f_B": values[None, :, -1], "f_AB": values[:, 1:-1].T[:, None]}
-    result: Any = stats.sobol_indices(func=f, n=len(values), rng=np.random.default_rng(0))
+    indices: Any = stats.sobol_indices(func=f, n=len(values), rng=np.random.default_rng(0))
     with warnings.catch_warnings(), np.errstate(invalid="ignore"):
-        # An entry without any effect has indices 0 in all samples, and no interval.
+        # An entry without effect has indices 0 in all samples.
         warnings.simplefilter("ignore", stats.DegenerateDataWarning)
-        spread = result.bootstrap(_LEVEL, _RESAMPLES)
-    first, total = (
-        np.stack([np.ravel(row) for row in (index, *resampled.confidence_interval)], axis=1).tolist()
-        for index, resampled in (
-            (result.first_order, spread.first_order), (result.total_order, spread.total_order)
-        )
-    )  # fmt: skip
-    return [Indices(Estimate(*one), Estimate(*all_of)) for one, all_of in zip(first, total, strict=True)]
+        resampled = indices.bootstrap(_LEVEL, _RESAMPLES)
+    columns: dict[str, list[Any]] = {}
+    for kind, index, spread in (
+        ("first", indices.first_order, resampled.first_order),
+        ("total", indices.total_order, resampled.total_order),
+    ):
+        low, high = spread.confidence_interval
+        for end, column in (("", index), ("Low", low), ("High", high)):
+            columns[f"{kind}{end}"] = np.ravel(column).tolist()
+    return columns

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from foamprb.errors import InputError
 from foamprb.run.sweep import read_study
 from foamprb.view.report.compare import write_comparison
 from foamprb.view.results import summary_of
@@ -86,10 +87,12 @@ def test_indices_of_ishigamis_function(study):
     alone, both = 0.5 * (1.0 + np.pi**4 / 50.0) ** 2, 0.01 * np.pi**8 * (1.0 / 18.0 - 1.0 / 50.0)
     total = alone + 49.0 / 8.0 + both
     expected = [(alone, alone + both), (49.0 / 8.0, 49.0 / 8.0), (0.0, both)]
-    for index, exact in zip(sobol_indices(f.reshape(-1, 5)), expected, strict=True):
-        for estimate, variance in zip(index, exact, strict=True):
-            assert estimate.value == pytest.approx(variance / total, abs=0.02)
-            assert estimate.low <= variance / total <= estimate.high
+    indices = {name: np.array(values) for name, values in sobol_indices(f.reshape(-1, 5)).items()}
+    for kind, variances in zip(("first", "total"), zip(*expected, strict=True), strict=True):
+        exact = np.array(variances) / total
+        np.testing.assert_allclose(indices[kind], exact, atol=0.02)
+        assert (indices[f"{kind}Low"] <= exact).all()
+        assert (exact <= indices[f"{kind}High"]).all()
 
 
 def test_page_of_a_design_has_indices(tmp_path, study):
@@ -110,8 +113,21 @@ def test_page_of_a_design_has_indices(tmp_path, study):
         value, low, high = map(float, re.fullmatch(r"(\S+) \((\S+) to (\S+)\)", text).groups())
         assert low <= 1.0 <= high
         assert value == pytest.approx(1.0, abs=0.2)
+    table = runs.indices()
+    assert table["result"].tolist() == [row[0] for row in listed]
+    assert table["entry"].tolist()[:3] == ["x", "y", "sub/z"]
+    assert f"{table['total'][0]:.4g}" == found["share escaped: side", "x"][1].split()[0]
     for entry in ("y", "z"):
         assert [text.split()[0] for text in found["share escaped: side", entry]] == ["0", "0"]
+
+
+def test_runs_without_particles_and_without_a_design(tmp_path):
+    y = np.arange(0.0)
+    runs = runs_of([fates(y < 0.3), fates(y < 0.3)], [{"a": 1}, {"a": 2}])
+    (row,) = cells(write_comparison(runs, tmp_path / "page.html"), "Differences")
+    assert row == ["a 2", "yes", "", ""]
+    with pytest.raises(InputError, match="no Sobol design among the 2 runs that have ended"):
+        runs.indices()
 
 
 def test_other_studies_are_no_designs(study):
@@ -121,12 +137,12 @@ def test_other_studies_are_no_designs(study):
         name: {path: str(value) for path, value in row.items()} for name, row in zip(names, rows, strict=True)
     }
     numbers = {name: int(name) for name in names}
-    assert design_of(numbers, entries).paths == ("x", "y", "sub/z")
-    assert design_of(dict.fromkeys(names), entries) is None
+    assert design_of(numbers, entries, names).paths == ("x", "y", "sub/z")
+    assert design_of(dict.fromkeys(names), entries, names) is None
     shuffled = dict(zip(names, list(entries.values())[::-1], strict=True))
-    assert design_of(numbers, shuffled) is None
+    assert design_of(numbers, shuffled, names) is None
     grid = {name: {"a": str(k // 4), "b": str(k % 4)} for k, name in enumerate(names)}
-    assert design_of(numbers, grid) is None
+    assert design_of(numbers, grid, names) is None
 
 
 def test_summary_counts_fates_by_patch():

@@ -14,9 +14,9 @@ from foamprb.results.intervals import Estimate, difference, pair_correlation, qu
 from foamprb.view.colours import with_interval
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, page, table
-from foamprb.view.results import Table
+from foamprb.view.results import Table, released_of
 from foamprb.view.runs import Runs
-from foamprb.view.sensitivity import Design, design_of, sobol_indices
+from foamprb.view.sensitivity import QUANTITIES, Design, design_of, index_table, places_of, samples_of
 from foamprb.view.show import PAGE_BEGINS, spread
 
 Floats = NDArray[np.float64]
@@ -52,7 +52,7 @@ def write_comparison(runs: Runs, target: Path) -> Path:
     if not ended:
         raise InputError(f"none of the runs {', '.join(runs)} has ended. To continue: foamprb run -resume.")
     missing = [name for name in runs if name not in ended]
-    released = {name: _released(fates) for name, fates in ended.items()}
+    released = {name: released_of(fates) for name, fates in ended.items()}
     labels = _labels(runs, released)
     sections = [
         PageSection("runs", "Runs", _rows(runs, released)),
@@ -74,19 +74,11 @@ def write_comparison(runs: Runs, target: Path) -> Path:
 
 def _contrasts(runs: Runs, labels: dict[str, str], released: dict[str, Table]) -> Iterator[PageSection]:
     """Yield the section of the indices of a Sobol design, or of the differences of other runs."""
-    entries = runs.entries
-    design = design_of(
-        {name: runs.number(name) for name in released}, {name: entries[name] for name in released}
-    )
+    design = design_of(runs.numbers, runs.entries, released)
     if design is not None:
         yield PageSection("indices", "Sensitivity", _indices(released, design))
     elif 1 < len(released) <= _MOST_CONTRASTS:
         yield PageSection("differences", "Differences", _differences(labels, released))
-
-
-def _released(fates: Table) -> Table:
-    here = fates["fate"] != "pending"
-    return {name: column[here] for name, column in fates.items()}
 
 
 def _labels(runs: Runs, names: Iterable[str]) -> dict[str, str]:
@@ -133,7 +125,7 @@ def _text(estimate: Estimate, unit: str = "1") -> str:
 def _places(labels: dict[str, str], released: dict[str, Table]) -> str:
     """Return the shares of the particles by fate and patch."""
     counts = {
-        name: dict(zip(*np.unique(_where(fates), return_counts=True), strict=True))
+        name: dict(zip(*np.unique(places_of(fates), return_counts=True), strict=True))
         for name, fates in released.items()
     }
     places = _all_places(released)
@@ -146,44 +138,30 @@ def _places(labels: dict[str, str], released: dict[str, Table]) -> str:
     return table(caption, ("run", *places), rows)
 
 
-def _where(fates: Table) -> NDArray[np.str_]:
-    pairs = zip(fates["fate"].tolist(), fates["patch"].tolist(), strict=True)
-    return np.array([f"{fate}: {patch}" if patch else fate for fate, patch in pairs])
-
-
 def _all_places(released: dict[str, Table]) -> list[str]:
-    return sorted({str(place) for fates in released.values() for place in _where(fates)})
+    return sorted({str(place) for fates in released.values() for place in np.unique(places_of(fates))})
 
 
 def _differences(labels: dict[str, str], released: dict[str, Table]) -> str:
     """Return the differences of the other runs from the first."""
     first, *others = released
-    places, there, before = _all_places(released), _where(released[first]), _samples(released[first])
+    places, there, before = _all_places(released), places_of(released[first]), samples_of(released[first])
     rows = []
     for name in others:
         pairs = _same_starts(released[name], released[first])
-        here, after = _where(released[name]), _samples(released[name])
+        here, after = places_of(released[name]), samples_of(released[name])
         shares = (_difference_of_shares(here == place, there == place, pairs) for place in places)
         medians = (
             _text(_difference_of_medians(after[what], before[what], pairs), unit)
-            for what, unit in _QUANTITIES.items()
+            for what, unit in QUANTITIES.items()
         )
         rows.append((labels[name], "yes" if pairs else "no", *shares, *medians))
     caption = (
         f"Differences from the first run, {labels[first]}; in parentheses 95 % intervals. Runs that release "
         "the same particles are compared in pairs."
     )
-    head = ("run", "same particles", *places, *(f"median {what}" for what in _QUANTITIES))
+    head = ("run", "same particles", *places, *(f"median {what}" for what in QUANTITIES))
     return table(caption, head, rows)
-
-
-_QUANTITIES = {"residence time": "s", "D": "1"}
-"""Quantities whose medians are compared, with their units."""
-
-
-def _samples(fates: Table) -> dict[str, Floats]:
-    none = np.full(len(fates["id"]), np.nan)
-    return {"residence time": fates["t1"] - fates["t0"], "D": fates.get("D", none)}
 
 
 def _same_starts(a: Table, b: Table) -> bool:
@@ -208,26 +186,16 @@ def _difference_of_medians(a: Floats, b: Floats, pairs: bool) -> Estimate:
 
 def _indices(released: dict[str, Table], design: Design) -> str:
     """Return the indices of Sobol of the runs of a design."""
-    names = [str(name) for name in design.runs.ravel()]
-    quantities = {
-        f"share {place}": [float(np.mean(_where(released[name]) == place)) for name in names]
-        for place in _all_places(released)
-    }
-    for what in _QUANTITIES:
-        values = (float(quantile(_samples(released[name])[what]).value) for name in names)
-        quantities[f"median {what}"] = list(values)
-    rows = []
-    for what, numbers in quantities.items():
-        # A result that is the same in all runs has no variance.
-        if np.isfinite(numbers).all() and np.ptp(numbers) > 1e-12 * np.max(np.abs(numbers)):
-            indices = sobol_indices(np.reshape(numbers, design.runs.shape))
-            rows += [
-                (what, path.split("/")[-1], _text(index.first), _text(index.total))
-                for path, index in zip(design.paths, indices, strict=True)
-            ]
+    columns = index_table(design, released)
+    first, total = (
+        map(_text, map(Estimate, *(columns[f"{kind}{end}"].tolist() for end in ("", "Low", "High"))))
+        for kind in ("first", "total")
+    )
+    entries = (path.split("/")[-1] for path in columns["entry"].tolist())
+    rows = zip(columns["result"].tolist(), entries, first, total, strict=True)
     caption = (
-        f"Indices of Sobol by {len(names)} runs: the share of the variance that an entry explains by itself, "
-        "and with its interactions; in parentheses 95 % intervals"
+        f"Indices of Sobol by {design.runs.size} runs: the share of the variance that an entry explains by "
+        "itself, and with its interactions; in parentheses 95 % intervals"
     )
     lost = f"{design.missing} rows of the design are left out; n is a power of 2." if design.missing else ""
     return f"<p>{lost}</p>" * bool(lost) + table(caption, ("result", "entry", "first order", "total"), rows)
