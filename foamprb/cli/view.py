@@ -24,7 +24,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     kind = parser.add_mutually_exclusive_group()
     kind.add_argument("--png", type=Path, metavar="FILE", help="write a picture, not the page")
     kind.add_argument("--film", type=Path, metavar="FILE", help="write a film, .mp4 or .gif, not the page")
-    add("--time", type=float, metavar="TIME", help="first time shown [the time with most bodies]")
+    add("--time", type=float, metavar="TIME", help="first time shown [the last, or that with most bodies]")
     add("--colour", "--color", default="taylorDeformation", metavar="ARRAY",
         help="array, or array:component, to colour by [taylorDeformation]")  # fmt: skip
     add("--range", type=float, nargs=2, metavar=("LOW", "HIGH"),

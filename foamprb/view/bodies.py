@@ -287,6 +287,12 @@ def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles |
     return np.array(counts), np.concatenate(collected) if valued else None
 
 
+def stuck_at_end(run: Run) -> int:
+    """Return the number of bodies on walls at the last written time."""
+    status, meanings = run.cloud(-1, ("status",)).arrays["status"], run.names.get("status", ())
+    return int(np.isin(status, [k for k, name in enumerate(meanings) if name == "stuck"]).sum())
+
+
 def _inside(codes: NDArray[Any], meanings: Sequence[str]) -> Mask:
     """Return whether bodies are in the flow or on a wall."""
     inside = [k for k, name in enumerate(meanings) if name in ("active", "stuck")]

@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Sequence
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -109,21 +110,32 @@ def readable(unit: str, most: float) -> tuple[float, str]:
 def written(value: float, unit: str, most: float) -> str:
     """Return a value in the :func:`readable` unit of ``most``: ``0.04, "s", 0.06`` → "40 ms"."""
     factor, name = readable(unit, most)
-    text = f"{value / factor:.4g}".replace("-", "−")
-    return f"{text} {name}" if name else text
+    return f"{number(value / factor)} {name}".rstrip()
 
 
 def with_interval(estimate: Estimate, unit: str = "1") -> str:
     """Return an estimate in a readable unit, with its interval if it has one: ``40 (38 to 43) ms``."""
     factor, name = readable(unit, abs(estimate.value))
-    value, low, high = (f"{x / factor:.4g}".replace("-", "−") for x in estimate)
+    value, low, high = (number(x / factor) for x in estimate)
     text = value if math.isnan(estimate.low + estimate.high) else f"{value} ({low} to {high})"
     return f"{text} {name}".removesuffix(" 1").rstrip()
 
 
-def number(value: float, digits: int = 3) -> str:
-    """Return the text of a tick of a scale."""
-    return f"{value:.{digits}g}".replace("-", "−")
+def number(value: float, digits: int = 4) -> str:
+    """Return a number as the page shows it: ``1.5e-5`` → "1.5 × 10⁻⁵"."""
+    if not math.isfinite(value):
+        return "unknown"
+    if value == 0.0 or 1e-3 <= abs(value) < 1e5:
+        # Beyond its digits the format g takes powers of ten.
+        return f"{float(f'{value:.{digits}g}'):.9g}".replace("-", "−")
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    return f"{float(mantissa):g} × 10{str(int(exponent)).translate(_SUPERSCRIPTS)}".replace("-", "−")
+
+
+def font_file(bold: bool = False) -> str:
+    """Return the file of the typeface of pictures, which is the first one of the pages."""
+    name = f"DejaVuSans{'-Bold' if bold else ''}.ttf"
+    return str(Path(load("matplotlib").get_data_path()) / "fonts/ttf" / name)
 
 
 def round_limits(low: float, high: float) -> tuple[float, float]:

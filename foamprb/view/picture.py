@@ -27,6 +27,7 @@ from foamprb.view.colours import (
     Table,
     colour_map,
     colour_of_name,
+    font_file,
     number,
     readable,
     rgb,
@@ -57,6 +58,8 @@ _SPHERES = ((300, 48, 24), (5_000, 24, 12), (20_000, 12, 7), (math.inf, 6, 4))
 _MOST_MARKED = 500
 _MARK_WIDTH, _SPOT_WIDTH, _MARK_STEPS = 0.04, 0.3, 72
 _BAR = 280.0
+_FONT_FILE = 4
+"""VTK's number of a font family that is a file."""
 _UNKNOWN = 153
 _TRAIL_OPACITY = 0.85
 _HAZE, _HAZE_LENGTH = 0.3, 0.6
@@ -157,6 +160,7 @@ class Drawing:
     def _name(self, text: str, place: Floats) -> None:
         """Write the name of a patch on a pill above a place of the scene."""
         actor = pyvista.Text(f" {text} ")
+        typeset(actor.prop)
         actor.GetPositionCoordinate().SetCoordinateSystemToWorld()
         actor.GetPositionCoordinate().SetValue(*place)
         actor.prop.font_size = max(6, round(12 * self.scale))
@@ -167,9 +171,11 @@ class Drawing:
 
     def compass(self) -> None:
         """Draw axes and a scale bar in the lower right corner."""
-        self.plotter.add_axes(
+        axes = self.plotter.add_axes(
             interactive=False, color=self.style.soft, line_width=2, viewport=(0.88, 0.08, 1.0, 0.3)
         )
+        for name in "XYZ":
+            typeset(getattr(axes, f"Get{name}AxisCaptionActor2D")().GetCaptionTextProperty())
         eye = self.plotter.camera
         width, height = (length / self.scale for length in self.plotter.window_size)
         distance = float(np.linalg.norm(np.subtract(eye.position, eye.focal_point)))
@@ -191,9 +197,9 @@ class Drawing:
         actor = pyvista.Text(
             text, position=(width - left * s if side == "right" else left * s, height - top * s)
         )
+        typeset(actor.prop, bold)
         actor.prop.font_size = max(6, round(size * s))
         actor.prop.justification_horizontal = side
-        actor.prop.bold = bold
         actor.prop.color = self.style.ink if bold else self.style.soft
         self.plotter.add_actor(actor, name=name, **_LATER)
 
@@ -216,11 +222,14 @@ class Drawing:
         mapper.lookup_table = pyvista.LookupTable(values=colours, scalar_range=(low, high))
         mapper.scalar_range = low, high
         self._write(f"{label} title", "  ".join([title, *ends]), 13, "left", height - 62.0, left, bold=True)
+        for k, side in enumerate(("left", "center", "center", "center", "right")):
+            value, at = low + 0.25 * k * (high - low), left + 0.25 * k * _BAR
+            at = width - at if side == "right" else at
+            self._write(f"{label} {k}", number(value, 3), 12, side, height - 12.0, at)
         # The title of the bar, blanks, is the name of its actor.
         self.plotter.add_scalar_bar(
-            round(left) * " ", mapper=mapper, vertical=False, n_labels=4, fmt="%.3g",
-            color=self.style.ink, position_x=left / width, position_y=12.0 / height, width=_BAR / width,
-            height=62.0 / height, label_font_size=round(12 * self.scale), render=False,
+            round(left) * " ", mapper=mapper, vertical=False, n_labels=0, position_x=left / width,
+            position_y=30.0 / height, width=_BAR / width, height=62.0 / height, render=False,
         )  # fmt: skip
         return left + _BAR + 40.0
 
@@ -230,10 +239,11 @@ class Drawing:
             k for k in np.unique(codes.codes).tolist() if k < len(codes.meanings) and codes.meanings[k]
         ]
         names = [[codes.meanings[k], colour_of_name(k)] for k in present]
-        self.plotter.add_legend(
+        legend = self.plotter.add_legend(
             names, bcolor=self.style.paper, background_opacity=0.82, face="rectangle", loc="lower left",
             size=(0.2, 0.035 * len(names)),
         )  # fmt: skip
+        typeset(legend.GetEntryTextProperty())
 
     def _add_flat(self, name: str, data: Any) -> Any:
         """Draw a mesh in front of the scene, in pixels of the picture; return its actor."""
@@ -258,6 +268,12 @@ class Drawing:
         actor.GetMapper().SetTransformCoordinate(world)
         actor.GetProperty().SetColor(*(c / 255.0 for c in rgb(self.style.deposit)))
         actor.GetProperty().SetPointSize(6.0 * self.scale)
+
+
+def typeset(text: Any, bold: bool = False) -> None:
+    """Set the typeface of a text of VTK."""
+    text.SetFontFamily(_FONT_FILE)
+    text.SetFontFile(font_file(bold))
 
 
 def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, texts: bool = True) -> None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from foamprb.results.vtk import Tracks
 from foamprb.view.bodies import MAGNITUDE, Bodies, Codes
-from foamprb.view.colours import MAPS, round_down, round_limits
+from foamprb.view.colours import MAPS, number, round_down, round_limits
 from foamprb.view.flowfield import FlowField
 from foamprb.view.geometry import Geometry, Surface
 
@@ -187,9 +187,8 @@ class Scene:
 
     def caption(self, shown: int) -> str:
         """Return a sentence with the number of shown bodies and their enlargement."""
-        number = f"{shown} {'body' if shown == 1 else 'bodies'}"
-        scale = f"{self.enlargement:g}× larger" if self.enlargement != 1.0 else "to scale"
-        return f"{number}, drawn {scale}"
+        scale = f"{number(self.enlargement, 3)}× larger" if self.enlargement != 1.0 else "to scale"
+        return f"{shown} {'body' if shown == 1 else 'bodies'}, drawn {scale}"
 
 
 def trail_time(speeds: NDArray[Any], camera: Camera) -> float:
@@ -264,10 +263,22 @@ def automatic_enlargement(bodies: Bodies, sides: Floats) -> float:
     return round_down(wanted) if wanted > 1.0 else 1.0
 
 
-def busiest(bodies: Bodies) -> int:
-    """Return the index of the time with most bodies in the flow or on a wall; of several, the last."""
-    number = bodies.shown.sum(axis=1)
-    return int(len(number) - 1 - np.argmax(number[::-1]))
+def opening(shown: NDArray[np.integer[Any]], stuck: int) -> int:
+    """Return the index of the time that is shown first.
+
+    It is the last time if at least half as many bodies are on walls then as are ever shown at once.
+    Otherwise it is the time with most bodies in the flow or on a wall; of several, the last.
+
+    Parameters
+    ----------
+    shown
+        Number of bodies in the flow or on a wall at each time.
+    stuck
+        Number of bodies on walls at the last time.
+    """
+    if 2 * stuck >= max(1, shown.max(initial=0)):
+        return len(shown) - 1
+    return int(len(shown) - 1 - np.argmax(shown[::-1]))
 
 
 def box(geometry: Geometry | None, bodies: Bodies) -> tuple[Floats, Floats]:

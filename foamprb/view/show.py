@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import math
 import os
-import re
 import shutil
 import subprocess
 import webbrowser
@@ -26,8 +25,16 @@ from foamprb.results.atomic import atomic_write, refuse_other_kind
 from foamprb.results.record import Record
 from foamprb.results.vtk import Tracks
 from foamprb.settings.fluid import read_gravity
-from foamprb.view.bodies import Bodies, fates_of, fields_of_fates, gather, require_array, survey
-from foamprb.view.colours import Style
+from foamprb.view.bodies import (
+    Bodies,
+    fates_of,
+    fields_of_fates,
+    gather,
+    require_array,
+    stuck_at_end,
+    survey,
+)
+from foamprb.view.colours import Style, number, written
 from foamprb.view.flowfield import FlowField, field_of
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.page import Page
@@ -40,10 +47,10 @@ from foamprb.view.scene import (
     Scene,
     automatic_enlargement,
     box,
-    busiest,
     camera_for,
     limits_of_values,
     main_direction,
+    opening,
 )
 
 log = logging.getLogger("foamprb")
@@ -74,7 +81,7 @@ class Request:
     """FlowSource of the geometry and of the flow on a plane."""
     flow_time: str = LATEST
     time: float | None = None
-    """First time shown, or time of a picture, s; by default the time with most bodies."""
+    """First time shown, or time of a picture, s; by default that of :func:`~foamprb.view.scene.opening`."""
     colour: str = DEFAULT_COLOUR
     range: tuple[float, float] | None = None
     enlargement: float | None = None
@@ -164,18 +171,22 @@ class _Background:
     flow: Floats
     gravity: Floats
     groups: str
+    stuck: int
+    """Number of bodies on walls at the last written time."""
 
     def scene(self, bodies: Bodies) -> Scene:
         """Return the scene of some bodies."""
         request, geometry, g = self.request, self.geometry, self.gravity
         if self.fates is not None:
             bodies.fields.update(fields_of_fates(bodies, self.fates))
-        first, time = busiest(bodies), request.time
+        first, time = opening(bodies.shown.sum(axis=1), self.stuck), request.time
         if time is not None:
             first = int(np.argmin(np.abs(bodies.times - time)))
             if not math.isclose(bodies.times[first], time, rel_tol=_TIMES_TOLERANCE, abs_tol=1e-15):
                 log.warning("-time %g s was not written; the nearest is %g s.", time, bodies.times[first])
-        corners = box(geometry, bodies)
+        corners, end = box(geometry, bodies), float(self.run.times[-1])
+        later = self.stuck and bodies.times[first] < end
+        deposits = f"{self.stuck} on walls at {written(end, 's', end)}" if later else ""
         return Scene(
             title=title_of(request.case),
             subtitle=self.run.name,
@@ -191,7 +202,7 @@ class _Background:
             first=first,
             flow=self.flow,
             gravity=g / (float(np.linalg.norm(g)) or 1.0),
-            groups=self.groups,
+            groups=", ".join(filter(None, (self.groups, deposits))),
         )
 
 
@@ -221,15 +232,13 @@ def make_scene(request: Request, run: Run, frames: Sequence[int], *, drawn: bool
 
 
 def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
-    """Return the scene of one time, by default with most bodies; its colours span all times.
+    """Return the scene of one time, by default the opening one; its colours span all times.
 
     Without ``request.bodies`` it has at most ``most`` bodies, evenly spread over their numbers.
     """
     name, part = require_array(run, request.colour)
     shown, values = survey(run, name, part)
-    frame = (
-        len(shown) - 1 - int(np.argmax(shown[::-1])) if request.time is None else run.nearest(request.time)
-    )
+    frame = opening(shown, stuck_at_end(run)) if request.time is None else run.nearest(request.time)
     if request.bodies is None and shown[frame] > most:
         request = replace(request, bodies=most)
         log.info("The picture has %d of %d bodies.", most, shown[frame])
@@ -288,6 +297,7 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
         direction,
         g,
         groups_of(record),
+        stuck_at_end(run),
     )
 
 
@@ -296,17 +306,13 @@ def groups_of(record: Record) -> str:
     parts, models = [], [dict[str, Any](injection) for injection in record.get("injections", ())]
     for label, key in (("Ca", "capillary"), ("Re", "reynolds")):
         values = [value for model in models for value in model.get(key, ()) if value is not None]
-        ends = sorted({_short(value) for value in (min(values), max(values))}, key=float) if values else ()
+        ends = dict.fromkeys(number(value, 3) for value in (min(values), max(values))) if values else ()
         parts += [f"{label} {' to '.join(ends)}"] if ends else []
     fluid = record.get("fluid", {})
     if isinstance(mu := fluid.get("mu"), int | float):
-        parts.append(f"fluid {_short(1e3 * mu)} mPa s")
-    parts += [f"{_short(fluid['rho'])} kg/m³"] if fluid.get("rho") else []
+        parts.append(f"fluid {number(1e3 * mu, 3)} mPa s")
+    parts += [f"{number(fluid['rho'])} kg/m³"] if fluid.get("rho") else []
     return ", ".join(parts)
-
-
-def _short(value: float) -> str:
-    return re.sub(r"e([-+])0", r"e\1", f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}")
 
 
 def title_of(case: Path) -> str:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from itertools import combinations
 
 import numpy as np
 import pytest
+from matplotlib.font_manager import FontProperties
+from paths import ROOT
 
-from foamprb.view.colours import MAPS, colour_map, rgb
+from foamprb.view.colours import MAPS, colour_map, font_file, rgb
+from foamprb.view.report import plots
 from foamprb.view.report.plots import FATES
 
 BLINDNESS = {
@@ -54,3 +58,10 @@ def test_colours_of_fates_differ(kind):
     """By seven times what can just be seen, a CIELAB distance of 2.3; hatches and markers differ, too."""
     colours = lab([rgb(colour) for colour in FATES.values()], kind)
     assert min(np.linalg.norm(a - b) for a, b in combinations(colours, 2)) > 7 * 2.3
+
+
+def test_pages_pictures_and_plots_have_one_typeface():
+    pages = (ROOT / "foamprb/view/page/page.css", ROOT / "foamprb/view/report/page.html")
+    first = {re.search(r'--font: "([^"]+)"', page.read_text(encoding="utf-8"))[1] for page in pages}
+    name = FontProperties(fname=font_file()).get_name()
+    assert {*first, plots._STYLE["font.family"], name} == {name}

@@ -25,12 +25,12 @@ from foamprb.view.scene import (
     PERCENTILES,
     VIEW_ANGLE,
     automatic_enlargement,
-    busiest,
     camera_for,
     limits_of,
+    opening,
     principal_axes,
 )
-from foamprb.view.show import Request, groups_of, make_scene, spread
+from foamprb.view.show import Request, groups_of, make_scene, make_still, spread
 
 EMPTY = Bodies(
     times=np.zeros(1),
@@ -154,14 +154,16 @@ class TestCamera:
         x = bodies.x.copy()
         x[..., 0] += 70.0
         moved = replace(bodies, x=x)
-        camera = camera_for(geometry, moved, busiest(moved), np.array([0.0, -9.81, 0.0]))
+        camera = camera_for(
+            geometry, moved, int(moved.shown.sum(axis=1).argmax()), np.array([0.0, -9.81, 0.0])
+        )
         assert 68.0 < camera.focus[0] < 73.0
         np.testing.assert_allclose(camera.up, [0.0, 1.0, 0.0])
 
     def test_a_step_of_six_widths_opens_whole(self, bodies):
         """All of it is visible, though the bodies lie in a part."""
         geometry = slab((6.0, 1.0, 0.01))._replace(flat=np.array([0.0, 0.0, 1.0]))
-        camera = camera_for(geometry, bodies, busiest(bodies), np.zeros(3))
+        camera = camera_for(geometry, bodies, int(bodies.shown.sum(axis=1).argmax()), np.zeros(3))
         np.testing.assert_allclose(camera.focus[:2], [3.0, 0.5])
         assert camera.distance(2.0) * 2.0 * math.tan(math.radians(VIEW_ANGLE / 2)) > 3.0
 
@@ -254,6 +256,9 @@ class TestNumbers:
             (2560.0, "kg/m3", 2560.0, "2560 kg/m³"),
             (0.3, "", 0.3, "0.3"),
             (0.0, "m", 0.0, "0 m"),
+            (-1.5e-5, "1/s", 1.5e-5, "−1.5 × 10⁻⁵ 1/s"),
+            (12345.6, "1/s", 2e4, "12350 1/s"),
+            (1.23456e7, "", 2e7, "1.235 × 10⁷"),
         ],
     )
     def test_numbers_with_units(self, value, unit, most, text):
@@ -311,11 +316,21 @@ def test_enlargement_makes_bodies_visible_but_not_overlapping(bodies):
     assert size / 50.0 * automatic_enlargement(many, sides) < 0.05
 
 
-def test_the_busiest_time_is_the_last_of_the_fullest(bodies):
-    number = bodies.shown.sum(axis=1)
-    k = busiest(bodies)
-    assert number[k] == number.max()
-    assert (number[k + 1 :] < number[k]).all()
+def test_deposits_open_at_the_last_time_and_others_at_the_fullest():
+    shown = np.array([1, 7, 7, 4])
+    assert opening(shown, 0) == opening(shown, 3) == 2
+    assert opening(shown, 4) == 3
+    assert opening(np.zeros(3, dtype=int), 0) == 2
+
+
+def test_deposits_after_the_first_time_shown_are_named(tmp_path):
+    case = tmp_path / "case"
+    write_run(case, motion(6, 4))
+    run = open_run(case)
+    scene = make_scene(Request(case), run, range(4))
+    assert (scene.bodies.times[scene.first], scene.groups) == (pytest.approx(0.2), "1 on walls at 300 ms")
+    assert make_scene(Request(case, time=0.3), run, range(4)).groups == ""
+    assert make_still(Request(case), run).groups == scene.groups
 
 
 @given(st.integers(1, 300), st.integers(1, 300))
@@ -336,5 +351,5 @@ def test_the_caption_has_the_groups_and_the_fluid():
         ],
         "fluid": {"mu": 1.8e-5, "rho": 1.208},
     }
-    assert groups_of(record) == "Ca 0.02 to 2, Re 1e-5, fluid 0.018 mPa s, 1.21 kg/m³"
+    assert groups_of(record) == "Ca 0.02 to 2, Re 1 × 10⁻⁵, fluid 0.018 mPa s, 1.208 kg/m³"
     assert groups_of({}) == ""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from foamprb.results.atomic import atomic_write, refuse_other_kind, write_text
+from foamprb.view.colours import number
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, page, table
 from foamprb.view.show import PAGE_BEGINS
@@ -48,7 +49,7 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
         plot = plots.dots(seen, predicted, (f"{name}, measured", unit), ("predicted", unit), line=True)
         compared.append(drawn(f"{name}Predicted", plot, f"{name}, predicted over measured."))
     numbers = [
-        (name, int(n), *(f"{value:.4g}" for value in values))
+        (name, int(n), *(number(value) for value in values))
         for name, n, *values in zip(*fits.population.values(), strict=True)
     ]
     heads = ("property", "bodies", "median", "from", "to", "deviation of ln", "from", "to")

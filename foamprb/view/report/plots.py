@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.optional import load
-from foamprb.view.colours import NAMES, readable
+from foamprb.view.colours import NAMES, number, readable
 from foamprb.view.report.deposits import FEW, Deposits
 
 Floats = NDArray[np.float64]
@@ -33,7 +33,7 @@ _LONGEST_STRIP, _MOST_STRIPS = 6.0, 6
 _ROLES = {_INK: "currentColor", _SOFT: "var(--soft)", _PAPER: "var(--paper)"}
 _STYLE: Any = {
     "font.size": 10.0,
-    "font.family": "sans-serif",
+    "font.family": "DejaVu Sans",
     "svg.fonttype": "none",
     # Names of patches may contain dollars.
     "text.parse_math": False,
@@ -85,6 +85,11 @@ def _plot(draw: Callable[[Any, Any], None], height: float = 3.2) -> Plot:
         figure = load("matplotlib.figure").Figure(figsize=(6.4, height), layout="constrained")
         load("matplotlib.backends.backend_agg").FigureCanvasAgg(figure)
         draw(figure, figure.add_subplot())
+        ticker = load("matplotlib.ticker")
+        for axes in figure.axes:
+            for axis in (axes.xaxis, axes.yaxis):
+                if isinstance(axis.get_major_formatter(), ticker.ScalarFormatter):
+                    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: number(value)))
         figure.draw_without_rendering()
         # The layout is found once, not for each file.
         figure.set_layout_engine("none")
@@ -243,8 +248,8 @@ def dots(
         axes.set(xlabel=_label(x_axis[0], nx), ylabel=_label(y_axis[0], ny))
         if log:
             axes.set_yscale("log")
-            # Powers would be formulas, which labels do not have.
-            plain = load("matplotlib.ticker").FuncFormatter(lambda value, _: f"{value:g}")
+            # matplotlib's powers would be formulas, which labels do not have.
+            plain = load("matplotlib.ticker").FuncFormatter(lambda value, _: number(value))
             axes.yaxis.set_major_formatter(plain)
             axes.yaxis.set_minor_formatter(plain)
 

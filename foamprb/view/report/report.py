@@ -27,7 +27,7 @@ from foamprb.results.manifest import Manifest
 from foamprb.results.reading import reading
 from foamprb.results.record import RECORD_FORMAT
 from foamprb.run.validity import COLUMNS, limits_of
-from foamprb.view.colours import DARK, LIGHT, with_interval, written
+from foamprb.view.colours import DARK, LIGHT, number, with_interval, written
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
 from foamprb.view.report import plots
@@ -168,8 +168,8 @@ def _geometry(case: Path, source: FlowSource) -> Geometry | None:
 
 def _subtitle(run: Run) -> str:
     version = run.record.get("versions", {}).get("foamprb")
-    made = f"foamprb {version}, " if version else ""
-    return f"{made}{len(run.times)} written times, to {run.times[-1]:g} s"
+    made, end = f"foamprb {version}, " if version else "", float(run.times[-1])
+    return f"{made}{len(run.times)} written times, to {written(end, 's', end)}"
 
 
 def _cards(fates: Table) -> list[tuple[str, str]]:
@@ -183,7 +183,7 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
     ]
     D = fates.get("maxD", np.zeros(0))
     if np.isfinite(D).any():
-        cards.append((f"{np.nanmax(D):.3g}", "largest D on the paths"))
+        cards.append((number(np.nanmax(D), 3), "largest D on the paths"))
     return cards
 
 
@@ -196,8 +196,9 @@ def _drawn(scene: Scene) -> str:
         for style in (LIGHT, DARK):
             picture(scene, file, _PICTURE, style)
             drawn.append(file.read_bytes())
+    time = float(scene.bodies.times[scene.first])
     caption = (
-        f"Bodies at {scene.bodies.times[scene.first]:g} s, drawn {scene.enlargement:.3g} times larger, "
+        f"Bodies at {written(time, 's', time)}, drawn {number(scene.enlargement, 3)} times larger, "
         f"coloured by {scene.colour[0]}."
     )
     return image(drawn[0], drawn[1], caption)
@@ -272,7 +273,7 @@ def _deposition(report: _Report) -> PageSection | None:
         "Deposits",
         ("wall", "particles", "area [m²]", "mean density [1/m²]", "largest density [1/m²]"),
         [
-            (name, wall.number, *(f"{value:.4g}" for value in (wall.area, *densities[name])))
+            (name, wall.number, *(number(float(value)) for value in (wall.area, *densities[name])))
             for name, wall in walls.items()
         ],
     )
@@ -356,13 +357,20 @@ def _largest(report: _Report) -> str:
         values, limit = fates[name][np.isfinite(fates[name])], limits.get(name)
         if not len(values):
             continue
-        beyond = f"{100.0 * np.mean(values > limit):.3g} % beyond {limit:g}" if limit else ""
-        rows.append((text, *(f"{q:.3g}" for q in np.quantile(values, (0.5, 0.99, 1.0))), beyond))
+        share = 100.0 * float(np.mean(values > (limit or np.inf)))
+        beyond = f"{number(share, 3)} % beyond {number(limit)}" if limit else ""
+        rows.append((text, *(number(q, 3) for q in np.quantile(values, (0.5, 0.99, 1.0)).tolist()), beyond))
     gap = fates["minGap"]
     if (gap < NEAR).any():
         gap = np.minimum(gap[fates["fate"] != "pending"], NEAR)
-        near = f"{100.0 * np.mean(gap < NEAR):.3g} % below {NEAR:g}"
-        rows.append(("smallest gap/radius", *(f"{q:.3g}" for q in np.quantile(gap, (0.5, 0.01, 0.0))), near))
+        near = f"{number(100.0 * float(np.mean(gap < NEAR)), 3)} % below {number(NEAR)}"
+        rows.append(
+            (
+                "smallest gap/radius",
+                *(number(q, 3) for q in np.quantile(gap, (0.5, 0.01, 0.0)).tolist()),
+                near,
+            )
+        )
     return table("Largest values on the paths", ("", "median", "1 in 100 beyond", "extreme", "share"), rows)
 
 
@@ -394,17 +402,17 @@ def _along_paths(report: _Report) -> PageSection | None:
     # A path through a coupled patch has several parts.
     tracked = np.unique(ids)
     numbers = report.paths or [int(tracked[k]) for k in spread(len(tracked), _PATHS)]
-    if missing := [number for number in numbers if number not in ids]:
+    if missing := [one for one in numbers if one not in ids]:
         raise InputError(
             f"-paths: particleTracks has no path of particle {missing[0]}; it has {len(tracked)} paths, "
             f"among them of {', '.join(map(str, tracked[:5]))}."
         )
     lines, rates = [], []
-    for number in numbers:
-        rows = np.repeat(ids == number, np.diff(paths.start))
+    for one in numbers:
+        rows = np.repeat(ids == one, np.diff(paths.start))
         t, D, rate = (values[rows] for values in paths.values.values())
-        lines.append((f"particle {number}", t - t[0], D))
-        rates.append((f"particle {number}", t - t[0], rate))
+        lines.append((f"particle {one}", t - t[0], D))
+        rates.append((f"particle {one}", t - t[0], rate))
     which = "chosen by -paths" if report.paths else "evenly spread over their numbers; -paths chooses others"
     x = ("time since release t", "s")
     D_plot, rate_plot = plots.curves(lines, x, ("D", "1")), plots.curves(rates, x, ("γ̇", "1/s"))
@@ -425,15 +433,19 @@ def _record(report: _Report) -> PageSection | None:
     if record.get("format") != RECORD_FORMAT:
         return None
     fluid, models, time, mesh = record["fluid"], record["models"], record["time"], record["mesh"]
-    nu = _range(fluid["nu"]) if isinstance(fluid["nu"], list) else f"{fluid['nu']:g}"
-    g = " ".join(f"{c:g}" for c in fluid["gravity"])
+    nu = _range(fluid["nu"]) if isinstance(fluid["nu"], list) else number(fluid["nu"])
+    g = " ".join(number(c) for c in fluid["gravity"])
     facts = [
         ("versions", ", ".join(f"{name} {number}" for name, number in record["versions"].items())),
         ("mesh", ", ".join(f"{n} {part}" for part, n in mesh.items()) or "none"),
         ("flow", "changes in time" if time["transient"] else "steady"),
         ("∇u between cells", _jumps(record["flow"].get("gradientJump") or ())),
-        ("fluid", f"ρ = {fluid['rho']:g} kg/m³, ν = {nu} m²/s, g = ({g}) m/s²"),
-        ("time", f"{time['start']:g} to {time['end']:g} s, {time['steps']} steps of {time['deltaT']:g} s"),
+        ("fluid", f"ρ = {number(fluid['rho'])} kg/m³, ν = {nu} m²/s, g = ({g}) m/s²"),
+        (
+            "time",
+            f"{number(time['start'])} to {number(time['end'])} s, {time['steps']} steps of "
+            f"{number(time['deltaT'])} s",
+        ),
         ("solid", models["solid"]),
         ("shape", models.get("shape", "affine")),
         ("traction, drag", f"{models['traction']}, {models['drag']}"),
@@ -463,7 +475,7 @@ def _named(models: Mapping[str, str]) -> str:
 
 
 def _range(ends: Sequence[float | None]) -> str:
-    return "–".join("?" if end is None else f"{end:.3g}" for end in ends)
+    return "–".join("?" if end is None else number(end, 3) for end in ends)
 
 
 def _files(report: _Report, target: Path, beside: Path) -> PageSection:
