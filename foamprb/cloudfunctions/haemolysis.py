@@ -234,6 +234,8 @@ class Haemolysis(PathFunction):
             flow, l = cloud.cloud.flow, steps.both("l")[end]
             mu_f = viscosity_of(cloud.cloud.medium.mu, flow, x, steps.hosts[end], l, steps.t[end])
             mu[end] = mu_f if self.mu is None else self.mu
+        # A step that a coupled patch divides has a host at one of its ends only.
+        mu = np.where(np.isnan(mu), mu[::-1], mu)
         law = self.law.alpha / self.law.beta, self.f1, self.f2
         kind, pores = _KINDS.index(self.stress), int(self.constants == "pores")
         sums = memory["dose"], memory["peak"], memory["cell"]

@@ -151,13 +151,16 @@ def _stress_at_ends(cloud: ObservedCloud, steps: Steps) -> Floats:
     """
     F0, F1 = steps.both("F")
     h, A0 = np.subtract(*steps.t[::-1])[:, None], steps.rate
+    # A step that a coupled patch divides has a host at one of its ends only.
+    first, last = steps.hosts
+    hosts = np.where(first < 0, last, first), np.where(last < 0, first, last)
     A1 = 2.0 * (F1 - F0) / h - A0
     values = []
     for end, (F, A) in enumerate(((F0, A0), (F1, A1))):
         p = cloud.particles.take(steps.row)
         p = p._replace(F=np.ascontiguousarray(F), A=np.ascontiguousarray(A), Q=steps.both("Q")[end].copy())
         l = steps.both("l")[end]
-        mu = viscosity_of(cloud.cloud.medium.mu, cloud.cloud.flow, p.x, steps.hosts[end], l, steps.t[end])
+        mu = viscosity_of(cloud.cloud.medium.mu, cloud.cloud.flow, p.x, hosts[end], l, steps.t[end])
         fluid = FlowSamples(np.full((steps.n, 3), np.nan), l.copy(), np.broadcast_to(mu, steps.n))
         J, S = cloud.of(p).measure_in(fluid, "J", "stresslet")
         values.append(np.concatenate([(4.0 / 3.0 * math.pi * p.R**3 * J)[None], S.T]))

@@ -46,7 +46,10 @@ def viscosity(flow: Any, host: int, x: Vector, t: float) -> tuple[float, Vector]
 def viscosity_with(
     kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float | Floats
 ) -> Floats:
-    """Return the field of the viscosity at points (n, 3) in hosts (n,), by a kernel and its arrays, (n,)."""
+    """Return the field of the viscosity at points (n, 3) in hosts (n,), by a kernel and its arrays, (n,).
+
+    NaN in host −1.
+    """
     points, found = np.ascontiguousarray(points, dtype=np.float64), np.empty(len(points))
     hosts = np.ascontiguousarray(hosts, dtype=np.int32)
     link(_viscosity_all, {"viscosity": kernel})(arrays, points, hosts, _times(t, len(points)), found)
@@ -59,7 +62,9 @@ def _times(t: float | Floats, n: int) -> Floats:
 
 def _viscosity_all(flow: Any, points: Floats, hosts: Ints, t: Floats, found: Floats) -> None:
     for i in range(points.shape[0]):
-        found[i], _ = viscosity(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t[i])
+        found[i] = np.nan
+        if hosts[i] >= 0:
+            found[i], _ = viscosity(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t[i])
 
 
 def with_velocity(faces: PatchFaces, flow: Sampled, t: float) -> PatchFaces:

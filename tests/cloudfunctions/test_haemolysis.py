@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from mesh_shapes import cyclic_row
 from observing import (
     MEAN,
     RADIUS,
@@ -28,6 +29,7 @@ from foamprb.cloud.patches import Cyclic, Stick
 from foamprb.cloud.paths import step
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
+from foamprb.cloud.viscosity import FieldViscosity
 from foamprb.cloud.viscosity import PowerLaw as PowerLawFluid
 from foamprb.cloudfunctions.haemolysis import (
     POWER_LAWS,
@@ -40,6 +42,7 @@ from foamprb.cloudfunctions.haemolysis import (
 )
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
+from foamprb.flow.meshflow import MeshFlow
 
 
 @pytest.mark.parametrize("name", POWER_LAWS)
@@ -53,6 +56,27 @@ def test_a_path_of_constant_stress(name, tmp_path):
     A, alpha, beta = POWER_LAWS[name][:3]
     tau = WATER.mu * 4.0 * MEAN * r / RADIUS**2
     np.testing.assert_allclose(column(rows, "haemolysis"), A * tau**alpha * (p.t - p.t0) ** beta, rtol=1e-5)
+
+
+def test_a_path_through_coupled_patches_in_a_field_of_the_viscosity(tmp_path):
+    """A step that they divide has no host at the patch."""
+    mesh, rate = cyclic_row(0.0, 1), 5e4
+    l = np.zeros((3, 3))
+    l[0, 2] = rate
+    flow = MeshFlow(
+        mesh,
+        mesh.nodes @ l.T,
+        np.tile(l, (len(mesh.nodes), 1, 1)),
+        viscosity=np.tile([2.0, 0.0, 0.0, 0.0], (len(mesh.nodes), 1)),
+    )
+    p = spheres([[0.6, 0.5, 0.5], [0.1, 0.4, 0.4]], d=1e-5, rho=1e3, mu=1e6)
+    medium = WATER._replace(mu=FieldViscosity(factor=1e-3, mean=1.0))
+    walls = [Cyclic() if patch.neighbour else Stick() for patch in flow.patches]
+    cloud = Cloud(p, flow, medium, walls, 1.5e-5, Models(integrator="stokes", rebounds=True))
+    observe(cloud, Haemolysis(constants="Song"), tmp_path)
+    A, alpha, beta = POWER_LAWS["Song"][:3]
+    damage = column(table(tmp_path / "f/haemolysis.csv"), "haemolysis")
+    np.testing.assert_allclose(damage, A * (2e-3 * rate) ** alpha * cloud.time**beta, rtol=1e-5)
 
 
 def test_the_constants_are_those_of_the_papers():
