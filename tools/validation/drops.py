@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.optimize import brentq
 
+from foamprb.body.morphology import drop_growth
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import drops as drops_at
@@ -18,6 +20,7 @@ from validation.references.shear import SHEAR
 from validation.runs import advance_to, follow, measures
 
 ODE = "equation of S by LSODA"
+GRACE = "Grace (1982), in the fit of de Bruijn (1989)"
 RATIOS, NUMBERS = (0.1, 1.0, 5.0), np.array([0.1, 0.2, 0.3])
 
 
@@ -127,6 +130,23 @@ def _stress(flow: Flow, Ca: float, ratio: float) -> Floats:
     return np.asarray(measures(cloud)["stresslet"][0] / (4.0 / 3.0 * np.pi))
 
 
+def _breakup() -> list[Row]:
+    """Compare the capillary numbers in simple shear beyond which a drop has no steady shape."""
+    rows = []
+    for ratio in (0.1, 0.3, 1.0, 2.0, 3.0):
+
+        def excess(Ca: float, ratio: float = ratio) -> float:
+            growing, limit = drop_growth(tuple(SHEAR.ravel()), ratio, Ca)
+            return float(np.linalg.eigvals(np.reshape(growing, (3, 3))).real.max() - limit)
+
+        log = np.log10(ratio)
+        measured = 10.0 ** (-0.506 - 0.0994 * log + 0.124 * log**2 - 0.115 / (log - np.log10(4.08)))
+        title = f"λ = {ratio:g}: critical Ca in simple shear"
+        ours = float(brentq(excess, 1e-3, 50.0))
+        rows.append(Row(title, ours, float(measured), GRACE, 0.3, relative=True, kind="measured"))
+    return rows
+
+
 def steady(quick: bool) -> Outcome:
     """Drops in shear flow."""
     rows: list[Row] = []
@@ -136,6 +156,7 @@ def steady(quick: bool) -> Outcome:
         rows += more
         curves += lines
         rows += [*_settling(ratio), *_normal_stresses(ratio)]
+    rows += _breakup()
     more, lines = _transient(quick)
     figure = Figure(
         "drops",
@@ -147,5 +168,5 @@ def steady(quick: bool) -> Outcome:
 
 _REMARK = (
     "The model of Maffettone and Minale (1998) is compared with an independent solution of its equation, and "
-    "with the exact results for nearly round drops. Their paper compares it with experiments."
+    "with the exact results for nearly round drops; breakup with the experiments of Grace."
 )
