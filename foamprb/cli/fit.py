@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -84,7 +85,8 @@ def execute(arguments: argparse.Namespace) -> int:
         log.info("    %d: %s", count, reason)
     rows = zip(*fits.population.values(), strict=True)
     for name, _, median, low, high, *_ in rows:
-        log.info("%s: median %.4g, 95 %% interval %.4g to %.4g", name, median, low, high)
+        interval = "" if math.isnan(low) else f", 95 % interval {low:.4g} to {high:.4g}"
+        log.info("%s: median %.4g%s", name, median, interval)
     page = write_fit_page(fits, fits.folder / "fit.html")
     log.info("Page: %s", page)
     return show_page(arguments, page)

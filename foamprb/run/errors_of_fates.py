@@ -66,7 +66,7 @@ def estimate_errors(job: Job) -> Iterator[Change]:
     runs = [(what, replace(job.settings, solution=finer), flow)]
     if type(flow) is MeshFlow:
         runs += [
-            (f"grad U {word} by its jumps between cells", job.settings, flow.with_jumps(sign))
+            (f"grad U {word} by its jumps between cells, same U", job.settings, flow.with_jumps(sign))
             for word, sign in (("larger", 1.0), ("smaller", -1.0))
         ]
     for what, settings, around in runs:

@@ -20,6 +20,7 @@ from foamprb.cloud.viscosity import viscosity_at_rate
 from foamprb.errors import InputError, RunInterrupted, suggestion
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import write_text
+from foamprb.results.intervals import quantile
 from foamprb.results.tables import read_table, write_table
 from foamprb.run.compilation import compile_run
 from foamprb.run.device import UNKNOWNS, Bodies, Device, plane_of, spread, view_of
@@ -48,7 +49,7 @@ _CURVED = 1.0
 _BULLET = 0.26
 """Largest amplitude of the quadratic mode, which is of first order; its deformation is 0.05."""
 _WALLS = "it is away from the axis of the channel, or too large for it"
-_RESAMPLES = 1000
+_RESAMPLES, _AT_ONCE = 1000, 20
 _TEXTS = ("id", "reason")
 
 
@@ -353,32 +354,20 @@ class _Batch:
 
 
 def _population(table: Mapping[str, NDArray[Any]], unknown: Sequence[str]) -> dict[str, NDArray[Any]]:
-    """Return median and spread of each property with 95 % intervals by resampling the bodies."""
-    random = np.random.default_rng(0)
+    """Return median and spread of each property with 95 % intervals; that of the spread by resampling."""
+    from scipy.stats import bootstrap
+
     rows = []
     for name in unknown:
-        values = table[name][np.isfinite(table[name]) & (table["reason"] == "")]
-        if not len(values):
-            rows.append([0.0] + 6 * [math.nan])
-            continue
-        samples = np.empty((_RESAMPLES, 2))
-        logs = np.log(values)
-        for k in range(_RESAMPLES):
-            drawn = logs[random.integers(0, len(logs), len(logs))]
-            samples[k] = np.median(drawn), drawn.std()
-        (median_low, spread_low), (median_high, spread_high) = np.quantile(samples, (0.025, 0.975), axis=0)
-        median, spread = math.exp(float(np.median(logs))), float(logs.std())
-        rows.append(
-            [
-                len(values),
-                median,
-                math.exp(median_low),
-                math.exp(median_high),
-                spread,
-                spread_low,
-                spread_high,
-            ]
-        )
+        logs = np.log(table[name][np.isfinite(table[name]) & (table["reason"] == "")])
+        spread = low = high = math.nan
+        if len(logs):
+            spread = float(logs.std())
+        if len(logs) > 1:
+            low, high = bootstrap(
+                (logs,), np.std, n_resamples=_RESAMPLES, batch=_AT_ONCE, method="percentile", rng=0
+            ).confidence_interval
+        rows.append((len(logs), *np.exp(quantile(logs)), spread, float(low), float(high)))
     heads = ("bodies", "median", "medianLow", "medianHigh", "sdLog", "sdLogLow", "sdLogHigh")
     columns = dict(zip(heads, np.array(rows).T, strict=True))
     return {"property": np.array(list(unknown)), **columns, "bodies": columns["bodies"].astype(np.int64)}

@@ -49,7 +49,7 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
         plot = plots.dots(seen, predicted, (f"{name}, measured", unit), ("predicted", unit), line=True)
         compared.append(drawn(f"{name}Predicted", plot, f"{name}, predicted over measured."))
     numbers = [
-        (name, int(n), *(number(value) for value in values))
+        (name, int(n), *("" if np.isnan(value) else number(value) for value in values))
         for name, n, *values in zip(*fits.population.values(), strict=True)
     ]
     heads = ("property", "bodies", "median", "from", "to", "deviation of ln", "from", "to")
