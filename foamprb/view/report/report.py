@@ -357,20 +357,15 @@ def _largest(report: _Report) -> str:
         values, limit = fates[name][np.isfinite(fates[name])], limits.get(name)
         if not len(values):
             continue
-        share = 100.0 * float(np.mean(values > (limit or np.inf)))
-        beyond = f"{number(share, 3)} % beyond {number(limit)}" if limit else ""
+        part = share(int(np.count_nonzero(values > (limit or np.inf))), len(values)).percent()
+        beyond = f"{part} beyond {number(limit)}" if limit else ""
         rows.append((text, *(number(q, 3) for q in np.quantile(values, (0.5, 0.99, 1.0)).tolist()), beyond))
     gap = fates["minGap"]
     if (gap < NEAR).any():
         gap = np.minimum(gap[fates["fate"] != "pending"], NEAR)
-        near = f"{number(100.0 * float(np.mean(gap < NEAR)), 3)} % below {number(NEAR)}"
-        rows.append(
-            (
-                "smallest gap/radius",
-                *(number(q, 3) for q in np.quantile(gap, (0.5, 0.01, 0.0)).tolist()),
-                near,
-            )
-        )
+        near = f"{share(int(np.count_nonzero(gap < NEAR)), len(gap)).percent()} below {number(NEAR)}"
+        ends = np.quantile(gap, (0.5, 0.01, 0.0)).tolist()
+        rows.append(("smallest gap/radius", *(number(q, 3) for q in ends), near))
     return table("Largest values on the paths", ("", "median", "1 in 100 beyond", "extreme", "share"), rows)
 
 
