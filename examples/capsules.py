@@ -13,6 +13,7 @@ RATE, MU, RADIUS = 100.0, 1e-3, 1e-5  # shear rate, 1/s; viscosity of water, Pa 
 # Steady D by Doddi and Bagchi (2008) and, from 0.15 on, by Ramanujan and Pozrikidis (1998).
 DODDI = {0.0375: 0.083, 0.075: 0.161, 0.15: 0.275, 0.3: 0.392}
 RAMANUJAN = {0.15: 0.261, 0.3: 0.385}
+READING = 0.005  # accuracy with which they are read off figures
 
 capillary = np.concatenate([[1e-3], np.linspace(0.0125, 0.3, 24)])
 surface_modulus = MU * RATE * RADIUS / capillary  # N/m
@@ -35,10 +36,10 @@ for Ca, D in DODDI.items():
 figure, axes = plt.subplots(figsize=(6.4, 3.2), layout="constrained")
 for (nu_s, D), colour in zip(found.items(), ("#009e73", "#0072b2", "#d55e00"), strict=True):
     axes.plot(capillary, D, color=colour, label=f"solid for surface Poisson's ratio {nu_s:.2g}")
-axes.plot(DODDI.keys(), DODDI.values(), "o", color="#0072b2", mfc="none", label="Doddi and Bagchi")
-axes.plot(
-    RAMANUJAN.keys(), RAMANUJAN.values(), "^", color="#0072b2", mfc="none", label="Ramanujan, Pozrikidis"
-)
+for points, marker, name in ((DODDI, "o", "Doddi and Bagchi"), (RAMANUJAN, "^", "Ramanujan, Pozrikidis")):
+    axes.errorbar(
+        list(points), list(points.values()), READING, fmt=marker, color="#0072b2", mfc="none", label=name
+    )
 axes.set(xlabel="surface capillary number Ca_s", ylabel="Taylor deformation D")
 axes.legend(frameon=False, fontsize="small")
 figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "capsules.png", dpi=120)
