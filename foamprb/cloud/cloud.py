@@ -373,7 +373,7 @@ class Cloud:
     def most_steps(self) -> int:
         """Number of steps from the start to the end."""
         steps = (self.end - self.start) / self.dt
-        return math.ceil(steps - _ROUND_OFF) if math.isfinite(steps) else sys.maxsize
+        return max(1, math.ceil(steps - _ROUND_OFF)) if math.isfinite(steps) else sys.maxsize
 
     def take_rebounds(self) -> NDArray[np.float64]:
         """Return the rebounds and passages since the last call, if the models have ``rebounds``.

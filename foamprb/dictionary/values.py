@@ -47,8 +47,8 @@ class Reader(NamedTuple):
     text: str
 
 
-SMALLEST, LARGEST = 1e-100, 1e100
-"""Sizes of numbers whose squares and products can be computed."""
+SMALLEST, LARGEST = 1e-30, 1e30
+"""Sizes of numbers that single precision keeps, and whose products can be computed."""
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 _INTEGER = re.compile(r"[-+]?\d{1,18}", re.ASCII)
 _DIMENSIONED = re.compile(
@@ -62,7 +62,7 @@ def _number(text: str) -> float | None:
         return None
     number = float(text)
     if number and not SMALLEST <= abs(number) <= LARGEST:
-        raise ValueError("whose size is not from 1e-100 to 1e100")
+        raise ValueError("whose size is not from 1e-30 to 1e30")
     return number
 
 

@@ -456,6 +456,6 @@ def _start(settings: Settings, flow: Flow, growing: bool) -> float:
 def _last_step(solution: Solution, start: float) -> tuple[int, float]:
     """Return the number of steps of the run, and the time at which a shorter last step ends, s, or inf."""
     steps = (solution.endTime - start) / solution.deltaT
-    if abs(steps - round(steps)) <= MULTIPLE_TOLERANCE:
-        return max(1, round(steps)), math.inf
+    if abs(steps - round(steps)) <= MULTIPLE_TOLERANCE * min(1.0, steps):
+        return round(steps), math.inf
     return math.ceil(steps), solution.endTime

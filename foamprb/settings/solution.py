@@ -36,6 +36,8 @@ _NO_SOURCES = NoEffect("the particles do not act on the flow")
 _NOT_COUPLED = Only(False, "the particles do not act on the flow")
 _ABOVE_ONE = Bounds(1.0, math.inf, True, True, "a number > 1")
 _FROM_ONE = Bounds(1.0, math.inf, False, True, "a number >= 1")
+_ERROR = Bounds(1e-14, 0.1, False, False, "a number from 1e-14 to 0.1")
+"""Below it round-off is larger; above it the error has no meaning."""
 _OF_CONTROL = "that of `system/controlDict`"
 
 
@@ -71,7 +73,7 @@ class IntegrationSchemes:
         ),
     ] = "auto"
     tolerance: Annotated[
-        float, Positive, Meaning("largest error of a step, for integrators with error control", "1")
+        float, _ERROR, Meaning("largest error of a step, for integrators with error control", "1")
     ] = 1e-4
 
 

@@ -101,7 +101,7 @@ MISTAKES = [
         "solution/writeInterval is 3e-05. Allowed: a multiple of deltaT",
     ),
     ("deltaT ", "maxDeltaT 1e-5; deltaT ", "solution/maxDeltaT is 1e-05. Allowed: at least deltaT = 2e-05."),
-    ("deltaT ", "maxDeltaT 1e90; deltaT ", "solution/maxDeltaT is 1e+90, with deltaT = 2e-05 that is"),
+    ("deltaT ", "maxDeltaT 1e25; deltaT ", "solution/maxDeltaT is 1e+25, with deltaT = 2e-05 that is"),
     (
         "deltaT ",
         "active false; deltaT ",

@@ -98,10 +98,10 @@ def test_a_write_interval_of_the_case_that_does_not_fit_names_its_file(case: Pat
 @pytest.mark.parametrize(
     ("own", "message"),
     [
-        ("deltaT 1e-90; endTime 0.4;", "endTime is 0.4, with deltaT = 1e-90 that is 4e+89 steps"),
-        ("deltaT 1e-5; endTime 1e90;", "endTime is 1e+90, with deltaT = 1e-05 that is 1e+95 steps"),
+        ("deltaT 1e-20; endTime 0.4;", "endTime is 0.4, with deltaT = 1e-20 that is 4e+19 steps"),
+        ("deltaT 1e-5; endTime 1e25;", "endTime is 1e+25, with deltaT = 1e-05 that is 1e+30 steps"),
         ("deltaT 1e-5; endTime 1e11;", "that is 1e+16 steps. Allowed: fewer than 9.01e+15."),
-        ("deltaT 1e-5; endTime 1; writeInterval 1e90;", "writeInterval is 1e+90, with deltaT = 1e-05"),
+        ("deltaT 1e-5; endTime 1; writeInterval 1e25;", "writeInterval is 1e+25, with deltaT = 1e-05"),
     ],
 )
 def test_steps_that_cannot_be_counted_are_refused(read: Reader, own: str, message: str) -> None:
