@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
 
@@ -16,7 +15,7 @@ __all__ = ["QUANTITIES", "Design", "design_of", "index_table", "places_of", "sam
 
 Floats = NDArray[np.float64]
 
-_LEVEL, _RESAMPLES = 0.95, 1000
+_RESAMPLES = 1000
 _FEWEST = 4
 """Fewest rows for which indices are computed."""
 _ROUND_OFF = 1e-12
@@ -117,22 +116,23 @@ def sobol_indices(values: Floats) -> dict[str, list[Any]]:
     Returns
     -------
     The share of the variance that each entry explains by itself, ``first``, and with all its interactions,
-    ``total``; the ends of the intervals of 95 %, ``firstLow``, …, NaN for an entry without effect.
+    ``total``; the ends of the intervals of 95 %, ``firstLow``, ….
     """
+    random, n = np.random.default_rng(0), len(values)
+    indices = _indices(values)
+    resampled = [_indices(values[random.integers(0, n, n)]) for _ in range(_RESAMPLES)]
+    low, high = np.quantile(resampled, (0.025, 0.975), axis=0)
+    return {
+        f"{kind}{end}": of_all[k].tolist()
+        for k, kind in enumerate(("first", "total"))
+        for end, of_all in (("", indices), ("Low", low), ("High", high))
+    }
+
+
+def _indices(values: Floats) -> Floats:
+    """Return the indices of first order and the total ones, (2, d)."""
     from scipy import stats
 
     f: Any = {"f_A": values[None, :, 0], "f_B": values[None, :, -1], "f_AB": values[:, 1:-1].T[:, None]}
-    indices: Any = stats.sobol_indices(func=f, n=len(values), rng=np.random.default_rng(0))
-    with warnings.catch_warnings(), np.errstate(invalid="ignore"):
-        # An entry without effect has indices 0 in all samples.
-        warnings.simplefilter("ignore", stats.DegenerateDataWarning)
-        resampled = indices.bootstrap(_LEVEL, _RESAMPLES)
-    columns: dict[str, list[Any]] = {}
-    for kind, index, spread in (
-        ("first", indices.first_order, resampled.first_order),
-        ("total", indices.total_order, resampled.total_order),
-    ):
-        low, high = spread.confidence_interval
-        for end, column in (("", index), ("Low", low), ("High", high)):
-            columns[f"{kind}{end}"] = np.ravel(column).tolist()
-    return columns
+    indices: Any = stats.sobol_indices(func=f, n=len(values))
+    return np.stack([np.ravel(indices.first_order), np.ravel(indices.total_order)])
