@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import signal
 
 # Workers of pytest-xdist use all cores; more threads of BLAS than cores cost several times the work.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -14,6 +15,9 @@ from hypothesis import HealthCheck, settings
 from hypothesis.database import DirectoryBasedExampleDatabase
 
 from foamprb.body.material import MATERIALS
+
+# A shell may ignore SIGINT in its jobs, and so would programs that a test starts and interrupts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Compiled code and shared machines make single examples slow at times; that is no failure.
 settings.register_profile(

@@ -46,6 +46,13 @@ def case(tmp_path: Path) -> Path:
     return tmp_path / "pipe"
 
 
+@pytest.fixture
+def box(tmp_path: Path) -> Path:
+    """Eight cells, for which the settings are written at once; the fluid is the test's."""
+    write_case(tmp_path / "box", perturbation=0.0, times=("1",))
+    return tmp_path / "box"
+
+
 def test_template_is_accepted_without_warnings(case, capsys):
     assert main(["init", "-case", str(case)]) == 0
     assert main(["run", "-dry-run", "-case", str(case)]) == 0
@@ -153,18 +160,18 @@ def test_without_a_case_or_a_flow(tmp_path, case):
     assert not (case / "constant/softCloudProperties").exists()
 
 
-def test_the_viscosity_of_another_model_is_local(case):
+def test_the_viscosity_of_another_model_is_local(box):
     """By the model that is selected, not by the one beside it; its value is that at the mean shear rate."""
-    (case / "constant/transportProperties").write_text(
+    (box / "constant/transportProperties").write_text(
         "transportModel CrossPowerLaw; CrossPowerLawCoeffs { nu0 nu0 [0 2 -1 0 0 0 0] 0.01; nuInf 10; m 0.4; "
         "n 3; } BirdCarreauCoeffs { nu0 1e-06; nuInf 1e-06; k 0; n 1; }"
     )
-    rate = scales_of(read_flow(case)).shear
-    text = write_template(case).read_text()
+    rate = scales_of(read_flow(box)).shear
+    text = write_template(box).read_text()
     nu = 10.0 - 9.99 / (1.0 + (0.4 * rate) ** 3)
     comment = f"local, by CrossPowerLaw of constant/transportProperties; {nu:.4g} m2/s at {rate:.3g} 1/s"
     assert f"// nu          {comment}" in text
-    fluid = read_settings(case).fluid
+    fluid = read_settings(box).fluid
     assert fluid.mu.at_rate(rate) == pytest.approx(fluid.rho * nu)
 
 
@@ -202,19 +209,19 @@ def latest(case):
     [(0.9, "water", 1e-6, 1000.0, "90 %"), (0.2, "air", 1.48e-5, 1.0, "80 %")],
 )
 def test_the_phase_with_most_volume_at_the_release_counts(
-    case, alpha, main, nu, rho, share, caplog, monkeypatch
+    box, alpha, main, nu, rho, share, caplog, monkeypatch
 ):
     """Not that which the file names first; of one field of two."""
     monkeypatch.setattr("foamprb.run.template.log.propagate", True)
     caplog.set_level("INFO")
-    (case / "constant/transportProperties").write_text(TWO)
-    put_scalar(latest(case), "alpha.water", "0 0 0", alpha)
-    text = write_template(case).read_text()
-    said = f"of {main}, {share} of the inflow at time {latest(case).name}"
+    (box / "constant/transportProperties").write_text(TWO)
+    put_scalar(latest(box), "alpha.water", "0 0 0", alpha)
+    text = write_template(box).read_text()
+    said = f"of {main}, {share} of the inflow at time {latest(box).name}"
     assert re.search(rf"^ +nu +{nu:g}; +// m2/s, {said}$", text, re.MULTILINE)
     assert f"Particles move in {said.removeprefix('of ')}." in caplog.text
     assert text.count("\n    // nu ") == 1
-    fluid = read_settings(case).fluid
+    fluid = read_settings(box).fluid
     assert (fluid.nu, fluid.rho) == (nu, rho)
     assert "// mixture true; // local nu and rho of air and water" in text
 
@@ -251,12 +258,12 @@ def test_the_mixture_that_is_offered_runs(tmp_path, transient, capsys):
     assert "phases" not in said
 
 
-def test_without_fractions_no_phase_is_chosen(case):
-    (case / "constant/transportProperties").write_text(TWO)
-    text = write_template(case).read_text()
+def test_without_fractions_no_phase_is_chosen(box):
+    (box / "constant/transportProperties").write_text(TWO)
+    text = write_template(box).read_text()
     assert "// unknown: the phase of the particles; no field alpha.air" in text
     with pytest.raises(InputError, match=r"nu is missing.*or solution \{ mixture true; \}"):
-        read_settings(case)
+        read_settings(box)
 
 
 MIXTURE = (
@@ -295,14 +302,13 @@ def test_the_phase_of_the_velocity_goes_first(case):
 @pytest.mark.parametrize(
     ("kind", "rho"), [("perfectGas", 3.483), ("incompressiblePerfectGas", 2.322), ("Boussinesq", 1027.0)]
 )
-def test_the_density_is_that_of_the_equation_of_state(case, kind, rho):
+def test_the_density_is_that_of_the_equation_of_state(box, kind, rho):
     """At the means of p and T, in the settings and in a run."""
-    (case / "constant/transportProperties").unlink()
     state = MIXTURE.format(kind=kind).replace("rho 870;", "")
-    (case / "constant/thermophysicalProperties").write_text(state)
-    put_state(case)
-    assert f"// rhoInf      {rho:.4g}: from " in write_template(case).read_text()
-    assert read_settings(case).fluid.rho == pytest.approx(rho, rel=1e-3)
+    (box / "constant/thermophysicalProperties").write_text(state)
+    put_state(box)
+    assert f"// rhoInf      {rho:.4g}: from " in write_template(box).read_text()
+    assert read_settings(box).fluid.rho == pytest.approx(rho, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -319,14 +325,14 @@ def test_the_density_is_that_of_the_equation_of_state(case, kind, rho):
         ("transportModel strainRateFunction; rho 1000;", ["nu"]),
     ],
 )  # fmt: skip
-def test_what_the_case_lacks_is_not_invented(case, dictionary, missing):
+def test_what_the_case_lacks_is_not_invented(box, dictionary, missing):
     """It is in a comment, and an error of a run that names the entry."""
-    (case / "constant/transportProperties").write_text(dictionary)
-    text = write_template(case).read_text()
+    (box / "constant/transportProperties").write_text(dictionary)
+    text = write_template(box).read_text()
     unknown = re.findall(r"// (\w+) +unknown: .*", text)
     assert unknown == missing
     with pytest.raises(InputError) as caught:
-        read_settings(case)
+        read_settings(box)
     for name in missing:
         assert ("rhoInf is missing" if name == "rhoInf" else "nu") in str(caught.value)
     assert ("shearModulus" in text) == ("mu 1e-3" in dictionary)
@@ -334,35 +340,34 @@ def test_what_the_case_lacks_is_not_invented(case, dictionary, missing):
         if name in missing:
             text = re.sub(rf"// {name} +unknown: .*", f"{name} {value};", text)
             assert f"set {name}, " in text
-    (case / "constant/softCloudProperties").write_text(text)
-    assert main(["run", "-dry-run", "-case", str(case)]) == 0
+    (box / "constant/softCloudProperties").write_text(text)
+    assert main(["run", "-dry-run", "-case", str(box)]) == 0
 
 
-def test_the_density_of_an_incompressible_solver_is_assumed_and_said(case, caplog, monkeypatch):
+def test_the_density_of_an_incompressible_solver_is_assumed_and_said(box, caplog, monkeypatch):
     monkeypatch.setattr("foamprb.run.template.log.propagate", True)
     caplog.set_level("INFO")
     for nu, rho, like in ((1e-6, 1000, "water"), (1.5e-5, 1.2, "air")):
-        (case / "constant/transportProperties").write_text(f"transportModel Newtonian; nu {nu};")
-        text = write_template(case).read_text()
+        (box / "constant/transportProperties").write_text(f"transportModel Newtonian; nu {nu};")
+        text = write_template(box).read_text()
         said = f"kg/m3, assumed: the case has no density; like {like}"
         assert re.search(rf"rhoInf +{rho}; +// {said}", text)
         assert f"rhoInf {rho}; // {said}" in caplog.text
-        (case / "constant/softCloudProperties").unlink()
+        (box / "constant/softCloudProperties").unlink()
 
 
-def test_the_viscosity_is_that_of_the_local_temperature(case):
-    (case / "constant/transportProperties").unlink()
-    (case / "constant/thermophysicalProperties").write_text(
+def test_the_viscosity_is_that_of_the_local_temperature(box):
+    (box / "constant/thermophysicalProperties").write_text(
         "rho 1.2; thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
     )
-    (latest(case) / "T").write_text(
+    (latest(box) / "T").write_text(
         header("volScalarField", "T") + "dimensions [0 0 0 1 0 0 0]; internalField uniform 977; "
         'boundaryField { ".*" { type zeroGradient; } }'
     )
     mu = 1.458e-6 * np.sqrt(977.0) / (1.0 + 110.4 / 977.0)
     comment = f"// mu          local, by sutherland at the local T; {mu:.4g} Pa s on average"
-    assert comment in write_template(case).read_text()
-    fluid = read_settings(case).fluid
+    assert comment in write_template(box).read_text()
+    fluid = read_settings(box).fluid
     assert (fluid.field.name, fluid.mu.mean) == ("T", pytest.approx(mu))
 
 

@@ -237,7 +237,7 @@ class TestSize:
         assert len(scene["fields"]) >= 6
 
     def test_of_a_large_run_no_more_times_are_read_than_could_fit(self, tmp_path, monkeypatch):
-        write_run(tmp_path, motion(5000, 100), mesh=False)
+        write_run(tmp_path, motion(5000, 50), mesh=False)
         read = []
         gathered = show.gather
         monkeypatch.setattr(show, "gather", lambda *given: read.append(gathered(*given)) or read[-1])
