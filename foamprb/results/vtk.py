@@ -20,6 +20,7 @@ from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 from foamprb.results.atomic import atomic_write, write_text
+from foamprb.results.vtk_check import seal
 
 _BLOCK_BYTES = 1 << 20
 """Size of a compressed block; VTK's default of 32 kB is slower."""
@@ -218,11 +219,16 @@ def _write_xml(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None 
     # Mantissas of doubles hardly compress, so the slower zlib would gain little.
     writer.SetCompressorTypeToLZ4()
     writer.SetBlockSize(_BLOCK_BYTES)
-    _write(path, writer, source)
+    _write(path, writer, source, seal)
 
 
-def _write(path: Path, writer: Any, source: _Source | None = None) -> None:
-    """Write a file in one step; other threads run while VTK writes."""
+def _write(
+    path: Path,
+    writer: Any,
+    source: _Source | None = None,
+    finish: Callable[[Path], None] = lambda _: None,
+) -> None:
+    """Write a file in one step, and finish it; other threads run while VTK writes."""
     # VTK does not print errors that are observed; the error code gives their reason.
     sources = () if source is None else (source, source.GetExecutive())
     for part in (writer, writer.GetExecutive(), *sources):
@@ -235,6 +241,7 @@ def _write(path: Path, writer: Any, source: _Source | None = None) -> None:
         if written != 1 or writer.GetErrorCode() or not temporary.stat().st_size:
             reason = vtkErrorCode.GetStringFromErrorCode(writer.GetErrorCode())
             raise OSError(f"{path}: VTK could not write this file ({reason}).")
+        finish(temporary)
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from foamprb.results.record import Record, read_record
 from foamprb.results.shapes import DERIVED, SOURCES, derived
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
-from foamprb.results.vtk_check import is_compressed, require_sizes
+from foamprb.results.vtk_check import is_sealed
 from foamprb.view.surfaces import MODE, bulges, unfolded
 
 if TYPE_CHECKING:
@@ -388,10 +388,8 @@ def _require_sound(path: Path) -> None:
     """Refuse a file on which VTK could crash."""
     with reading(path, remedy=_AGAIN):
         for file in files_of(path):
-            if is_compressed(file) and file.suffix == ".vtp":
-                require_sizes(file)
-            else:
-                # Of a cloud in pieces, or written by another program.
+            if not is_sealed(file):
+                # A list of pieces, or a file of another program.
                 require_survival(file)
 
 

@@ -16,7 +16,7 @@ from foamprb.results.folder import ResultsFolder
 from foamprb.results.pieces import XMLPPolyDataReader
 from foamprb.results.pvd import Series, SnapshotFile, files_of, read_pvd
 from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot, write_vtkhdf
-from foamprb.results.vtk_check import require_sizes
+from foamprb.results.vtk_check import is_sealed
 
 
 def assert_equal(read: Any, written: PointCloud) -> None:
@@ -260,13 +260,15 @@ def test_failed_vtkhdf_file_keeps_the_old_file(tmp_path: Path) -> None:
     assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
 
 
-def test_sizes_of_a_file_of_several_pieces_are_checked(tmp_path: Path) -> None:
+def test_a_changed_byte_changes_the_checksum(tmp_path: Path) -> None:
+    """VTK crashed on a wrong number of texts, on texts without an end and on blocks that do not unpack."""
     path = tmp_path / "cloud.vtp"
     write_snapshot(path, in_parts(cloud(0.1, 7), (3, 4)))
-    require_sizes(path)
+    assert is_sealed(path)
     text = path.read_bytes()
-    assert text.count(b"<Piece") > 1
-    last = text.rindex(b'NumberOfPoints="')
-    path.write_bytes(text[:last] + b'NumberOfPoints="9' + text[last + 17 :])
-    with pytest.raises(ValueError, match="bytes of data, not"):
-        require_sizes(path)
+    for at in (0, text.index(b"NumberOfPoints"), text.index(b"<AppendedData") + 40, len(text) - 40):
+        path.write_bytes(text[:at] + bytes([text[at] ^ 1]) + text[at + 1 :])
+        with pytest.raises(ValueError, match="checksum"):
+            is_sealed(path)
+    path.write_bytes(text[:-100])
+    assert not is_sealed(path)
