@@ -109,6 +109,13 @@ def test_every_picture_has_a_name_and_every_id_is_there_once(page):
     assert set(inner) <= set(reader.ids)
 
 
+def test_no_level_of_headings_is_left_out(case):
+    text = write_report(case, case / "warned.html").read_text(encoding="utf-8")
+    levels = [1, *map(int, re.findall(r"<h([1-6])", text))]
+    assert ">Warnings<" in text
+    assert max(np.diff(levels)) <= 1
+
+
 def test_texts_of_a_table_are_escaped():
     text = '<b>a & "b"'
     made = table(text, [text, text], [[text, text]])

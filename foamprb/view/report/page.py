@@ -36,7 +36,7 @@ def page(
         cards="".join(
             f'<li><span class="figures">{html.escape(n)}</span>{html.escape(text)}</li>' for n, text in cards
         ),
-        warnings=f'<div class="warnings"><h3>Warnings</h3><ul>{listed}</ul></div>' if warnings else "",
+        warnings=f'<div class="warnings"><h2>Warnings</h2><ul>{listed}</ul></div>' if warnings else "",
         contents="".join(f'<li><a href="#{s.id}">{html.escape(s.title)}</a></li>' for s in sections),
         sections="\n".join(
             f'<section id="{s.id}" aria-labelledby="{s.id}-title">'
