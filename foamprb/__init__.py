@@ -30,6 +30,7 @@ Particles in a flow:
     spheres             particles at rest, as many as there are positions
     drops               drops at rest, for the material ``drop``
     set_rest_shape      make ellipsoids at rest of them
+    with_relaxation     solids with memory of them
     Particles           the arrays of all particles
     Status              what a particle is doing, or its fate: active, stuck, escaped, failed, ...
     Cloud               particles, the flow that carries them, and the models that act on them

@@ -49,6 +49,9 @@ from .cloud.state import (
 from .cloud.state import (
     spheres as spheres,
 )
+from .cloud.state import (
+    with_relaxation as with_relaxation,
+)
 from .cloud.surroundings.base import Surrounding as Surrounding
 from .cloud.surroundings.brownian import BrownianMotion as BrownianMotion
 from .cloud.surroundings.dispersion import (
@@ -176,6 +179,7 @@ __all__ = [
     "select_times",
     "set_rest_shape",
     "spheres",
+    "with_relaxation",
 ]
 started: float
 __version__: str

@@ -67,6 +67,9 @@ class Material(NamedTuple):
     """Whether it is a drop, whose shape follows :mod:`foamprb.body.morphology`; μ is then σ/R."""
     membrane: bool = False
     """Whether it is a capsule, whose μ is that of :func:`modulus_of_capsule`."""
+    power_law: bool = False
+    """Whether its moduli are the Prony series of a power law (:mod:`foamprb.body.memory`); k is then its
+    exponent."""
     compared: float = 0.94
     """Largest D in a comparison of the model with other results: for solids, Roscoe's exact ones in shear."""
     stress: Stress | None = None
@@ -155,6 +158,9 @@ MATERIALS: dict[str, Material] = {
     "drop": Material(drop_energy, drop_derivatives, liquid=True, compared=0.34),
     "capsule": Material(
         neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, membrane=True, compared=0.3
+    ),
+    "powerLaw": Material(
+        neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, power_law=True
     ),
 }
 """Solids by their names in the settings."""

@@ -42,6 +42,7 @@ from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
 from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.surroundings.base import Survey
+from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.tracker import Models, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
@@ -158,6 +159,7 @@ class Cloud:
             self.stokes_numbers = self._find_stokes_numbers()
             integrator = automatic(max(self.stokes_numbers), self.models.material)
             self.models = replace(self.models, integrator=integrator)
+        self._add_memory()
         check(self.models, tense)
         check_needs(self.models.forces, columns_of(self.flow))
         around = (*model_of(self.medium.mu), *self.models.surroundings)
@@ -188,6 +190,14 @@ class Cloud:
         if self.tracker.stride is None:
             self.tracker.stretch_steps = stretch_in(self._rate_of_change(), self.dt)
         self.comm.rank.tracker = self.tracker
+
+    def _add_memory(self) -> None:
+        """Add the memory of the solid to the models, if the particles have relaxation times."""
+        n_times = max(self.map_ranks(_number_of_times))
+        models = self.models
+        if n_times and not any(isinstance(model, FadingMemory) for model in models.surroundings):
+            memory = FadingMemory(n_times=n_times, power_law=MATERIALS[models.material].power_law)
+            self.models = replace(models, surroundings=(memory, *models.surroundings))
 
     @property
     def stretch_steps(self) -> int:
@@ -657,6 +667,10 @@ def _is_tense(p: Particles) -> bool:
 def is_shaped(p: Particles) -> bool:
     """Return whether a particle at rest is not a sphere."""
     return bool((np.eye(3).ravel() != p.F0).any())
+
+
+def _number_of_times(p: Particles) -> int:
+    return p.n_times
 
 
 def _largest_radius(p: Particles) -> float:

@@ -149,7 +149,7 @@ class Communicator:
         """Return the results of a function of a :class:`Rank` and the arguments on each rank."""
         return [function(self.rank, *arguments)]
 
-    def place(self, size: int, parts: Callable[..., Iterable[Particles]]) -> Particles:  # noqa: ARG002
+    def place(self, size: int, parts: Callable[..., Iterable[Particles]], n_times: int = 0) -> Particles:  # noqa: ARG002
         """Give each rank its particles; return this rank's.
 
         Parameters
@@ -158,6 +158,8 @@ class Communicator:
             Number of particles.
         parts
             Returns the particles in the order of their numbers, at most as many together as its argument.
+        n_times
+            Number of relaxation times of their solid.
         """
         return concatenate(parts())
 

@@ -39,6 +39,8 @@ class Row(NamedTuple):
     lasting: bool = False
     """True if it keeps its value from one step to the next; loaded quantities always do. Other rows are
     computed in each step before they are used."""
+    columns: bool = False
+    """True if its array has columns even where the quantity has one component."""
 
 
 class Layout(NamedTuple):
@@ -185,22 +187,27 @@ def _save(rows: Placed) -> Iterator[str]:
 
 def _prefetch(rows: Placed) -> Iterator[str]:
     # Nine numbers lie on two cache lines at most: read the first and the last.
-    loaded = {row.of: row.components for _, row in rows.values() if row.of}
+    loaded = {row.of: 0 if _is_scalar(row) else row.components for _, row in rows.values() if row.of}
     yield "def prefetch_rows(p, k):"
     yield "    total = 0.0"
     for array, components in loaded.items():
-        ends = ["k"] if components == 1 else ["k, 0", f"k, {components - 1}"]
+        ends = ["k, 0", f"k, {components - 1}"] if components else ["k"]
         yield from (f"    total += p.{array}[{place}]" for place in ends)
     yield "    return total"
+
+
+def _is_scalar(row: Row) -> bool:
+    """Return whether the array of a quantity has no columns."""
+    return row.components == 1 and not row.columns
 
 
 def _copies(placed: Iterable[tuple[int, Row]], copy: str) -> Iterator[str]:
     """Generate lines that copy between lane i and particle k, one loop for each number of components."""
     by_components: dict[int, list[tuple[int, str]]] = {}
     for first, row in placed:
-        by_components.setdefault(row.components, []).append((first, row.of))
+        by_components.setdefault(0 if _is_scalar(row) else row.components, []).append((first, row.of))
     for components, quantities in by_components.items():
-        if components == 1:
+        if components == 0:
             for first, array in quantities:
                 yield "    " + copy.format(lane=f"block[{first} * LANES + i]", array=f"p.{array}[k]")
         else:

@@ -357,6 +357,10 @@ def note_passage(crossed: Any, i: int, t: float, x: Vector, y: Vector) -> None:
     crossed[i, 5], crossed[i, 6], crossed[i, 7] = y[0], y[1], y[2]
 
 
+def mirror_memory(_block: Any, _i: int, _turn: Tensor) -> None:
+    """No-op: the solid has no memory."""
+
+
 def mirror_body(block: Any, i: int, n: Vector) -> Tensor:
     """Mirror the shape of lane i in a plane of normal n; return the reflection."""
     turn = (
@@ -369,6 +373,7 @@ def mirror_body(block: Any, i: int, n: Vector) -> Tensor:
     Q = dot(load9(block, at.frame, i), turn)
     store9(block, at.M, i, dot(turn, dot(load9(block, at.M, i), turn)))
     store9(block, at.F0, i, dot(turn, dot(load9(block, at.F0, i), turn)))
+    mirror_memory(block, i, turn)
     block[at.mirrored * LANES + i] = 1.0
     store9(block, at.frame, i, (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8]))
     return turn

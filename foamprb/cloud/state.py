@@ -165,6 +165,21 @@ class Particles(NamedTuple):
         Variable((3,), "f8", "m", "displacement of the surface of a solid with that mode", optional=True),
     ]
 
+    memoryShares: Annotated[
+        Array,
+        Variable((0,), "f8", "1", "shares of mu that relax, the fastest first", fixed=True, optional=True),
+    ]
+    memoryRates: Annotated[
+        Array, Variable((0,), "f8", "1/s", "their inverse relaxation times", fixed=True, optional=True)
+    ]
+    memory: Annotated[
+        Array,
+        Variable(
+            (0,), "f8", "1", "faded strains D of these shares, 11 22 33 12 13 23 of each", optional=True
+        ),
+    ]
+    """Of a solid with memory these three have columns, see :func:`with_relaxation`."""
+
     largest: Annotated[
         Array, Variable((5,), "f4", "", "largest values on its path: D, 1/s, Pa, 1/(1 + gap/a), ε")
     ]
@@ -176,6 +191,11 @@ class Particles(NamedTuple):
     def size(self) -> int:
         """Number of particles n, the pending included."""
         return len(self.R)
+
+    @property
+    def n_times(self) -> int:
+        """Number of relaxation times of the solid; 0 without memory."""
+        return int(self.memoryRates.shape[1])
 
     @property
     def D(self) -> NDArray[np.float64]:
@@ -230,13 +250,20 @@ VARIABLES: dict[str, Variable] = {
     name: hint.__metadata__[0] for name, hint in get_type_hints(Particles, include_extras=True).items()
 }
 
+_PER_TIME = {"memoryShares": 1, "memoryRates": 1, "memory": 6}
+"""Columns for each relaxation time of a solid."""
+
 CHANGING = tuple(name for name, variable in VARIABLES.items() if not variable.fixed)
 """Names of the arrays that the particle loop changes."""
 
 
-def empty(n: int) -> Particles:
-    """Return n pending spheres at rest, at the origin, with zero size and stiffness."""
+def empty(n: int, n_times: int = 0) -> Particles:
+    """Return n pending spheres at rest, at the origin, with zero size and stiffness.
+
+    ``n_times`` is the number of relaxation times of their solid.
+    """
     arrays = {name: np.zeros((n, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}
+    arrays |= {name: np.zeros((n, m * n_times)) for name, m in _PER_TIME.items()}
     arrays["F"][:] = arrays["F0"][:] = arrays["Q"][:] = np.eye(3).ravel()
     arrays["patch"][:] = -1
     arrays["host"][:] = -1
@@ -335,3 +362,37 @@ def set_rest_shape(
     E = np.broadcast_to(np.asarray(axes, dtype=float), (p.size, 3, 3))
     stretches = a / np.cbrt(a.prod(axis=1, keepdims=True))
     p.F[:] = p.F0[:] = np.einsum("nai,na,naj->nij", E, stretches, E).reshape(-1, 9)
+
+
+def with_relaxation(p: Particles, moduli: Any, times: Any, n_times: int | None = None) -> Particles:
+    """Return particles whose solid has relaxing moduli beside those that it has, at rest for a long time.
+
+    The shear modulus of sudden strains, :attr:`Particles.mu`, is the sum of all; that of small strains is
+    mu₀ + Σ G_k exp(−t/T_k), with mu₀ that of ``p``. Poisson's ratio is kept.
+
+    Parameters
+    ----------
+    p
+        Particles without relaxing moduli.
+    moduli
+        G_k, (m,) or (n, m), Pa.
+    times
+        T_k, (m,), s.
+    n_times
+        Columns of the arrays of the memory, m by default.
+
+    Examples
+    --------
+    >>> p = spheres([[0.0, 0.0, 0.0]], d=5e-6, rho=1050.0, mu=100.0)
+    >>> p = with_relaxation(p, [200.0, 100.0], [1e-3, 1e-2])
+    >>> p.mu.tolist(), p.memoryShares.tolist(), p.memoryRates.tolist()
+    ([400.0], [[0.5, 0.25]], [[1000.0, 100.0]])
+    """
+    T = np.asarray(times, dtype=float)
+    G = np.broadcast_to(np.asarray(moduli, dtype=float), (p.size, len(T)))
+    order, m = np.argsort(T), len(T) if n_times is None else n_times
+    total = p.mu + G.sum(axis=1)
+    arrays = {name: np.zeros((p.size, columns * m)) for name, columns in _PER_TIME.items()}
+    arrays["memoryShares"][:, : len(T)] = G[:, order] / total[:, None]
+    arrays["memoryRates"][:, : len(T)] = 1.0 / T[order]
+    return p._replace(mu=total, lame=p.lame * (total / p.mu), **arrays)

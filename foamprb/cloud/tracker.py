@@ -46,6 +46,7 @@ from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.surroundings.largest import LargestValues
+from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticRows, QuadraticSolid
 from foamprb.cloud.viscosity import model_of
 from foamprb.compile.link import is_compiled, link, linked, read_by
@@ -134,6 +135,11 @@ class Models:
         return any(isinstance(model, QuadraticSolid) for model in self.surroundings)
 
     @property
+    def has_memory(self) -> bool:
+        """Whether the solid has memory."""
+        return any(isinstance(model, FadingMemory) for model in self.surroundings)
+
+    @property
     def has_fates(self) -> bool:
         """Whether particles may rupture or be released."""
         return any(isinstance(model, Fates) for model in self.surroundings)
@@ -184,8 +190,8 @@ class Tracker:
             bindings["dilation"] = material.dilation
             bindings["elasticity"] = elasticity_by_dilation
             bindings["extra_elasticity"] = extra_elasticity_by_dilation
-        # The elastic strain of a sphere is diagonal in its particle frame.
-        if shaped:
+        # The elastic strain of a sphere without memory is diagonal in its particle frame.
+        if shaped or models.has_memory:
             bindings |= {"finger": finger, "finger_in_frame": finger_in_frame}
             bindings |= {"kirchhoff": kirchhoff, "extra_stress": extra_stress}
         else:
@@ -199,6 +205,8 @@ class Tracker:
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.mu = medium.mu
         adheres = any(isinstance(interaction, Adhere) for interaction in interactions)
+        if adheres and models.has_memory:
+            raise InputError("a solid with relaxation relaxes where it sticks: adhere does not compute that")
         if adheres and integrator.name == "paper":
             raise InputError("adhere needs the integrator stokes or rosenbrock, not paper")
         # The others may read the viscosity.
@@ -567,6 +575,8 @@ def check(models: Models, tense: bool) -> None:
             f"the shape of a {models.material} has no inertia: it needs the integrator stokes, not "
             f"{integrator.name}"
         )
+    if models.has_memory and models.has_quadratic:
+        raise InputError("the shape model quadratic has no relaxation: its mode is that of a solid without")
     for model in models.surroundings:
         if reason := model.refuses(integrator, liquid):
             raise InputError(reason)

@@ -100,6 +100,7 @@ Vector3: TypeAlias = tuple[float, float, float]
 Constant = NewType("Constant", float)
 """A number that may vary in time in OpenFOAM and is constant here: ``constant 3`` or ``3``."""
 Words: TypeAlias = tuple[str, ...]
+Numbers: TypeAlias = tuple[float, ...]
 Pairs: TypeAlias = tuple[tuple[float, float], ...]
 Axes: TypeAlias = tuple[tuple[Vector3, Vector3], ...]
 """Positions, each with the direction of an axis."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, NewType
 
-from foamprb.dictionary.constraints import Axes, Constant, Pairs, Vector3, Words
+from foamprb.dictionary.constraints import Axes, Constant, Numbers, Pairs, Vector3, Words
 from foamprb.dictionary.dimensions import (
     ACCELERATION,
     DENSITY,
@@ -136,6 +136,10 @@ def _words(entry: Stream) -> Any:
     return _each(_nested(entry.tokens), lambda item: unquoted(item) if isinstance(item, str) else None)
 
 
+def _list_of_numbers(entry: Stream) -> Any:
+    return _each(_nested(entry.tokens), lambda item: _number(item) if isinstance(item, str) else None)
+
+
 def _two_vectors(item: Any) -> Any:
     vectors = _each(item, lambda part: _numbers(part, 3))
     return vectors if vectors is not None and len(vectors) == 2 else None
@@ -222,6 +226,7 @@ READERS: dict[Any, Reader] = {
     AccelerationVector: Reader(_acceleration, "a vector (x y z)"),
     Constant: Reader(_constant, "a number, constant in time"),
     Words: Reader(_words, "a list of words ( word word … )"),
+    Numbers: Reader(_list_of_numbers, "a list of numbers ( x x … )"),
     Pairs: Reader(_pairs, "a list of pairs ( (x w) (x w) … )"),
     Axes: Reader(_axes, "a list of positions with an axis ( ((x y z) (x y z)) … )"),
     Dictionary: Reader(lambda _: None, DICTIONARY_TEXT),

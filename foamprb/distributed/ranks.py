@@ -105,10 +105,10 @@ class Ranks(Communicator):
         firsts = self.rank.firsts
         return tuple(np.unique(firsts[:-1][np.diff(firsts) > 0]).tolist()) or (0,)
 
-    def place(self, size: int, parts: Callable[..., Iterable[Particles]]) -> Particles:
+    def place(self, size: int, parts: Callable[..., Iterable[Particles]], n_times: int = 0) -> Particles:
         """See :meth:`Communicator.place`."""
         self._n, self._counts, self._way = size, [], None
-        self.call(Worker.allocate, loaded_libs(), firsts_of(size, self.size))
+        self.call(Worker.allocate, loaded_libs(), firsts_of(size, self.size), n_times)
         for p in parts(communicator.PART):
             # Unused arrays of zeros take no memory of the machine until they are written.
             used = {k: a for k, a in p._asdict().items() if not VARIABLES[k].optional or a.any()}

@@ -110,11 +110,11 @@ class Worker(Rank):
         with self.collective():
             getattr(self.windows, name)(*arguments)
 
-    def allocate(self, libs: Sequence[Path], firsts: NDArray[np.int64]) -> None:
+    def allocate(self, libs: Sequence[Path], firsts: NDArray[np.int64], n_times: int) -> None:
         """Make room for the particles that this process writes to checkpoints."""
         load_libs(libs)
         self._firsts, self.sampling = firsts, None
-        self._become(Share(empty(int(firsts[self.number + 1] - firsts[self.number]))))
+        self._become(Share(empty(int(firsts[self.number + 1] - firsts[self.number]), n_times)))
         self.in_order, self._allocated, self._local_hosts = True, False, False
 
     def put(self, rank: int, first: int, arrays: Arrays | None = None) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.material import MATERIALS
+from foamprb.body.memory import series_of_power_law
 from foamprb.body.quadratic import parts, square, tube_deformation
 from foamprb.cloud.cloud import Stepper
 from foamprb.cloud.communicator import Communicator
@@ -32,14 +33,15 @@ from foamprb.dictionary.constraints import Vector3
 from foamprb.errors import InputError, RunInterrupted
 from foamprb.run.job import Job
 from foamprb.run.measured import Measured
-from foamprb.run.release import lame_of
+from foamprb.run.release import lame_of, with_power_law
 
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
 
-UNKNOWNS = {"shearModulus": "mu", "viscosity": "eta", "surfaceTension": "gamma"}
-"""Properties that can be fitted, and their arrays of :class:`~foamprb.cloud.state.Particles`."""
+UNKNOWNS = ("shearModulus", "viscosity", "surfaceTension", "k", "alpha")
+"""Properties that can be fitted, as far as a solid has them."""
+_LARGEST_EXPONENT = 0.99
 _MOST_GUIDES = 2000
 _CALLS = 24
 """Calls of the stepper until the slowest particle of the case passes; bodies that have passed stop then."""
@@ -202,6 +204,10 @@ class Device:
         rows = np.linspace(0, p.size - 1, min(p.size, _MOST_GUIDES)).astype(np.int64)
         self._guides = p.take(rows)
         self._guides.t0[:] = self._guides.t[:] = cloud.start
+        solids = [injection.solid for injection in settings.injections]
+        self._frequencies = np.array([solid.referenceFrequency for solid in solids])
+        # Of a power law.
+        self._times = 1.0 / self._guides.memoryRates[0] if kind.power_law else None
         self._steps, self._call = job.steps, max(1, job.steps // _CALLS)
 
     def places(self, measured: Measured) -> tuple[Floats, Floats]:
@@ -325,15 +331,40 @@ class Device:
         p.number[:] = np.arange(n)
         p.R[:] = 0.5 * bodies.d
         stress = p.Ca * p.mu
-        for name, values in bodies.properties.items():
-            getattr(p, UNKNOWNS[name])[:] = values
+        p = self.with_properties(p, bodies.properties)
         p.Ca[:] = stress / p.mu
         for k, injection in enumerate(self.job.settings.injections):
             rows = p.injector == k
             p.lame[rows] = lame_of(injection.solid, p.mu[rows], lambda: float(stress.max()))
         inside = (p.host >= 0) & (0.99 * cloud.bounds.maxLength > p.R)
+        inside &= np.isfinite(p.mu)
         seen = self._follow(p.take(inside), offsets[inside])
         return Seen(*(spread(values, inside, n) for values in seen))
+
+    def properties(self, p: Particles) -> dict[str, Floats]:
+        """Return the properties of particles that can be fitted, (n,) each, by their entries."""
+        values = {"viscosity": p.eta, "surfaceTension": p.gamma}
+        if self._times is None:
+            return {"shearModulus": p.mu * (1.0 - p.memoryShares.sum(axis=1)), **values}
+        series = series_of_power_law(p.k, self._times)
+        k = p.mu / series.modulus
+        law = {"k": k * self._frequencies[p.injector] ** p.k, "alpha": p.k}
+        return {**law, **values, "viscosity": p.eta - k * series.viscosity}
+
+    def with_properties(self, p: Particles, changed: Mapping[str, Floats]) -> Particles:
+        """Return particles with other properties; the modulus is NaN for an exponent of 1 or more."""
+        values = {**self.properties(p), **changed}
+        p.gamma[:], p.eta[:] = values["surfaceTension"], values["viscosity"]
+        if self._times is None:
+            relaxing = p.memoryShares * p.mu[:, None]
+            p.mu[:] = values["shearModulus"] + relaxing.sum(axis=1)
+            p.memoryShares[:] = relaxing / p.mu[:, None]
+            return p
+        valid = values["alpha"] < _LARGEST_EXPONENT
+        alpha = np.where(valid, values["alpha"], 0.5)
+        p = with_power_law(p, values["k"], alpha, self._times, self._frequencies[p.injector])
+        p.mu[~valid] = np.nan
+        return p
 
     def _follow(self, p: Particles, offsets: Floats) -> Seen:
         n, normal = p.size, self.plane.normal

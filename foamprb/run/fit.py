@@ -112,7 +112,8 @@ def fit(
     measured
         Table of the bodies, see :func:`foamprb.run.measured.read_measured`.
     unknown
-        ``shearModulus``, ``viscosity`` or ``surfaceTension`` of each body.
+        ``shearModulus``, ``viscosity``, ``surfaceTension``, or ``k`` and ``alpha`` of a power law, of each
+        body.
     plane
         Where the bodies were seen, ``"x=0.01"`` or ``"(0.01 0 0) (1 0 0)"``; by default the plane of a cloud
         function.
@@ -172,6 +173,11 @@ def fit_job(
         )
     plane_ = plane_of(plane, job)
     device = Device(job, plane_, view_of(view, job, plane_), stop)
+    if missing := [name for name in unknown if name not in device.properties(job.cloud.particles)]:
+        raise InputError(
+            f"-unknown '{missing[0]}': the solid {job.cloud.models.material} has no such property. Allowed: "
+            f"{', '.join(device.properties(job.cloud.particles))}."
+        )
     device.warn_of_walls(
         measured.of("d") if measured.size == "d" else 2.0 * np.sqrt(measured.of("area") / np.pi)
     )
@@ -237,12 +243,13 @@ class _Problem:
         ]  # fmt: skip
         self.errors = np.where(np.isfinite(errors), errors, np.maximum(np.stack(usual, axis=1), 1e-12))
         p = device.job.cloud.particles
-        start = {
-            "shearModulus": float(np.median(p.mu)),
-            "viscosity": float(np.median(p.eta)) or viscosity_at_rate(device.job.cloud.medium.mu, None),
-            "surfaceTension": float(np.median(p.gamma)) or float(np.median(p.mu * p.R)),
+        # Without viscosity or surface tension, those that would matter.
+        relevant = {
+            "viscosity": viscosity_at_rate(device.job.cloud.medium.mu, None),
+            "surfaceTension": float(np.median(p.mu * p.R)),
         }
-        self.start = [math.log(start[name]) for name in unknown]
+        properties = device.properties(p)
+        self.start = [math.log(_median(properties[name]) or relevant[name]) for name in unknown]
 
     def solve(self, rows: slice) -> dict[str, NDArray[Any]]:
         """Return the table of some bodies."""
@@ -351,6 +358,12 @@ class _Batch:
         table |= {"d": d, **dict(zip(problem.names, self.values.T, strict=True))}
         table |= {name: spread(values, able, len(d)) for name, values in columns.items()}
         return {**table, "reason": self._reason.astype(str)}
+
+
+def _median(values: Floats) -> float:
+    """Return the median; 0 for one that is zero to round-off."""
+    median = float(np.median(values))
+    return median if median > 1e-12 * float(np.abs(values).max(initial=0.0)) else 0.0
 
 
 def _population(table: Mapping[str, NDArray[Any]], unknown: Sequence[str]) -> dict[str, NDArray[Any]]:

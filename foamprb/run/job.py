@@ -30,6 +30,7 @@ from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.patches import CYCLIC
+from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
 from foamprb.cloud.viscosity import viscosity_at_rate
@@ -46,7 +47,7 @@ from foamprb.results.folder import ResultsFolder
 from foamprb.run.compilation import Compilation
 from foamprb.run.description import describe
 from foamprb.run.follow import Follow, Following, begin_to_follow
-from foamprb.run.release import Release
+from foamprb.run.release import Release, number_of_times
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import Settings, read_settings
 from foamprb.settings.solution import MULTIPLE_TOLERANCE, Solution
@@ -248,6 +249,9 @@ def _loop(
         injection.solid.surfaceTension != 0.0 and not MATERIALS[injection.solid.type].liquid
         for injection in settings.injections
     )
+    # Without the start, which the flow may delay, a power law may have one time more or less.
+    if n_times := number_of_times(settings.injections, _span(settings, 0.0)):
+        models = replace(models, surroundings=(FadingMemory(n_times=n_times), *models.surroundings))
     flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
     return Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow
@@ -392,12 +396,12 @@ def assemble(
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = _medium(settings)
     start = _start(settings, flow, growing)
-    release = Release(settings.injections, flow, medium)
+    release = Release(settings.injections, flow, medium, _span(settings, start))
     solids = sorted({injection.solid.type for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     comm = comm or Communicator()
-    particles = comm.place(release.size, release.parts)
+    particles = comm.place(release.size, release.parts, release.n_times)
     solution = settings.solution
     models = _models(settings, solution.integrationSchemes.shape, bool(getattr(flow, "rotating", ())))
     by_name = {patch.name: i for patch, i in zip(flow.patches, interactions, strict=True)}
@@ -426,6 +430,11 @@ def assemble(
     except InputError as error:
         raise InputError(f"{settings.file}: {error}") from error
     return Job(settings, cloud, functions)
+
+
+def _span(settings: Settings, start: float) -> tuple[float, float]:
+    """Return the shortest and the longest time of a run, s, over which a power law holds."""
+    return settings.solution.deltaT, settings.solution.endTime - start
 
 
 def _start(settings: Settings, flow: Flow, growing: bool) -> float:

@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 
 from foamprb.body.compressibility import lame_from_bulk_modulus, sufficient_bulk_modulus
 from foamprb.body.material import MATERIALS, lame_parameter, modulus_of_capsule
+from foamprb.body.memory import series_of_power_law, times_of_power_law
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import find_hosts
 from foamprb.cloud.communicator import parts_of
 from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import given_shear_modulus, pending, start_of_injection
 from foamprb.cloud.measures import shear_rate_at
-from foamprb.cloud.state import Particles
+from foamprb.cloud.state import Particles, with_relaxation
 from foamprb.cloud.viscosity import medium_at, viscosity_at_rate
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
@@ -40,6 +41,37 @@ def lame_of(solid: Solid, mu: Floats, largest_stress: Callable[[], float]) -> Fl
     return np.asarray(lame_from_bulk_modulus(bulk, mu))
 
 
+def number_of_times(injections: Sequence[InjectionSettings], span: tuple[float, float]) -> int:
+    """Return the largest number of relaxation times of the solids; 0 without memory.
+
+    ``span`` is the shortest and the longest time of the run, s.
+    """
+    solids = [injection.solid for injection in injections]
+    prony = [len(solid.relaxation.times) for solid in solids if solid.relaxation]
+    power_law = any(MATERIALS[solid.type].power_law for solid in solids)
+    return max([*prony, *([len(times_of_power_law(*span))] if power_law else []), 0])
+
+
+def with_power_law(
+    p: Particles, k: Floats, alpha: Floats, times: Floats, frequency: float | Floats
+) -> Particles:
+    """Return particles whose solid is a power law, and has their viscosity beside that of its series.
+
+    Parameters
+    ----------
+    k, alpha
+        G(t) = k (ω₀t)^(−α), (n,), Pa and 1.
+    times
+        Relaxation times of the series, s.
+    frequency
+        ω₀/2π, Hz.
+    """
+    series, k = series_of_power_law(alpha, times), k * frequency**-alpha
+    p.mu[:], p.k[:] = k * series.elastic, alpha
+    p.eta[:] += k * series.viscosity
+    return with_relaxation(p, k[:, None] * series.moduli, times)
+
+
 class Release:
     """Places of all particles of a run, from which their states follow part by part.
 
@@ -51,6 +83,8 @@ class Release:
         Settings of the injection models.
     flow, medium
         The flow, and its viscosity, density and gravity.
+    span
+        Shortest and longest time of the run, s.
 
     Raises
     ------
@@ -58,8 +92,18 @@ class Release:
         If an injection model cannot release particles in the flow.
     """
 
-    def __init__(self, injections: Sequence[InjectionSettings], flow: Flow, medium: Medium) -> None:
-        self._sources = [_Source(i, injection, flow, medium) for i, injection in enumerate(injections)]
+    def __init__(
+        self,
+        injections: Sequence[InjectionSettings],
+        flow: Flow,
+        medium: Medium,
+        span: tuple[float, float] = (1e-3, 1.0),
+    ) -> None:
+        self.n_times = number_of_times(injections, span)
+        self._sources = [
+            _Source(i, injection, flow, medium, times_of_power_law(*span), self.n_times)
+            for i, injection in enumerate(injections)
+        ]
         self.size = sum(source.size for source in self._sources)
 
     def parts(self, most: int = sys.maxsize) -> Iterator[Particles]:
@@ -81,8 +125,17 @@ class Release:
 class _Source:
     """One injection model; see :class:`Release`."""
 
-    def __init__(self, index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> None:
+    def __init__(
+        self,
+        index: int,
+        injection: InjectionSettings,
+        flow: Flow,
+        medium: Medium,
+        times: Floats,
+        n_times: int,
+    ) -> None:
         self._index, self._injection, self._flow, self._medium = index, injection, flow, medium
+        self._times, self._n_times = times, n_times
         solid = injection.solid
         try:
             self._places = injection.model.places(flow, self._random(), read_positions)
@@ -94,7 +147,7 @@ class _Source:
             if injection.sizeDistribution is None and "d" not in self._values:
                 raise InputError("sizeDistribution is missing, and the file of positions has no column d.")
             kind = MATERIALS[solid.type]
-            if self._stiffness is not None and (kind.liquid or kind.membrane):
+            if self._stiffness is not None and (kind.liquid or kind.membrane or kind.power_law):
                 raise InputError(
                     f"the file of positions gives a stiffness, which the solid {solid.type} does not have."
                 )
@@ -107,6 +160,7 @@ class _Source:
         solid, size = self._injection.solid, self._injection.sizeDistribution or 0.0
         streams = {key: self._random(key) for key in ("size", "rho", "viscosity", "surfaceTension", "shape")}
         stiff, membrane = self._random("stiffness"), self._random("stiffness")
+        exponents = self._random("alpha")
         for start in range(0, self.size, most):
             rows = slice(start, min(start + most, self.size))
             p = pending(self._places, rows)
@@ -129,9 +183,16 @@ class _Source:
                 p.mu[:] = modulus_of_capsule(G_s, solid.surfacePoissonsRatio, p.R)
             if MATERIALS[solid.type].liquid:
                 p.mu[:], p.gamma[:], p.drop[:] = p.gamma / p.R, 0.0, 1
+            if MATERIALS[solid.type].power_law:
+                k, alpha = draw(solid.k or 0.0, p.size, stiff), draw(solid.alpha or 0.0, p.size, exponents)
+                p = with_power_law(p, k, alpha, self._times, solid.referenceFrequency)
             self._injection.shape.form(p, streams["shape"])
             p.injector[:] = self._index
             self._refuse_moduli(p)
+            if self._n_times and not MATERIALS[solid.type].power_law:
+                prony = solid.relaxation
+                moduli, times = (prony.moduli, prony.times) if prony else ((), ())
+                p = with_relaxation(p, moduli, times, self._n_times)
             stress = self._viscous_stress(p)
             p.Ca[:] = stress / p.mu
             p.lame[:] = lame_of(solid, p.mu, lambda: self._largest_stress)

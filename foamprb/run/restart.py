@@ -279,8 +279,8 @@ def restore(
     """
     header, n = checkpoint.header, cloud.size
     layout = {
-        f"{PARTICLES}{name}": ((n, *variable.shape), np.dtype(variable.dtype))
-        for name, variable in VARIABLES.items()
+        f"{PARTICLES}{name}": ((n, *array.shape[1:]), array.dtype)
+        for name, array in cloud.comm.rank.particles._asdict().items()
     }
     if {name: shape for name, shape in checkpoint.layout.items() if name.startswith(PARTICLES)} != layout:
         raise InputError(

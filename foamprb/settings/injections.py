@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from foamprb.body.material import MATERIALS
+from foamprb.body.memory import MOST
 from foamprb.cloud.injection.distribution import Distribution, scaled
 from foamprb.cloud.injection.models import INJECTIONS, Injection
 from foamprb.cloud.injection.shapes import Shape, Sphere
@@ -17,6 +18,7 @@ from foamprb.dictionary.constraints import (
     Choice,
     Meaning,
     NonNegative,
+    Numbers,
     Only,
     PoissonsRatio,
     Positive,
@@ -25,10 +27,35 @@ from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import allowed, hints_of, names_of, read_entries, read_entry, selected
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, unquoted
 from foamprb.dictionary.values import Line
+from foamprb.errors import InputError
 from foamprb.results.folder import fault_of_word
 from foamprb.settings.fluid import ConstantProperties, Fluid
 
 _ONE_OF_THESE = "one of shearModulus, youngsModulus and Ca is required"
+_OF_POWER_LAW = "with `powerLaw` required"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prony:
+    """``relaxation { type prony; … }``: moduli that relax, beside the shear modulus, which stays."""
+
+    type: Annotated[
+        Literal["prony"], Meaning("Prony series", values={"prony": "G(t) = shearModulus + Σ G exp(−t/T)"})
+    ]
+    moduli: Annotated[
+        Numbers, Meaning(f"`( G G … )`, shear moduli that relax, at most {MOST}; `shearModulus` stays", "Pa")
+    ]
+    times: Annotated[Numbers, Meaning("`( T T … )`, their relaxation times", "s")]
+
+    def __post_init__(self) -> None:
+        if not 0 < len(self.moduli) <= MOST or len(self.moduli) != len(self.times):
+            raise InputError(
+                f"has {len(self.moduli)} moduli and {len(self.times)} times. Allowed: as many of both, 1 to "
+                f"{MOST}"
+            )
+        wrong = [x for x in (*self.moduli, *self.times) if not x > 0.0]
+        if wrong:
+            raise InputError(f"has the modulus or time {wrong[0]:g}. Allowed: numbers > 0")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,6 +80,7 @@ class Solid:
                 "drop": "[drop](models/drops.md) of a liquid of this viscosity and surface tension",
                 "capsule": "liquid in a thin elastic membrane, the [solid](models/capsules.md) that is "
                 "equivalent for small deformation",
+                "powerLaw": "solid whose modulus falls with time as a power, as that of cells and gels does",
             },
         ),
     ] = ""
@@ -119,6 +147,20 @@ class Solid:
         Bounds(-1.0, 1.0, True, False, "a number > -1 and <= 1"),
         Meaning("of that membrane; 1 where it keeps its area", "1", "with `capsule` required"),
     ] = None
+    relaxation: Annotated[
+        Prony | None, Meaning("[memory](models/memory.md) of the solid: moduli that relax", "", "none")
+    ] = None
+    k: Annotated[
+        float | Distribution | None,
+        Positive,
+        Meaning("of a [`powerLaw`](models/memory.md#power-law), G(t) = k (ω₀t)^(−α)", "Pa", _OF_POWER_LAW),
+    ] = None
+    alpha: Annotated[
+        float | Distribution | None,
+        Bounds(0.0, 1.0, True, True, "a number > 0 and < 1"),
+        Meaning("its exponent α", "1", _OF_POWER_LAW),
+    ] = None
+    referenceFrequency: Annotated[float, Positive, Meaning("ω₀/2π of a `powerLaw`", "Hz")] = 1.0
 
 
 STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
@@ -129,6 +171,8 @@ LIQUID = ("surfaceTension", "viscosity")
 """Entries of a drop, in place of both."""
 MEMBRANE = ("surfaceShearModulus", "surfacePoissonsRatio")
 """Entries of a capsule, in place of a stiffness."""
+POWER_LAW = ("k", "alpha")
+"""Entries of a power law, in place of a stiffness."""
 
 
 def parameters() -> dict[str, Any]:
@@ -296,19 +340,21 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     stiffness = combined.keys() & set(STIFFNESS)
     material = MATERIALS[combined["type"]] if "type" in combined else None
     liquid, membrane = material is not None and material.liquid, material is not None and material.membrane
-    if not (stiffness or liquid or membrane):
+    fading = material is not None and material.power_law
+    if not (stiffness or liquid or membrane or fading):
         mistakes.add(where.mistake(f"gives no stiffness. Allowed: one of {', '.join(STIFFNESS)}."))
     required = {"Ca": "referenceShearRate", "youngsModulus": "poissonsRatio"}
     needed = ["type", *(required[key] for key in stiffness if key in required)]
-    if liquid or membrane:
-        needed = ["type", *(LIQUID if liquid else MEMBRANE)]
+    if liquid or membrane or fading:
+        needed = ["type", *(LIQUID if liquid else MEMBRANE if membrane else POWER_LAW)]
     parameter = material.parameter if material else None
     if parameter:
         needed.append(parameter.entry)
     for key in needed:
         if key not in combined:
             mistakes.add(where.missing(key, allowed(hints[key])))
-    others = {*parameters(), *MEMBRANE, *(STIFFNESS if liquid or membrane else ())}
+    others = {*parameters(), *MEMBRANE, *POWER_LAW, *(() if fading else ("referenceFrequency",))}
+    others |= {*STIFFNESS, "relaxation"} if liquid or membrane or fading else set()
     others |= set(COMPRESSIBILITY if liquid else ())
     for name in sorted(others) if material else ():
         if name in combined and name not in needed:

@@ -88,7 +88,8 @@ def test_what_changes_in_the_loop_is_saved_and_nothing_else(end_of_run):
     seldom |= set() if end_of_run else {"F0", "status", "reason", "patch"}
     for name, old, new in zip(Particles._fields, before, p, strict=True):
         np.testing.assert_array_equal(new[0], old[0], err_msg=name)
-        changed = (new[1] != old[1]).all()
+        # Arrays of the memory have no columns here.
+        changed = np.size(new[1]) > 0 and (new[1] != old[1]).all()
         assert changed == (name in set(CHANGING) - seldom), name
 
 

@@ -13,7 +13,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DEFAULT, DuctLift
 from foamprb.cloud.patches import Adhere, Rebound
-from foamprb.cloud.state import Particles, Status, drops, spheres
+from foamprb.cloud.state import Particles, Status, drops, spheres, with_relaxation
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.fates import FateLimits, Fates
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
@@ -43,6 +43,7 @@ AROUND = {
 CHOICES = {
     "integrator": ("stokes", "rosenbrock", "paper"),
     "body": ("soft", "quadratic", "drop", "capsule", "quadratic drop"),
+    "solid": ("elastic", "relaxation"),
     "fluid": ("water", "carrier"),
     "wall": ("rebound", "adhesion"),
     "force": ("no force", "ductLift"),
@@ -72,6 +73,8 @@ def cloud_of(names: frozenset[str], before: Cloud | None = None) -> Cloud:
             if liquid
             else spheres(x, d=2.0 * R, rho=1500.0, mu=mu, bulk_modulus=1e3)
         )
+        if chosen["solid"] == "relaxation":
+            particles = with_relaxation(particles, [0.5, 0.5], [2e-4, 2e-3])
     flow = analytic.shear_over_wall(RATE)
     if "rotating zones" in names:
         flow.kernels = flow.kernels | {"rotation_at": turning}

@@ -151,6 +151,8 @@ draws = 0
 """Bound to 1 by models that draw random numbers."""
 _SMALLEST = 1e-9
 """Smallest step allowed, over Δt."""
+SHARE_OF_MEMORY = 4.0
+"""Longest step over the shortest relaxation time of a solid with memory."""
 _STRETCH = 4
 """Length of a stretch over ``maxDeltaT``. Rounding to whole steps then costs little."""
 LEAST_STRETCH, _LONGEST_STRETCH = 32, 2**14
@@ -242,12 +244,18 @@ def mark_disturbed(block: Any, i: int) -> None:
     block[during.disturbed * LANES + i] = select(off > 0.0, 1.0, 0.0)
 
 
+def fading_rate(_block: Any, _i: int) -> Any:
+    """Return 0: the solid has no memory, whose fastest rate, 1/s, a model of it binds."""
+    return 0.0
+
+
 def error_share(block: Any, i: int, rho: Any) -> Any:
     """Return θ of :mod:`foamprb.body.error_control`; 1 where models of the surroundings change the gradient.
 
     They may change it faster than elasticity and the flow do. ``rho`` is the rate at which the elastic stress
     relaxes, 1/s.
     """
+    rho = rho + fading_rate(block, i)
     theta = share_of_slope(block[at.dt * LANES + i], rho, load9(block, during.start_l, i))
     return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)
 
@@ -586,7 +594,8 @@ def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, mos
     dt, most
         As in :func:`track_adaptive`.
     """
-    size = min(block[at.h * LANES + i], most * dt, longest_step(l_f))
+    remembered = SHARE_OF_MEMORY / (fading_rate(block, i) + 1e-300)
+    size = min(block[at.h * LANES + i], most * dt, longest_step(l_f), remembered)
     return float(max(1.0, np.ceil((remaining - SHORTEST_STEP * dt) / size)))
 
 

@@ -41,7 +41,7 @@ from foamprb.body.inertial_runge_kutta import slope as slope_of
 from foamprb.body.inertial_runge_kutta import third_order as of_third_order
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.material import viscous_stress
-from foamprb.body.rosenbrock import Stiffness, inertial_stiffness, relaxation_rate
+from foamprb.body.rosenbrock import Elasticity, Stiffness, inertial_stiffness, relaxation_rate
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -164,6 +164,13 @@ class StiffnessRows(NamedTuple):
 work = offsets(StiffnessRows, STEP_ROWS)
 
 
+def with_fading(
+    _block: Any, _i: int, turning: Tensor, _n: Stiffness, _e: Elasticity, _G: Tensor, _c: Any
+) -> Tensor:
+    """Return the rate of change of dl_s/dt by turning as it is: the solid has no memory that fades."""
+    return turning
+
+
 @traced
 def predict_inertial(block: Any, medium: Medium) -> None:
     """Compute velocity and its rate at the start, and the position they predict with drag."""
@@ -212,6 +219,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         dl = add(l_end, scale(-1.0, l))
         change = fluid_change(n, to_frame(Q, dl))
         turning = turning_acceleration(stretches, n, c, L, l_t, to_frame(Q, felt), tau)
+        turning = with_fading(block, i, turning, n, e, G, c)
         shape = quarter_argument(n, resolvent(n, NODE * h), h, (L, l_t), change, turning)
         _set_shape(block, i, Q, G, shape)
         leave_gradient(block, i, Q, add(L, shape[1]), block[at.moving * LANES + i] > 0.0)

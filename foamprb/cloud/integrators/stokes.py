@@ -20,6 +20,7 @@ from foamprb.body.exponential_runge_kutta import third_order as of_third_order
 from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.relaxation import Relaxation, Response, fastest, relaxation, relaxing, responses
+from foamprb.body.rosenbrock import Elasticity
 from foamprb.body.slip import balanced_slip
 from foamprb.body.stokes import Mobility, isochoric, velocity_gradient
 from foamprb.body.tensor import (
@@ -115,6 +116,26 @@ class RelaxationRows(NamedTuple):
 work = offsets(RelaxationRows, STEP_ROWS)
 
 
+def with_fading(
+    _block: Any, _i: int, turning: Tensor, _m: Mobility, _e: Elasticity, _G: Tensor, _mu_f: Any
+) -> Tensor:
+    """Return the rate of change of l_s by turning as it is: the solid has no memory that fades."""
+    return turning
+
+
+def gradient_by_slope(n: Relaxation, Omega: Tensor, l_s: Tensor, change: Tensor, k: Tensor) -> Tensor:
+    """Return l_s at the end of a step by the rate g of Ω that the slope k of N gives: g + ½[Ω, g], 1/s."""
+    g = add(add(relaxing(n, Omega), l_s), add(change, k))
+    return add(g, scale(0.5, commutator(Omega, g)))
+
+
+def gradient_at_end(
+    l_end: Tensor, _Q: Tensor, _n: Relaxation, _Omega: Tensor, _l_s: Tensor, _change: Tensor, _last: Tensor
+) -> Tensor:
+    """Return the velocity gradient at the end of a step of order 3, that of the last evaluation, 1/s."""
+    return l_end
+
+
 @traced
 def predict_inertialess(block: Any, medium: Medium) -> None:
     """Compute velocity and acceleration at the start, and the position they predict."""
@@ -149,6 +170,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         dl = add(l_end, scale(-1.0, l))
         change = _seen(m, to_frame(Q, dl))
         turning = turning_gradient(stretches, m, e, viscosity_at(block, i, medium), l_s, l_f, sigma)
+        turning = with_fading(block, i, turning, m, e, G, viscosity_at(block, i, medium))
         Omega = quarter_argument(n, quarter, h, l_s, change, turning)
         store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(Omega), G)))
         # Forces act at the end here, and at the start elsewhere.
@@ -213,9 +235,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         finish_path(block, i, plus_scaled(plus(plus(u, d), w1), 1.0 / NODE, dv))
         add_disturbance_error(block, i, d, scale_vector(1.0 / NODE, dv))
         F = _finish_shape(block, i, Q0, two)
-        # The rate of Ω at the end as the slope has it, and l_s = g + ½[Ω, g] of that.
-        end = add(add(relaxing(n, two), l_s), add(change, k))
-        end = add(end, scale(0.5, commutator(two, end)))
+        end = gradient_by_slope(n, two, l_s, change, k)
         store9(block, at.new_A, i, dot(from_frame(Q0, end), F))
 
 
@@ -260,6 +280,7 @@ def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         F = _finish_shape(block, i, Q0, three)
         store9(block, at.new_F, i, choose(third, F, F_two))
         block[at.J * LANES + i] = select(third, block[at.J * LANES + i], J_two)
+        l_end = gradient_at_end(l_end, Q0, n, three, l_s, change, last)
         store9(block, at.new_A, i, choose(third, dot(l_end, F), A_two))
         keep_frame(block, i, third)
         judge_difference(block, i, select(third, difference, 0.0), tolerance)
