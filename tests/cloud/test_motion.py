@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mesh_shapes import block, box_patches, cyclic_row
 
-from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, analytic, spheres
+from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, analytic, spheres, with_relaxation
 from foamprb.cloud.block import store3
 from foamprb.cloud.integrators.adaptive import during, holds_end
 from foamprb.cloud.layout import LANES
@@ -195,3 +195,24 @@ def test_a_body_that_appears_in_touch_with_a_wall_sticks_to_no_other_than_a_stic
         found[type(wall)] = p.status[0]
     assert found[Stick] == (Status.STUCK if height < 0.4 else Status.ACTIVE)
     assert found[Rebound] == Status.ACTIVE
+
+
+def test_a_mirror_turns_the_memory_of_a_solid():
+    """A body that relaxes to its shape at rest goes on behind the mirror as it would have without."""
+    shape = block(3, 0.2)
+    patches = [p._replace(type="symmetryPlane") if p.name == "floor" else p for p in box_patches(shape)]
+    bodies = []
+    for domain in (at_rest(build_mesh(shape, patches)), analytic.linear(np.zeros((3, 3)))):
+        p = with_relaxation(spheres([(0.4, 0.6, 0.1)], d=1e-3, rho=1e6, mu=1e3), [1e3, 2e3], [0.05, 0.5])
+        p.v[:] = 0.1, 0.0, -1.0
+        p.F[:] = 1.2, 0.0, 0.3, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 / 1.2
+        sides = [Mirror() if patch.type == "symmetryPlane" else Rebound() for patch in domain.patches]
+        Cloud(p, domain, NOTHING, sides, 0.02, Models(integrator="rosenbrock"), threads=1).advance(20)
+        bodies.append(p)
+    mirrored, free = bodies
+    assert mirrored.x[0, 2] == pytest.approx(-free.x[0, 2], rel=1e-6)
+    signs = np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
+    assert np.abs(free.memory[0, [4, 10]]).min() > 1e-4
+    np.testing.assert_allclose(
+        mirrored.memory[0].reshape(2, 6), signs * free.memory[0].reshape(2, 6), atol=1e-6
+    )
