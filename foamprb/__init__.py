@@ -48,7 +48,8 @@ Particles in a flow:
     Gravity             a force: weight less buoyancy
     PressureGradient    a force: pressure gradient of the undisturbed flow
     VirtualMass         a force: inertia of the fluid that a particle accelerates
-    DuctLift            a force: lift by inertia of the fluid on neutral particles in a duct
+    DuctLift            a force: lift by inertia of the fluid on neutral particles in a pipe or channel
+    RectangularDuctLift  a force: the same in a rectangular duct
     FaxenCorrection     the mean over the body of a flow that is curved
     SaffmanMeiLift      lift by inertia of the fluid on a sphere that slips in shear
     WallLift            drift of a soft particle away from walls

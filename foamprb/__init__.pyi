@@ -22,6 +22,9 @@ from .cloud.forces import (
     PressureGradient as PressureGradient,
 )
 from .cloud.forces import (
+    RectangularDuctLift as RectangularDuctLift,
+)
+from .cloud.forces import (
     VirtualMass as VirtualMass,
 )
 from .cloud.forces import (
@@ -144,6 +147,7 @@ __all__ = [
     "PowerLaw",
     "PressureGradient",
     "Rebound",
+    "RectangularDuctLift",
     "RunStopped",
     "SaffmanMeiLift",
     "SeriesFlow",

@@ -1,7 +1,8 @@
 """Lift by inertia of the fluid: on a sphere that slips in shear, and on a neutral one in a duct.
 
-The first is that of Saffman (1965, 1968) and Mei (1992). The second follows a table; those of channels and
-pipes are the theory of Ho & Leal (1974), Vasseur & Cox (1976) and Schonberg & Hinch (1989).
+The first is that of Saffman (1965, 1968) and Mei (1992). The second follows a table; those of channels, pipes
+and rectangular ducts are the theory of Ho & Leal (1974), Vasseur & Cox (1976), Schonberg & Hinch (1989) and
+Hood, Lee & Roper (2015).
 """
 
 from __future__ import annotations
@@ -133,6 +134,33 @@ def duct_coefficient(s: Scalar, table: Sequence[Scalar]) -> Scalar:
     for k in range(1, len(table), 2):
         C = C + table[k + 1] * np.maximum(0.0, s - table[k])
     return C
+
+
+LONG, SHORT = 10, 7
+"""Numbers of terms of :func:`rectangle_coefficient` along the longer sides and along the shorter ones."""
+
+
+def rectangle_coefficient(s: Scalar, t: Scalar, table: Sequence[Scalar], terms: int) -> Scalar:
+    """Return C = s Σ c_mn T_m(2 s² − 1) T_n(2 t² − 1), with Chebyshev's polynomials T.
+
+    Parameters
+    ----------
+    s, t
+        Places along the force and across it, over half of the sides.
+    table, terms
+        c row by row, and the number of terms across, that of columns.
+    """
+    s, t = np.minimum(1.0, np.maximum(-1.0, s)), np.minimum(1.0, np.maximum(-1.0, t))
+    w, v = 2.0 * s * s - 1.0, 2.0 * t * t - 1.0
+    # Clenshaw's recurrence, of both series.
+    a = b = 0.0 * w
+    for m in range(len(table) // terms - 1, -1, -1):
+        c = d = 0.0 * w
+        for n in range(terms - 1, 0, -1):
+            c, d = 2.0 * v * c - d + table[terms * m + n], c
+        row = v * c - d + table[terms * m]
+        a, b = 2.0 * w * a - b + row, a
+    return s * (a - w * b)
 
 
 def duct_lift(C: Scalar, R: Scalar, rate: Scalar, rho: Scalar, rho_s: Scalar) -> Scalar:

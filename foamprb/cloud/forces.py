@@ -16,8 +16,20 @@ from numbers import Real
 from types import FunctionType
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, get_type_hints
 
+import numpy as np
+
 from foamprb.body.drag import reduced_gravity
-from foamprb.body.lift import DUCTS, balances, duct_coefficient, duct_lift, hinges
+from foamprb.body.lift import (
+    DUCTS,
+    LONG,
+    SHORT,
+    balances,
+    duct_coefficient,
+    duct_lift,
+    hinges,
+    rectangle_coefficient,
+)
+from foamprb.body.rectangle import RECTANGLES
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, plus, scale_vector
 from foamprb.cloud.block import Medium, at, choose3, load3, local_fluid
 from foamprb.cloud.layout import LANES
@@ -184,6 +196,57 @@ class DuctLift(Force):
         return f"({self.shape}, size {self.size:g}, shearRate {self.shearRate:g}, C = 0 at {zeros or 'no s'})"
 
 
+def rectangle_focusing(
+    inputs: Inputs, origin: Vector, long: Vector, short: Vector, half_sides: tuple[Scalar, Scalar],
+    rate: Scalar, along: tuple[Scalar, ...], across: tuple[Scalar, ...],
+) -> tuple[Vector, Scalar]:  # fmt: skip
+    """Return C ρ_f γ̇² R⁴ over m, m/s², along the sides of a duct; no inertia.
+
+    ``long`` and ``short`` are the directions of its sides; ``along`` and ``across`` are both tables.
+    """
+    d = minus(inputs.x, origin)
+    s, t = inner(d, long) / half_sides[0], inner(d, short) / half_sides[1]
+    a = duct_lift(1.0, inputs.R, rate, inputs.medium.rho, inputs.rho)
+    C = a * rectangle_coefficient(s, t, along, SHORT)
+    D = a * rectangle_coefficient(t, s, across, LONG)
+    return plus(scale_vector(C, long), scale_vector(D, short)), 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class RectangularDuctLift(Force):
+    """Lift by inertia of the fluid on neutral particles in a straight square or rectangular duct."""
+
+    origin: Annotated[Vector3, Meaning("a point of the axis", "m")]
+    axis: Annotated[Vector3, Meaning("direction of the flow")]
+    direction: Annotated[Vector3, Meaning("normal of the longer sides")]
+    size: Annotated[float, Positive, Meaning("half the distance of the longer sides", "m")]
+    shearRate: Annotated[
+        float, NonNegative, Meaning("γ̇, shear rate of the flow in the middle of a longer side", "1/s")
+    ]
+    aspectRatio: Annotated[float, Positive, Meaning("longer side over shorter one: 1, 2 or 4", "1")] = 1.0
+
+    evaluate: ClassVar = staticmethod(rectangle_focusing)
+
+    def __post_init__(self) -> None:
+        if self.aspectRatio not in RECTANGLES:
+            allowed = ", ".join(f"{ratio:g}" for ratio in RECTANGLES)
+            raise InputError(f"has the aspectRatio {self.aspectRatio:g}. Allowed: {allowed}")
+        turned = inner(self.axis, self.direction)
+        if not (any(self.axis) and any(self.direction)) or abs(turned) > 1e-6 * norm(self.axis) * norm(
+            self.direction
+        ):
+            raise InputError("needs an axis and a direction at a right angle to it")
+
+    @property
+    def coefficients(self) -> tuple[Any, ...]:
+        """The arguments of :func:`rectangle_focusing`, of the same types for any aspect ratio."""
+        short = scale_vector(1.0 / norm(self.direction), self.direction)
+        long = tuple(map(float, np.cross(scale_vector(1.0 / norm(self.axis), self.axis), short)))
+        sides = float(self.aspectRatio * self.size), float(self.size)
+        tables = (tuple(map(float, table)) for table in RECTANGLES[self.aspectRatio])
+        return tuple(map(float, self.origin)), long, short, sides, float(self.shearRate), *tables
+
+
 def pressure_gradient(inputs: Inputs) -> tuple[Vector, Scalar]:
     """Return m_f Du/Dt over m, s Du/Dt, m/s² (Maxey & Riley 1983); no inertia."""
     return scale_vector(displaced(inputs), inputs.Du_Dt), 0.0
@@ -218,6 +281,7 @@ FORCES: dict[str, type[Force]] = {
     "ductLift": DuctLift,
     "gravity": Gravity,
     "pressureGradient": PressureGradient,
+    "rectangularDuctLift": RectangularDuctLift,
     "virtualMass": VirtualMass,
 }
 """By the names of their entries in ``particleForces``, in the order in which they are added."""

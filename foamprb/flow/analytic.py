@@ -19,6 +19,7 @@ from foamprb.body.tensor import Tensor, Vector, add, scale
 from foamprb.compile.link import bound
 from foamprb.errors import InputError
 from foamprb.flow import channels
+from foamprb.flow import posts as arrays_of_posts
 from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
 from foamprb.flow.jumps import NO_JUMPS
 from foamprb.flow.nodes import NO_VALUES, Ends, Function, NodeValues, ends_over
@@ -32,6 +33,7 @@ __all__ = [
     "function",
     "linear",
     "pipe",
+    "posts",
     "rotation",
     "shear",
     "shear_over_wall",
@@ -537,4 +539,53 @@ def pipe(radius: float, mean_velocity: float, length: float = math.inf) -> Analy
         (Patch("wall", "wall"), Patch("inlet", "patch"), Patch("outlet", "patch")),
         inside,
         2.0 * parameters.radius,
+    )
+
+
+def posts(spacing: float, diameter: float, velocity: tuple[float, float], shift: float = 0.0) -> AnalyticFlow:
+    """Return Stokes flow through an array of round posts along z, the patch ``posts``.
+
+    The middles of posts are at x = n ``spacing`` and y = m ``spacing`` + n ``shift``, n and m integers.
+
+    Parameters
+    ----------
+    spacing, diameter
+        m; the diameter is a fifth to nine tenths of the spacing.
+    velocity
+        Along x and y, m/s, the mean over fluid and posts.
+    shift
+        Of each column of posts along y from the last one, m.
+
+    Examples
+    --------
+    >>> flow = posts(20e-6, 10e-6, (1e-3, 0.0))
+    >>> x = np.array([[0.0, 10e-6, 0.0]])
+    >>> u, gradient = flow.sample(x, flow.locate(x), 0.0)
+    >>> u.round(5).tolist()
+    [[0.00282, 0.0, 0.0]]
+    """
+    if not (0.0 < spacing < math.inf and 0.2 <= diameter / spacing <= 0.9):
+        raise InputError(
+            f"posts: spacing {spacing:g} and diameter {diameter:g}: a length above 0 and a diameter of "
+            "0.2 to 0.9 of it are needed."
+        )
+    parameters = arrays_of_posts.through_posts(spacing, 0.5 * diameter, velocity, shift)
+
+    def inside(points: Floats) -> Any:
+        return np.hypot(*arrays_of_posts.from_post(parameters, tuple(points.T))) >= 0.5 * diameter
+
+    return AnalyticFlow(
+        parameters,
+        {
+            "sample": arrays_of_posts.sample_posts,
+            "curvature": arrays_of_posts.curvature_posts,
+            "walk": arrays_of_posts.walk_posts,
+            "gap": arrays_of_posts.gap_posts,
+            "walls": arrays_of_posts.planes_of_posts,
+            "normal": arrays_of_posts.normal_posts,
+            "recover": recover_free,
+        },
+        (Patch("posts", "wall"),),
+        inside,
+        spacing - diameter,
     )

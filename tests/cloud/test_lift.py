@@ -13,7 +13,7 @@ from foamprb.body.lift import PIPE, PLANE_CHANNEL, balances, lift_coefficient
 from foamprb.body.wall import normal_mobility, parallel_mobility
 from foamprb.cloud.block import ROWS, Medium, at
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.forces import DuctLift, Gravity, coefficients, compose, forces_on
+from foamprb.cloud.forces import DuctLift, Gravity, RectangularDuctLift, coefficients, compose, forces_on
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Rebound
 from foamprb.cloud.state import spheres
@@ -151,3 +151,48 @@ def test_wrong_ducts_are_refused(entries, message):
     given = {name: getattr(CHANNEL, name) for name in ("shape", "origin", "direction", "size", "shearRate")}
     with pytest.raises(InputError, match=message):
         DuctLift(**{**given, **entries})
+
+
+RECTANGLE = RectangularDuctLift(
+    origin=(1.0, 2.0, 3.0), axis=(0.0, 2.0, 0.0), direction=(0.0, 0.0, 5.0), size=HEIGHT / 2, shearRate=6e4,
+    aspectRatio=2.0,
+)  # fmt: skip
+
+
+def test_lift_in_a_rectangular_duct_has_both_components():
+    """Against the quadrature in tools/validation: C_x and C_z in a duct of 2:1 at s = 0.4, t = 0.3."""
+    radius = 3e-6
+    unit = RHO * 6e4**2 * radius**4
+    for a, b in ((1.0, 1.0), (-1.0, 1.0), (1.0, -1.0)):
+        x = np.array((1.0, 7.0, 3.0)) + HEIGHT * np.array((0.4 * a, 0.0, 0.15 * b))
+        expected = unit * np.array((0.0531 * a, 0.0, 0.2549 * b))
+        np.testing.assert_allclose(force_at(RECTANGLE, x, radius), expected, atol=3e-3 * unit)
+    assert not force_at(RECTANGLE, (1.0, 7.0, 3.0)).any()
+
+
+def test_a_square_duct_has_four_places_in_the_middle_of_its_sides():
+    """0.354 of the width from the centre; the places on the diagonals, at 0.295, are unstable."""
+    square = replace(RECTANGLE, aspectRatio=1.0)
+
+    def force(y, z):
+        return force_at(square, np.array((1.0, 2.0, 3.0)) + HEIGHT * np.array((y, 0.0, z)))
+
+    assert force(0.0, 0.351)[2] > 0.0 > force(0.0, 0.356)[2]
+    assert force(0.01, 0.354)[0] < 0.0
+    x, _, z = force(0.291, 0.291)
+    assert x == pytest.approx(z, abs=2e-3 * RHO * 6e4**2 * R**4)
+    assert x > 0.0 > force(0.301, 0.301)[0]
+    assert force(0.31, 0.29)[0] > force(0.31, 0.29)[2]
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ({"aspectRatio": 3.0}, "aspectRatio 3. Allowed: 1, 2, 4"),
+        ({"axis": (0.0, 1.0, 0.1)}, "a direction at a right angle"),
+        ({"direction": (0.0, 0.0, 0.0)}, "needs an axis"),
+    ],
+)
+def test_wrong_rectangles_are_refused(entries, message):
+    with pytest.raises(InputError, match=message):
+        replace(RECTANGLE, **entries)

@@ -4,8 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
-from foamprb.body.lift import PIPE, PLANE_CHANNEL, balances, duct_coefficient, hinges
+from foamprb.body.lift import (
+    LONG,
+    PIPE,
+    PLANE_CHANNEL,
+    SHORT,
+    balances,
+    duct_coefficient,
+    hinges,
+    rectangle_coefficient,
+)
+from foamprb.body.rectangle import RECTANGLES
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DuctLift
@@ -15,7 +26,7 @@ from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
-from validation.references import tube
+from validation.references import rectangle, tube
 from validation.references.duct import coefficient
 from validation.runs import follow
 
@@ -125,3 +136,51 @@ _REMARK = (
     "Soft bodies gather nearer to the middle than rigid ones, as both lifts act. There is no reference for "
     "the sum of the two lifts."
 )
+
+
+HOOD = "Hood, Lee & Roper (2015), tables of Zenodo 833532, 832328, 833521"
+_POINTS = ((1, 0.125, 0.125, 3.96), (1, 0.25, 0.0, 6.25), (1, 0.25, 0.125, 4.93), (2, 0.1875, 0.0, 5.50),
+           (2, 0.375, 0.0, -5.25), (2, 0.25, 0.25, 4.25))  # fmt: skip
+"""Aspect ratio, places along the force and across it over the shorter side, and c₄ of the force
+c₄ ρ_f U² R⁴/H² with the largest velocity U. In a square it is the mean of two equivalent places, which differ
+by 2 %."""
+
+
+def rectangular(quick: bool) -> Outcome:
+    """Lift in rectangular ducts."""
+    rows = []
+    for A, z, y, theirs in _POINTS:
+        U = rectangle.profile(np.zeros(1), np.zeros(1), A)[0][0, 0]
+        name = f"{A}:1, c₄ at {z:g} along the force and {y:g} across it"
+        c = _across(A, z, y) * (2.0 * rectangle.wall_rate(A) / U) ** 2
+        rows.append(Row(name, c, theirs, HOOD, 0.4, kind="others"))
+    zeros = {
+        "square, middle of a side": (brentq(lambda t: _across(1, t, 0.0), 0.25, 0.45), 0.348),
+        "2:1, middle of a long side": (brentq(lambda t: _across(2, t, 0.0), 0.25, 0.45), 0.324),
+        "2:1, middle of a short side": (brentq(_along, 0.6, 0.95), 0.819),
+        "4:1, middle of a long side": (brentq(lambda t: _across(4, t, 0.0), 0.25, 0.45), 0.306),
+    }
+    rows += [
+        Row(f"{name}: place of balance over the shorter side", float(ours), theirs, HOOD, 0.02, kind="others")
+        for name, (ours, theirs) in zeros.items()
+    ]  # fmt: skip
+    places = np.array([[0.0, 0.25], [0.25, 0.5], [0.5, 0.55], [0.35, 0.7]])
+    for place, own in zip(places, rectangle.coefficients(places, 1.0, (24, 24)), strict=True):
+        ours = _across(1, 0.5 * place[1], 0.5 * place[0])
+        name = f"square, C across at ({place[0]:g}, {place[1]:g})"
+        rows.append(Row(name, ours, float(own[1]), QUADRATURE, 3e-3))
+    if not quick:
+        (own,) = rectangle.coefficients(np.array([[0.0, 0.4]]), 8.0, (80, 28))
+        name = "8:1, quadrature in the middle, s = 0.4"
+        rows.append(Row(name, float(own[1]), coefficient(0.4), "quadrature of the plane channel", 1e-3, True))
+    return Outcome(rows, [], [])
+
+
+def _across(A: int, z: float, y: float) -> float:
+    """Return C of the shorter direction; z along the force and y across it over the shorter side."""
+    return float(rectangle_coefficient(2.0 * z, 2.0 * y / A, RECTANGLES[A][1], LONG))
+
+
+def _along(y: float) -> float:
+    """Return C of the longer direction in a 2:1 duct in the middle of the other."""
+    return float(rectangle_coefficient(y, 0.0, RECTANGLES[2][0], SHORT))
