@@ -351,6 +351,15 @@ class Device:
         law = {"k": k * self._frequencies[p.injector] ** p.k, "alpha": p.k}
         return {**law, **values, "viscosity": p.eta - k * series.viscosity}
 
+    def require_property(self, name: str, where: str) -> None:
+        """Raise InputError, which begins with ``where``, if the solid lacks a property."""
+        allowed = self.properties(self._guides)
+        if name not in allowed:
+            solid = self.job.cloud.models.material
+            raise InputError(
+                f"{where}: the solid {solid} has no such property. Allowed: {', '.join(allowed)}."
+            )
+
     def with_properties(self, p: Particles, changed: Mapping[str, Floats]) -> Particles:
         """Return particles with other properties; the modulus is NaN for an exponent of 1 or more."""
         values = {**self.properties(p), **changed}

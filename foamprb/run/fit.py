@@ -173,11 +173,8 @@ def fit_job(
         )
     plane_ = plane_of(plane, job)
     device = Device(job, plane_, view_of(view, job, plane_), stop)
-    if missing := [name for name in unknown if name not in device.properties(job.cloud.particles)]:
-        raise InputError(
-            f"-unknown '{missing[0]}': the solid {job.cloud.models.material} has no such property. Allowed: "
-            f"{', '.join(device.properties(job.cloud.particles))}."
-        )
+    for name in unknown:
+        device.require_property(name, f"-unknown '{name}'")
     device.warn_of_walls(
         measured.of("d") if measured.size == "d" else 2.0 * np.sqrt(measured.of("area") / np.pi)
     )

@@ -91,6 +91,7 @@ def compute_lut(
     """
     plane_ = plane_of(plane, job)
     device = Device(job, plane_, view_of(view, job, plane_))
+    device.require_property("shearModulus", "-moduli of shearModulus")
     device.warn_of_walls(np.array(diameters))
     compile_run(job.cloud, job.compilation)
     flow, medium = job.cloud.flow, job.cloud.medium

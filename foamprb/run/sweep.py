@@ -76,8 +76,8 @@ class Study:
 
     def folder(self, number: int) -> Path:
         """Return the folder of a run's results: beside the file, ``<name of the file>/<number>``."""
-        digits = max(3, len(str(len(self))))
-        return self.file.with_suffix("") / f"{number:0{digits}d}"
+        # A study with more runs finds these.
+        return self.file.with_suffix("") / f"{number:03d}"
 
     @property
     def short_names(self) -> dict[str, str]:

@@ -15,6 +15,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.run.fit import fit_job
+from foamprb.run.lut import compute_lut
 from foamprb.run.measured import read_measured
 from foamprb.run.release import with_power_law
 
@@ -105,3 +106,5 @@ def test_a_property_that_the_solid_does_not_have_is_refused(tmp_path):
     measured = read_measured({"y": [5e-5], "d": [15e-6], "strain": [0.1]})
     with pytest.raises(InputError, match=r"the solid powerLaw has no such property. Allowed: k, alpha"):
         fit_job(job, measured, ("shearModulus",), "x=1e-3")
+    with pytest.raises(InputError, match=r"-moduli of shearModulus: the solid powerLaw has no such"):
+        compute_lut(job, (7e-6, 8e-6), (1e2, 1e3), 2, "x=1e-3")
