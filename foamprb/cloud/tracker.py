@@ -311,7 +311,7 @@ class Tracker:
             needs = observers.needs
             columns = COLUMNS if mode and needs & MODE else COLUMNS_OF_ELLIPSOIDS
             scratch = scratch._replace(
-                paths=np.empty((ROOM, columns, LANES)), starts=recorded.starts(needs, mode),
+                paths=np.zeros((ROOM, columns, LANES)), starts=recorded.starts(needs, mode),
                 ends=recorded.ends(needs), watched=observers.watched,
             )  # fmt: skip
         if stored is not None:

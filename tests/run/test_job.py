@@ -81,7 +81,7 @@ def test_dry_run_reports_and_writes_nothing(case, capsys):
 def test_log_ends_with_the_fate_of_every_particle(short_run, capsys):
     assert main(["run", "--case", str(short_run)]) == 0
     out = capsys.readouterr().out
-    table = re.findall(r"^    (injected|active|stuck|escaped|failed) +(\d+)$", out, re.MULTILINE)
+    table = re.findall(r"^    (injected|active|stuck|escaped|failed) +(\d+)\b", out, re.MULTILINE)
     numbers = {name: int(n) for name, n in table}
     assert numbers.pop("injected") == sum(numbers.values())
     assert out.rstrip().endswith("End")

@@ -64,6 +64,8 @@ OTHERS: dict[str, dict[str, Any]] = {
     "RosinRammler": {"minValue": 1e-6, "maxValue": 3e-6, "d": 1e-6, "n": 2},
     "uniform": {"minValue": 1e-6, "maxValue": 3e-6},
     "ductLift": {"shape": "pipe", "origin": CENTRE, "direction": ALONG, "size": 2.1e-3, "shearRate": 900},
+    "rectangularDuctLift": {"origin": CENTRE, "axis": ALONG, "direction": (0, 0, 1), "size": 2.1e-3,
+                            "aspectRatio": 1, "shearRate": 900},
     "virtualMass": {"Cvm": 0.5},
     "BrownianMotion": {"T": 300},
     "swimming": {"speed": 1e-5},

@@ -8,6 +8,7 @@ the fit and where neutral spheres gather. Takes seven minutes.
 
 from __future__ import annotations
 
+import argparse
 import sys
 from pathlib import Path
 
@@ -87,6 +88,11 @@ def fit(A: int, points: Floats, C: Floats) -> tuple[tuple[float, ...], tuple[flo
 
 def main() -> None:
     """Compute and write the tables."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("-help", action="help", help="show this text and stop")
+    parser.parse_args()
     text = _HEAD
     for A, (_, orders) in PLACES.items():
         print(f"aspect ratio {A}")
