@@ -30,7 +30,7 @@ def seen(tmp_path_factory):
 
 def test_outlines_are_those_of_finite_elements(seen):
     """With default settings, in the solver's flow, within 5 % up to a deformation of 0.05."""
-    area, deformation, _ = np.array(ELEMENTS).T
+    area, deformation, _ = np.array(ELEMENTS[:12]).T
     order = np.argsort(seen["id"])
     assert len(order) == 12
     assert 1e12 * np.asarray(seen["area"])[order] == pytest.approx(area, rel=2e-3)
