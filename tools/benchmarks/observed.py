@@ -129,8 +129,8 @@ def write_setup(case: Path, name: str, setup: Setup, n: int, end: float) -> str:
     return str(written)
 
 
-def pairs(case: str, runs: list[list[str]], repeats: int) -> list[list[float]]:
-    """Return CPU µs per body and :data:`OPENFOAM_STEP`, of each run in each repeat.
+def pairs(case: str, runs: list[list[str]], repeats: int) -> list[float]:
+    """Return CPU µs per body and :data:`OPENFOAM_STEP` of each run; the least of the repeats counts.
 
     Parameters
     ----------
@@ -154,17 +154,14 @@ def pairs(case: str, runs: list[list[str]], repeats: int) -> list[list[float]]:
     # What is compiled is not measured.
     for short, _ in runs:
         clock(short)
-    costs: list[list[float]] = []
-    for _ in range(repeats):
-        costs.append([])
-        for short, long in runs:
-            before, after = clock(short), clock(long)
-            costs[-1].append(1e6 * (after[0] - before[0]) / (after[1] - before[1]))
-    return costs
+    clocks = [[[clock(file) for file in ends] for ends in runs] for _ in range(repeats)]
+    # What else runs on the machine only adds to a time.
+    least = [[min(repeat[k][end] for repeat in clocks) for end in (0, 1)] for k in range(len(runs))]
+    return [1e6 * (long[0] - short[0]) / (long[1] - short[1]) for short, long in least]
 
 
-def calls(case: str, file: str, repeats: int) -> list[list[float]]:
-    """Return CPU seconds of a call of :data:`_CALL` Δt, and of as many calls of one, in each repeat."""
+def calls(case: str, file: str, repeats: int) -> list[float]:
+    """Return the least CPU seconds of a call of :data:`_CALL` Δt, and of as many calls of one."""
     from foamprb import prepare
     from foamprb.cloud.cloud import Stepper
 
@@ -180,29 +177,22 @@ def calls(case: str, file: str, repeats: int) -> list[list[float]]:
         return time.process_time() - start
 
     clock(_CALL)
-    return [[clock(_CALL), clock(1)] for _ in range(repeats)]
+    whole, parts = zip(*((clock(_CALL), clock(1)) for _ in range(repeats)), strict=True)
+    return [min(whole), min(parts)]
 
 
-def writings(case: str, file: str, window: int) -> list[float]:
-    """Return CPU seconds from a snapshot to the next: means of some after the fifth, and of the last ones."""
+def writings(case: str, files: list[str]) -> list[float]:
+    """Return CPU seconds of runs with a snapshot at each Δt."""
     from foamprb import execute, prepare
 
-    job = prepare(case, dictionary=Path(file), threads=1)
-    clocks: dict[int, float] = {}
-
-    def observe() -> bool:
-        clocks.setdefault(job.cloud.step, time.process_time())
-        return False
-
-    execute(job, "startTime", observe)
-    shutil.rmtree(job.folder.path)
-    # Several snapshots are written after a stretch of steps.
-    last = max(clocks)
-    ends = [
-        [min(step for step in clocks if step >= sought) for sought in (first, first + window)]
-        for first in (5, last - window)
-    ]
-    return [(clocks[after] - clocks[before]) / (after - before) for before, after in ends]
+    seconds = []
+    for file in files:
+        job = prepare(case, dictionary=Path(file), threads=1)
+        start = time.process_time()
+        execute(job, "startTime")
+        seconds.append(time.process_time() - start)
+        shutil.rmtree(job.folder.path)
+    return seconds
 
 
 def _openfoam(case: Path, size: Size) -> dict[str, Callable[[], float]]:
@@ -228,8 +218,8 @@ def _openfoam(case: Path, size: Size) -> dict[str, Callable[[], float]]:
     return contestants | {openfoam("writeInterval 10 deltaT"): lambda: measured(interval=10)}
 
 
-def compare(name: str, case: Path, size: Size) -> list[list[float]]:
-    """Return the costs without and with one of :data:`ROWS`, in each repeat."""
+def compare(name: str, case: Path, size: Size) -> list[float]:
+    """Return the costs without and with one of :data:`ROWS`."""
     row, settled, measured = ROWS[name], size.settling * OPENFOAM_STEP, size.steps * OPENFOAM_STEP
     n = size.many if name == "particleTracks" else size.bodies
     files = [
@@ -239,39 +229,38 @@ def compare(name: str, case: Path, size: Size) -> list[list[float]]:
         ]
         for kind, setup in (("without", row.without), ("with", row.setup))
     ]
-    costs: list[list[float]] = isolated(pairs, str(case), files, min(size.repeats, 200_000 // n + 2)).result
+    costs: list[float] = isolated(pairs, str(case), files, min(size.repeats, 200_000 // n + 2)).result
     return costs
-
-
-def _ratio(costs: list[list[float]]) -> float:
-    return statistics.median(more / less for less, more in costs)
 
 
 def measure(options: Options) -> list[Row]:
     """Measure the cost of each of :data:`ROWS`, over the bare run; calls, snapshots and other programs."""
-    size = Size(options.bodies or 50_000, 1_000_000, 50, 200, 5, 2000)
+    bodies = options.bodies or 50_000
+    size = Size(bodies, 20 * bodies, 50, 200, 3, 2000)
     if options.quick:
-        size = Size(options.bodies or 5000, 10_000, 10, 20, 1, 40)
-    case, table = pipe.case("40k"), []
-    bare: list[float] = []
-    for name in ROWS:
-        costs = compare(name, case, size)
-        n = size.many if name == "particleTracks" else size.bodies
-        table += rows("observed", RATIO, {name: _ratio(costs)}, "", n)
-        table += rows("observed", COST, {name: statistics.median(c[1] for c in costs)}, "us/particle-step", n)
-        if ROWS[name].without == Setup() and n == size.bodies:
-            bare += [c[0] for c in costs]
-    table += rows("observed", COST, {BARE: statistics.median(bare)}, "us/particle-step", size.bodies)
+        size = Size(options.bodies or 5000, 10_000, 10, 20, 1, 400)
+    case, bare = pipe.case("40k"), []
     file = write_setup(case, "calls", Setup(), size.bodies, 2 * _CALL * OPENFOAM_STEP)
-    ratio = _ratio(isolated(calls, str(case), file, size.repeats).result)
-    table += rows("observed", RATIO, {CALL: ratio}, "", size.bodies)
+    long, short = isolated(calls, str(case), file, size.repeats).result
+    table = rows("observed", RATIO, {CALL: short / long}, "", size.bodies)
     every = Setup(dt=1e-6, solution="writeInterval 1e-6;")
-    file = write_setup(case, "snapshots", every, 100, size.snapshots * every.dt)
-    early, late = isolated(writings, str(case), file, min(20, size.snapshots // 4)).result
-    table += rows("observed", RATIO, {SNAPSHOT: late / early}, "", size.snapshots)
+    numbers = size.snapshots // 100, size.snapshots // 100, size.snapshots // 2, size.snapshots
+    files = [write_setup(case, f"snapshots{k}", every, 100, n * every.dt) for k, n in enumerate(numbers)]
+    # The first run compiles.
+    _, start, half, whole = isolated(writings, str(case), files).result
+    late = (whole - half) / (half - start) * (numbers[2] - numbers[1]) / (numbers[3] - numbers[2])
+    table += rows("observed", RATIO, {SNAPSHOT: late}, "", size.snapshots)
     few = size.bodies // 10
     contestants = {VTK: lambda: isolated(particle_tracer, str(case), few, size.steps // 4).result}
     if shutil.which(SOLVER):
         contestants |= _openfoam(case, size)
-    theirs = interleaved(contestants, min(size.repeats, 3))
-    return table + rows("observed", COST, theirs, "us/particle-step", size.bodies)
+    theirs = interleaved(contestants, size.repeats)
+    table += rows("observed", COST, theirs, "us/particle-step", size.bodies)
+    for name, row in ROWS.items():
+        without, cost = compare(name, case, size)
+        n = size.many if name == "particleTracks" else size.bodies
+        table += rows("observed", RATIO, {name: cost / without}, "", n)
+        table += rows("observed", COST, {name: cost}, "us/particle-step", n)
+        if row.without == Setup() and n == size.bodies:
+            bare.append(without)
+    return table + rows("observed", COST, {BARE: statistics.median(bare)}, "us/particle-step", size.bodies)
