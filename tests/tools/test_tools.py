@@ -81,7 +81,7 @@ def test_every_cloud_function_is_measured_in_settings_that_are_read(tmp_path):
 
 def test_writing_every_step_is_measured_as_dearer_and_leaves_no_results(tmp_path):
     case = pipe.write_case(tmp_path, GRID)
-    ((bare, writing),) = observed.compare("writeInterval deltaT", case, observed.Size(50, 0, 1, 20, 1, 0))
+    bare, writing = observed.compare("writeInterval deltaT", case, observed.Size(50, 0, 1, 20, 1, 0))
     assert writing > max(bare, 0.0)
     assert not [*(case / "postProcessing").iterdir()]
 
