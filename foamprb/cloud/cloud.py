@@ -322,7 +322,7 @@ class Cloud:
             if checks and self.step >= self._next_check:
                 # A shape beyond the limit oscillates, and is at times within it.
                 self._next_check = self.step + max(self.step, _FIRST_CHECK)
-                unstable_steps = unstable(p, self.medium_there.mu, self.dt)
+                unstable_steps = unstable(p, self.medium_there.mu, self.dt, self.models.material)
                 self._warn_once(PAPER.name, warning_of(*unstable_steps, self.dt))
         failed = p.counts()[Status.FAILED] - before
         if failed:

@@ -199,11 +199,11 @@ class RunLog:
                         number, t, *x, explain(reason, cloud.models, cloud.limits))  # fmt: skip
 
     def _log_unstable(self) -> None:
-        """Log the number of particles for which Δt may be too long, if it is larger than before."""
+        """Log the number of particles for which Δt is too long, if it is larger than before."""
         cloud = self._job.cloud
         if cloud.models.integrator != PAPER.name:
             return
-        answers = cloud.map_in_flow(_unstable_of, cloud.medium, cloud.dt)
+        answers = cloud.map_in_flow(_unstable_of, cloud.medium, cloud.dt, cloud.models.material)
         beyond, limit = sum(n for n, _ in answers), min(limit for _, limit in answers)
         if beyond > self._unstable:
             self._unstable = beyond
@@ -296,8 +296,10 @@ def _failed_of(p: Particles, most: int) -> NDArray[np.int64]:
     return np.asarray(p.number[np.flatnonzero(p.status == Status.FAILED)[:most]])
 
 
-def _unstable_of(p: Particles, flow: Sampled, t: float, medium: Medium, dt: float) -> tuple[int, float]:
-    return unstable(p, medium_at(medium, flow, p, t).mu, dt)
+def _unstable_of(
+    p: Particles, flow: Sampled, t: float, medium: Medium, dt: float, material: str
+) -> tuple[int, float]:
+    return unstable(p, medium_at(medium, flow, p, t).mu, dt, material)
 
 
 def _fates_of(

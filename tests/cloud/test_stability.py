@@ -38,7 +38,7 @@ def test_shape_that_saturates_below_its_length_is_beyond_the_limit(share):
     found = []
     for _ in range(8):
         cloud.advance(round(1e-3 / cloud.dt))
-        found.append(longest_stable_steps(cloud.particles, AIR.mu, cloud.dt)[0])
+        found.append(longest_stable_steps(cloud.particles, AIR.mu, cloud.dt, "neoHooke")[0])
     # The shape oscillates about the limit, and tumbles, so that it is within for a while.
     beyond = np.isfinite(found)
     assert beyond.sum() >= 2
@@ -54,20 +54,20 @@ def test_a_cloud_warns_once_of_a_step_beyond_the_limit():
         cloud.advance(round(4e-3 / cloud.dt))
 
 
-def test_limit_is_at_most_a_few_times_too_small():
+def test_shape_that_is_right_is_within_the_limit():
     cloud = sheared(0.0084)
     assert np.linalg.norm(cloud.particles.F) == pytest.approx(11.87, rel=2e-3)
-    assert longest_stable_steps(cloud.particles, AIR.mu, cloud.dt) > cloud.dt / 2.5
+    assert longest_stable_steps(cloud.particles, AIR.mu, cloud.dt, "neoHooke") == np.inf
 
 
 def test_limit_of_a_sphere_is_the_closed_one():
-    """3/2 τ_s without elasticity, J changing."""
+    """3/2 τ_s without elasticity, J changing; the smallest step that is refused shows it."""
     p = spheres(np.zeros((2, 3)), d=D, rho=RHO, mu=1e-9)
     tau = relaxation_time(RHO, D / 2, AIR.mu)
-    assert np.isinf(longest_stable_steps(p, AIR.mu, 1.49 * tau)).all()
+    assert np.isinf(longest_stable_steps(p, AIR.mu, 1.49 * tau, "neoHooke")).all()
     p.status[:] = 1
-    limits = longest_stable_steps(p, AIR.mu, 10.0 * tau)
-    np.testing.assert_allclose(limits, 1.5 * tau, rtol=1e-9)
+    limits = longest_stable_steps(p, AIR.mu, 10.0 * tau, "neoHooke")
+    np.testing.assert_allclose(limits, 1.5 * tau, rtol=2e-3)
 
 
 def test_log_says_for_how_many_particles_the_step_is_too_long(tmp_path, caplog):

@@ -15,7 +15,7 @@ from foamprb.cloud.state import VARIABLES
 
 FEW, MANY = 50_000, 250_000
 UNTOUCHED = sum(math.prod(v.shape) * np.dtype(v.dtype).itemsize for v in VARIABLES.values() if v.optional)
-STATE, MOST = 470.0, 1000.0
+STATE, MOST = 470.0, 988.0
 """Bytes per particle of the state, and with the copy that is being written, which has 454; without the
 optional arrays, of which no page is touched."""
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import logging
+import re
+
 import numpy as np
 import pytest
 from pipe_cells import MEAN, RADIUS, SETTINGS, pipe_job
+from validation.memory import fitted
 from validation.references.power_law import creep_of_power_law
 
 from foamprb.body.memory import complex_modulus, power_law_modulus, times_of_power_law
@@ -15,6 +19,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.run.fit import fit_job
+from foamprb.run.log import log_description
 from foamprb.run.lut import compute_lut
 from foamprb.run.measured import read_measured
 from foamprb.run.release import with_power_law
@@ -84,21 +89,37 @@ def test_a_sphere_of_a_power_law_creeps_as_its_fractional_equation_says():
         assert np.log(cloud.particles.F[0, 0]) == pytest.approx(expected, rel=3e-3)
 
 
-def test_power_laws_are_recovered_from_creep(tmp_path):
+def test_power_laws_are_recovered_from_creep():
     """Strain and angle are those of small strains of the exact law, along the paths from the release on."""
-    text = solid("type powerLaw; k 5e4; alpha 0.4;").replace("deltaT 2e-3", "deltaT 1e-3")
-    job = pipe_job(tmp_path, text)
-    random, n = np.random.default_rng(0), 24
-    k, alpha = 5e4 * np.exp(random.normal(0.0, 0.4, n)), random.uniform(0.25, 0.6, n)
-    y, sheared = random.uniform(4e-5, 8e-5, n), random.uniform(6.0, 14.0, n)
-    rate, u = 4.0 * MEAN * y / RADIUS**2, 2.0 * MEAN * (1.0 - (y / RADIUS) ** 2)
-    x = 1e-6 + sheared * u / rate
-    c = 0.5j * rate * creep_of_power_law(sheared / rate, k, alpha, rate)
-    table = {"x": x, "y": y, "d": np.full(n, 15e-6), "strain": 2.0 * np.abs(c), "angle": 0.5 * np.angle(c)}
-    fits = fit_job(job, read_measured(table), ("k", "alpha"), "x")
+    assert [row.passed for row in fitted(24)] == [True, True]
+
+
+def test_a_fit_finds_the_modulus_that_stays(tmp_path):
+    """From the strains of stiff cells in a steady shear, by the complex modulus (Roscoe 1967)."""
+    relaxing, times = np.array([4e4, 2e4]), np.array([1e-3, 1e-2])
+    text = (
+        "type neoHooke; shearModulus 3e4; relaxation { type prony; moduli ( 4e4 2e4 ); times ( 1e-3 1e-2 ); }"
+    )
+    job = pipe_job(tmp_path, solid(text))
+    stays, y = np.array([2e4, 3e4, 5e4]), np.array([3e-5, 5e-5, 7e-5])
+    rate = 4.0 * MEAN * y / RADIUS**2
+    G = np.array([complex_modulus(*one, relaxing, times) for one in zip(rate, stays, strict=True)])
+    strain = np.abs(5.0 * rate / (2.0 * G + 3j * rate))
+    measured = read_measured({"y": y, "d": np.full(3, 15e-6), "strain": strain})
+    fits = fit_job(job, measured, ("shearModulus",), "x=2e-3")
     assert fits.fitted.all(), fits.reasons
-    np.testing.assert_allclose(fits.table["k"], k, rtol=0.02)
-    np.testing.assert_allclose(fits.table["alpha"], alpha, rtol=0.02)
+    np.testing.assert_allclose(fits.table["shearModulus"], stays, rtol=0.02)
+
+
+def test_the_log_tells_the_error_of_a_power_law(tmp_path, caplog):
+    """From 1/endTime to 1/deltaT, of 2 s and 2 ms."""
+    with caplog.at_level(logging.INFO, "foamprb"):
+        log_description(pipe_job(tmp_path, solid("type powerLaw; k 82; alpha 0.44;")))
+    found = re.search(r"power law \[1/s\] +within (\S+) % from (\S+) to (\S+)$", caplog.text, re.MULTILINE)
+    assert found is not None
+    error, low, high = map(float, found.groups())
+    assert 0.0 < error < 0.5
+    assert (low, high) == pytest.approx((0.5, 500.0), rel=0.01)
 
 
 def test_a_property_that_the_solid_does_not_have_is_refused(tmp_path):

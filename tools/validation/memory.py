@@ -104,13 +104,13 @@ def relaxation(quick: bool) -> Outcome:
                           np.ones(len(creep)), FRACTIONAL, 5e-3))  # fmt: skip
         labels = f"foamprb, α = {alpha:g}", "exact" if colour == 0 else ""
         curves += compared(creep, ours, law, labels, colour)
-    rows += _fitted(24 if quick else 200)
+    rows += fitted(24 if quick else 200)
     panel = Panel("t [s]", "strain over strain rate of the fluid [s]", curves)
     figure = Figure("memory", "Creep of spheres of power laws, k = 3 Pa, in a fluid of 1 Pa s.", [panel])
     return Outcome(rows, [figure], [SOURCES])
 
 
-def _fitted(n: int) -> list[Row]:
+def fitted(n: int) -> list[Row]:
     """Return the largest errors of the power laws of n cells, fitted to their exact creep."""
     random = np.random.default_rng(0)
     k, alpha = 5e4 * np.exp(random.normal(0.0, 0.4, n)), random.uniform(0.25, 0.6, n)
