@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from matplotlib import pyplot as plt
 from paths import ROOT
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
@@ -21,6 +22,8 @@ def test_an_example_runs(script: Path, tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.setenv("MPLBACKEND", "agg")
     monkeypatch.chdir(tmp_path)
     runpy.run_path(str(script), run_name="__main__")
+    # An example ends with its process, here the figures would remain: matplotlib warns of the twenty-first.
+    plt.close("all")
     assert picture.stat().st_size > 5000
     assert "assert " in script.read_text()
     assert len(script.read_text().splitlines()) <= 60
