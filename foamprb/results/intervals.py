@@ -32,6 +32,7 @@ def share(count: int, total: int) -> Estimate:
     """Return the share of ``count`` of ``total`` particles, with Wilson's interval (1927)."""
     if total == 0:
         return Estimate(math.nan, math.nan, math.nan)
+    # Every run prints shares; scipy.stats, which has this interval too, takes a second to load.
     p, w = count / total, _Z * _Z / total
     middle, half = p + 0.5 * w, math.sqrt(w * (p * (1.0 - p) + 0.25 * w))
     # At its ends the interval includes 0 and 1, but for round-off.
