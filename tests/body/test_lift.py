@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from foamprb.body.lift import SAFFMAN, lift_coefficient, lift_force, lifted_slip, mei_factor
+from foamprb.body.lift import DUCTS, SAFFMAN, lift_coefficient, lift_force, lifted_slip, mei_factor
 
 R, SLIP, RATE, RHO, MU = 25e-6, 1e-3, 1000.0, 1000.0, 1e-3
 AXES = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
@@ -61,3 +61,13 @@ def test_without_vorticity_or_load_there_is_no_lift():
     K, w0 = tuple(6.0 * math.pi * R * np.eye(3).ravel()), (SLIP, 0.0, 0.0)
     assert lifted_slip(w0, AXES, K, (0.0, 0.0, 0.0), R, RHO, MU) == w0
     assert lifted_slip((0.0, 0.0, 0.0), AXES, K, (0.0, 0.0, RATE), R, RHO, MU) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("table", DUCTS.values(), ids=DUCTS)
+def test_lift_in_ducts_is_a_smooth_function_of_the_place(table):
+    """From 0 on the axis to −55π/96 at the wall (Cox and Hsu 1977); round-off of the digits is 16 · 5e-6."""
+    s, C = np.array(table).T
+    np.testing.assert_allclose(s, np.linspace(0.0, 1.0, 41), atol=1e-15)
+    assert np.abs(np.diff(C, 4)).max() < 2.5e-3
+    assert C[0] == 0.0
+    assert C[-1] == pytest.approx(-55.0 * math.pi / 96.0, abs=1e-5)

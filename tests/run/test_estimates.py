@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from foamprb.body.estimate import SoftSphere, Surroundings, estimate
@@ -28,6 +30,8 @@ def test_it_prints_what_the_formulas_give(capsys):
     assert found["lift length [m]"] == pytest.approx(e.lift_length, rel=1e-3)
     assert found["settling length [m]"] == pytest.approx(e.settling_length, rel=1e-3)
     assert found["diffusion length [m]"] == pytest.approx(e.diffusion_length, rel=1e-3)
+    turning = 1.380649e-23 * 293.15 / (8.0 * math.pi * 1e-3 * 2.5e-6**3)
+    assert found["turning [1/s]"] == pytest.approx(turning, rel=1e-3)
 
 
 def test_stiffness_may_be_the_modulus_and_no_wall_lifts_not(capsys):

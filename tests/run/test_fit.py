@@ -143,6 +143,23 @@ def test_a_body_that_drifts_is_released_where_it_arrives_at_its_place(tmp_path):
     np.testing.assert_allclose(fits.table["shearModulus"], G, rtol=0.01)
 
 
+def test_a_compressible_body_keeps_its_poissons_ratio_at_each_modulus(tmp_path):
+    """The modulus of the settings does not matter."""
+    shapes = []
+    for modulus in (100, 300):
+        solid = f"shearModulus {modulus}; poissonsRatio 0.2;"
+        text = SETTINGS.replace("shearModulus 300;", solid).replace("shape stokes", "shape rosenbrock")
+        job = pipe_job(tmp_path / str(modulus), text)
+        plane = plane_of("x=1e-4", job)
+        device = Device(job, plane, view_of("z", job, plane))
+        device.pass_guides(1e-4)
+        guide, release, _ = device.lead_to(np.array([[np.nan, 8e-5, np.nan]]))
+        bodies = Bodies(guide, release, np.array([15e-6]), {"shearModulus": np.array([300.0])})
+        shapes.append(device.follow(bodies, np.array([1e-4])).F)
+    assert np.abs(shapes[0] - np.eye(3)).max() > 0.1
+    np.testing.assert_allclose(*shapes, rtol=1e-6)
+
+
 def test_a_stiff_sphere_spins_with_half_of_the_shear_rate(job):
     plane = plane_of("x=1e-3", job)
     device = Device(job, plane, view_of("z", job, plane))

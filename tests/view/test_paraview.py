@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from view_run import motion, write_run
 
@@ -10,7 +11,7 @@ from foamprb.cli import main
 
 @pytest.fixture
 def case(tmp_path):
-    write_run(tmp_path, motion(3, 2), mesh=False)
+    write_run(tmp_path, motion(3, 2)._replace(radius=np.full(3, 1e-3)), mesh=False)
     return tmp_path
 
 
@@ -30,5 +31,8 @@ def test_paraview_is_started_with_the_state(case, monkeypatch):
     monkeypatch.setattr("foamprb.view.show.has_display", lambda: True)
     assert main(["paraview", "-case", str(case)]) == 3
     assert (case / "called").read_text() == f"--script={state}\n"
-    compile(state.read_text(), str(state), "exec")
-    assert "another script" not in state.read_text()
+    text = state.read_text()
+    compile(text, str(state), "exec")
+    assert "another script" not in text
+    assert "ENLARGEMENT = 6.0\n" in text
+    assert "bodies drawn 6x larger" in text
