@@ -196,6 +196,8 @@ def power_law_modulus(omega: ArrayLike, alpha: ArrayLike) -> NDArray[np.complex1
 _BEYOND = 2.0
 """Factor by which relaxation times go beyond the times of a run, so that the power law holds to the ends."""
 _PER_DECADE = 1.7
+_NEGLIGIBLE = 1e-9
+"""Least modulus or viscosity of a series, over those that would give the power law alone."""
 
 
 def times_of_power_law(shortest: float, longest: float) -> Floats:
@@ -215,6 +217,8 @@ def series_of_power_law(alpha: ArrayLike, times: Floats) -> Series:
     times
         :func:`times_of_power_law`, s.
     """
+    from scipy.optimize import nnls
+
     exponents, index = np.unique(np.atleast_1d(np.asarray(alpha, dtype=float)), return_inverse=True)
     omega = _frequencies(times)
     middle = math.sqrt(times[0] * times[-1])
@@ -227,8 +231,11 @@ def series_of_power_law(alpha: ArrayLike, times: Floats) -> Series:
     size = np.linalg.norm(A, axis=1, keepdims=True)
     A = A / size
     normal = np.einsum("nic,nid->ncd", A, A)
-    c = np.linalg.solve(normal, np.einsum("nic,i->nc", A, right)[..., None])[..., 0] / size[:, 0]
-    c = c[index.ravel()]
+    c = np.linalg.solve(normal, np.einsum("nic,i->nc", A, right)[..., None])[..., 0]
+    for row in np.flatnonzero((c < 0.0).any(axis=1)):
+        # A negative modulus or viscosity would be a source of energy; zero would be no solid.
+        c[row] = np.maximum(nnls(A[row], right)[0], _NEGLIGIBLE)
+    c = (c / size[:, 0])[index.ravel()]
     return Series(c[:, 0], c[:, 1:-1], c[:, -1] * middle)
 
 

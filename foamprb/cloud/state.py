@@ -198,6 +198,11 @@ class Particles(NamedTuple):
         return int(self.memoryRates.shape[1])
 
     @property
+    def steady_modulus(self) -> NDArray[np.float64]:
+        """Shear modulus of a strain that stays, Pa, (n,): without the shares that relax."""
+        return np.asarray(self.mu * (1.0 - self.memoryShares.sum(axis=1)))
+
+    @property
     def D(self) -> NDArray[np.float64]:
         """Taylor's deformation (a − c)/(a + c) of the longest and the shortest semi-axis, (n,)."""
         stretches = np.linalg.svd(self.F.reshape(-1, 3, 3), compute_uv=False)

@@ -187,12 +187,12 @@ class Grown(NamedTuple):
     """Cells of a node and layers of cells around them."""
 
     fragment: Fragment
-    layer: NDArray[np.uint8]
+    layer: NDArray[np.int32]
     """(n_cells,) 0 for owned cells, 1 for cells that touch them, and so on."""
     node: NDArray[np.int32]
     """(n_cells,) the node that owns the cell."""
     layers: int
-    """Number of layers that were added."""
+    """Number of layers, those beyond the whole mesh included."""
 
 
 def grow(pieces: list[Fragment], team: Team, layers: int) -> Grown:
@@ -229,6 +229,9 @@ def grow(pieces: list[Fragment], team: Team, layers: int) -> Grown:
     for number in range(1, layers + 1):
         latest = len(held)
         fetch(points, number)
+        if not any(team.of_all(len(held) > latest)):
+            # The nodes hold all cells that they can reach.
+            break
         new = [piece.points for piece, _, _ in held[latest:]]
         points = np.setdiff1d(np.concatenate([asked[:0], *new]), asked)
         asked = np.union1d(asked, points)
@@ -239,4 +242,4 @@ def grow(pieces: list[Fragment], team: Team, layers: int) -> Grown:
     parts = [piece for piece, _, _ in held]
     held.clear()
     fragment = merged(parts)
-    return Grown(fragment, layer.astype(np.uint8), node.astype(np.int32), layers)
+    return Grown(fragment, layer.astype(np.int32), node.astype(np.int32), layers)

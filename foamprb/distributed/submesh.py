@@ -30,10 +30,13 @@ BEYOND = -2
 RINGS = 2
 """Outermost layers of cells, in which the shapes of cells differ in round-off, or their neighbours lack."""
 
+_MANY_CELLS = 1e9
+"""Number of cells in a row that no mesh has."""
+
 
 def layers_over(cells: float) -> int:
     """Return the number of layers that no body leaves which passes some cells between two exchanges."""
-    return 2 + math.ceil(cells)
+    return 2 + math.ceil(min(cells, _MANY_CELLS))
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class SubMesh:
     """(n_points,) numbers of the points, rising."""
     faces: Labels
     """(n_faces,) numbers of the faces."""
-    layer: NDArray[np.uint8]
+    layer: NDArray[np.int32]
     """(n_cells,) 0 for owned cells."""
     node: NDArray[np.int32]
     """(n_cells,) the node that owns the cell."""

@@ -116,12 +116,13 @@ def _released_by(p: Particles, injector: int) -> Particles:
 
 
 def _softest_of(p: Particles, injector: int) -> list[tuple[float, float]]:
-    """Return shear modulus, Pa, and viscosity, Pa s, of the softest particle that a model releases."""
+    """Return steady modulus, Pa, and viscosity, Pa s, of the softest particle that a model releases."""
     rows = np.flatnonzero(p.injector == injector)
     if len(rows) == 0:
         return []
-    softest = rows[np.argmin(p.mu[rows])]
-    return [(float(p.mu[softest]), float(p.eta[softest]))]
+    moduli = p.take(rows).steady_modulus
+    softest = np.argmin(moduli)
+    return [(float(moduli[softest]), float(p.eta[rows[softest]]))]
 
 
 def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> float:

@@ -345,7 +345,7 @@ class Device:
         """Return the properties of particles that can be fitted, (n,) each, by their entries."""
         values = {"viscosity": p.eta, "surfaceTension": p.gamma}
         if self._times is None:
-            return {"shearModulus": p.mu * (1.0 - p.memoryShares.sum(axis=1)), **values}
+            return {"shearModulus": p.steady_modulus, **values}
         series = series_of_power_law(p.k, self._times)
         k = p.mu / series.modulus
         law = {"k": k * self._frequencies[p.injector] ** p.k, "alpha": p.k}

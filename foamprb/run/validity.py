@@ -108,7 +108,7 @@ def steady_amplitudes(p: Particles, mu: Floats) -> Floats:
     """Return ε of the steady shape in the mean curvature on the paths, in a fluid of viscosity μ_f, Pa s."""
     with np.errstate(divide="ignore", invalid="ignore"):
         aS = p.curved[:, 0] / p.curved[:, 2]
-        solid = steady_amplitude(mu, p.mu, p.eta, p.gamma / p.R, aS)
+        solid = steady_amplitude(mu, p.steady_modulus, p.eta, p.gamma / p.R, aS)
         drop = steady_amplitude_of_drop(mu, p.eta / mu, p.mu, aS)
     return np.asarray(np.where(p.drop > 0, drop, solid))
 

@@ -106,7 +106,7 @@ def index_table(design: Design, released: Mapping[str, Table]) -> Table:
 
 
 def sobol_indices(values: Floats) -> dict[str, list[Any]]:
-    """Return the indices of each entry, by Saltelli et al. (2010), with intervals by resampling the rows.
+    """Return the indices of each entry, by Saltelli et al. (2010), with intervals as if the rows were random.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ from foamprb.compile.link import link
 from foamprb.distributed.fragment import CellSearch, Fragment, IndivisibleMeshError
 from foamprb.distributed.partflow import PartFlow
 from foamprb.distributed.parting import hold_part
-from foamprb.distributed.submesh import RINGS, Halo
+from foamprb.distributed.submesh import RINGS, Halo, layers_over
 from foamprb.flow import balance
 from foamprb.flow import fluxes as fluxes_of_faces
 from foamprb.flow.fluxes import Conservation
@@ -173,6 +173,16 @@ def test_a_path_out_of_the_layers_of_a_node_is_noted():
     for end, patch, strayed in ((0.57, -1, 0), (0.1, -1, 0), (-0.1, 0, 0), (0.6, -2, 1)):
         assert flow.kernels["walk"](arrays, host, start, (end, 0.01, 0.02))[2] == patch
         assert arrays.strayed[0] == strayed
+
+
+def test_nodes_hold_the_whole_mesh_if_bodies_pass_more_cells_than_there_are():
+    """The first node has a slice of a pipe, and all others around it, to the last of 299 layers."""
+    poly = poly_of(build_mesh(shape := pipe(2, axial=300), pipe_patches(shape)))
+    mesh = assemble(poly, "mesh")
+    layers = layers_over(np.inf)
+    parts = on_nodes(2, lambda team: part_of(poly, (mesh.centres[:, 0] > 1 / 300) == team.rank, team, layers))
+    np.testing.assert_array_equal(parts[0].layer, np.rint(300.0 * mesh.centres[:, 0] - 0.5))
+    assert [part.usable.all() for part in parts] == [True, True]
 
 
 def test_a_node_holds_the_walls_near_its_cells(random):

@@ -17,7 +17,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.measures import path_stokes_number
 from foamprb.cloud.patches import Stick
-from foamprb.cloud.state import drops, spheres
+from foamprb.cloud.state import drops, spheres, with_relaxation
 from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -34,11 +34,16 @@ def flow_of(gradient):
     return MeshFlow(mesh, mesh.nodes @ l.T, np.broadcast_to(l, (len(mesh.nodes), 3, 3)))
 
 
-def warnings_in(gradient, Ca, ratio=None):
-    """Warnings of a solid, or of a drop of this ratio of the viscosities."""
+def warnings_in(gradient, Ca, ratio=None, relaxing=0.0):
+    """Warnings of a solid, or of a drop of this ratio of the viscosities.
+
+    Nine tenths of the solid's modulus relax if ``relaxing`` is nine.
+    """
     flow, x = flow_of(gradient), np.full((1, 3), 0.5)
     if ratio is None:
-        p, material = spheres(x, d=1e-4, rho=1000.0, mu=1.0 / Ca), "neoHooke"
+        p, material = spheres(x, d=1e-4, rho=1000.0, mu=1.0 / Ca / (1.0 + relaxing)), "neoHooke"
+        if relaxing:
+            p = with_relaxation(p, [relaxing * p.mu[0]], [1.0])
     else:
         p, material = drops(x, d=1e-4, rho=1000.0, gamma=5e-5 / Ca, eta=ratio), "drop"
     models = Models(integrator="stokes", material=material)
@@ -82,6 +87,9 @@ def test_extension_beyond_steady_shapes_is_a_doubt_and_shear_is_none():
     assert "no steady shape" in text
     assert warnings_in(extension, 0.25) == []
     assert warnings_in([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], 10.0) == []
+    # Of a solid with memory the modulus that stays counts.
+    assert len(warnings_in(extension, 0.04, relaxing=9.0)) == 1
+    assert warnings_in(extension, 0.025, relaxing=9.0) == []
 
 
 @pytest.mark.parametrize(("ratio", "critical"), [(0.1, 0.51909), (1.0, 0.59795), (2.0, 0.87803)])

@@ -11,7 +11,12 @@ from pipe_cells import MEAN, RADIUS, SETTINGS, pipe_job
 from validation.memory import fitted
 from validation.references.power_law import creep_of_power_law
 
-from foamprb.body.memory import complex_modulus, power_law_modulus, times_of_power_law
+from foamprb.body.memory import (
+    complex_modulus,
+    power_law_modulus,
+    series_of_power_law,
+    times_of_power_law,
+)
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import spheres
@@ -51,6 +56,13 @@ def test_the_series_of_a_power_law_has_its_modulus(tmp_path):
         ours = complex_modulus(omega, stays, G, 1.0 / p.memoryRates[row], p.eta[row])
         law = 100.0 * 10.0 ** -p.k[row] * power_law_modulus(omega, p.k[row]) + 0.5j * omega
         np.testing.assert_allclose(ours, law, rtol=6e-3)
+
+
+def test_the_series_of_a_wide_range_is_a_passive_solid():
+    """Ten times are few for nine decades, but no modulus and no viscosity is negative."""
+    series = series_of_power_law(np.linspace(0.02, 0.98, 49), times_of_power_law(1e-6, 1e3))
+    for values in series:
+        assert (values > 0.0).all()
 
 
 @pytest.mark.parametrize(
@@ -120,6 +132,13 @@ def test_the_log_tells_the_error_of_a_power_law(tmp_path, caplog):
     error, low, high = map(float, found.groups())
     assert 0.0 < error < 0.5
     assert (low, high) == pytest.approx((0.5, 500.0), rel=0.01)
+    assert "the power law holds" not in caplog.text
+
+
+def test_a_range_too_wide_for_a_power_law_is_a_warning(tmp_path, caplog):
+    text = solid("type powerLaw; k 82; alpha 0.44;").replace("deltaT 2e-3", "deltaT 2e-9")
+    log_description(pipe_job(tmp_path, text))
+    assert "the power law holds within 4.1 % only, as endTime is 1e+09 deltaT." in caplog.text
 
 
 def test_a_property_that_the_solid_does_not_have_is_refused(tmp_path):

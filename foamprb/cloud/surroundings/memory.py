@@ -47,6 +47,8 @@ from foamprb.compile.link import traced
 __all__ = ["FadingMemory"]
 
 
+_LARGE_ERROR = 0.02
+"""Relative error of a power law above which the user is warned."""
 _SHORT = 0.1
 """Longest step over Δt below which the user is warned."""
 
@@ -239,6 +241,11 @@ class FadingMemory(Surrounding):
             error = error_of_power_law(np.quantile(survey.p.k, (0.0, 0.5, 1.0)), times)
             low, high = range_of_power_law(times)
             notes.append(f"{'power law [1/s]':24s} within {100.0 * error:.2g} % from {low:.3g} to {high:.3g}")
+            if error > _LARGE_ERROR:
+                warnings.append(
+                    f"the power law holds within {100.0 * error:.2g} % only, as endTime is "
+                    f"{high / low:.2g} deltaT. Up to 1e7 deltaT it holds within {100.0 * _LARGE_ERROR:g} %."
+                )
         step = SHARE_OF_MEMORY * shortest
         if step < _SHORT * survey.dt:
             warnings.append(
