@@ -132,6 +132,13 @@ def number(value: float, digits: int = 4) -> str:
     return f"{float(mantissa):g} × 10{str(int(exponent)).translate(_SUPERSCRIPTS)}".replace("-", "−")
 
 
+def in_ascii(text: str) -> str:
+    """Return a text with the numbers of :func:`number` for typefaces without superscripts: "1.5e-5"."""
+    digits = {sign: digit for digit, sign in _SUPERSCRIPTS.items()}
+    powers = re.compile(f" × 10([{''.join(map(chr, digits))}]+)")
+    return powers.sub(lambda power: f"e{power[1].translate(digits)}", text).replace("−", "-")
+
+
 def font_file(bold: bool = False) -> str:
     """Return the file of the typeface of pictures, which is the first one of the pages."""
     name = f"DejaVuSans{'-Bold' if bold else ''}.ttf"

@@ -12,7 +12,7 @@ from foamprb.results.atomic import write_text
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.shapes import DERIVED, SOURCES, derived
 from foamprb.results.vtk import write_triangles
-from foamprb.view.colours import LIGHT, colour_map, rgb
+from foamprb.view.colours import LIGHT, colour_map, in_ascii, rgb
 from foamprb.view.geometry import FLAT_TYPES
 from foamprb.view.scene import VIEW_ANGLE, Scene, anchor
 from foamprb.view.surfaces import MODE, bulges, unfolded
@@ -46,8 +46,11 @@ MANY = 20000
 SHAPES = {shapes!r}
 # Surfaces of bodies with the quadratic mode, after ENLARGEMENT = … and STEPS = ….
 SURFACES = {surfaces!r}
-# ParaView runs this text without the name of its file.
-folder = Path(globals().get("__file__", {file!r})).resolve().parent
+# ParaView may run this text without the name of its file.
+FILE = globals().get("__file__", {file!r})
+folder = Path(FILE).resolve().parent
+if not folder.is_dir():
+    raise FileNotFoundError(f"no folder {{folder}}: set FILE in this script to its present path")
 view = simple.GetActiveViewOrCreate("RenderView")
 view.UseColorPaletteForBackground, view.Background = 0, PAPER
 # From the upper left behind the camera.
@@ -237,7 +240,7 @@ def write_state(folder: ResultsFolder, scene: Scene) -> None:
         "enlargement": float(scene.enlargement),
         "colours": tuple(map(float, scene.limits)),
         "map": _colours(scene),
-        "title": "\n".join(filter(None, (scene.title, scene.groups))),
+        "title": "\n".join(filter(None, (scene.title, in_ascii(scene.groups)))),
         "caption": f"bodies drawn {scene.enlargement:.3g}x larger"
         if scene.enlargement != 1.0
         else "to scale",

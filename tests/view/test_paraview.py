@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import sys
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from view_run import motion, write_run
@@ -36,3 +39,14 @@ def test_paraview_is_started_with_the_state(case, monkeypatch):
     assert "another script" not in text
     assert "ENLARGEMENT = 6.0\n" in text
     assert "bodies drawn 6x larger" in text
+
+
+def test_moved_results_are_reported(case, monkeypatch):
+    """ParaView's File > Load State runs the text without ``__file__``."""
+    monkeypatch.setenv("PATH", "")
+    main(["paraview", "-case", str(case)])
+    text = (case / "postProcessing/softCloud/softCloud.py").read_text()
+    (case / "postProcessing").rename(case / "moved")
+    monkeypatch.setitem(sys.modules, "paraview", SimpleNamespace(simple=None))
+    with pytest.raises(FileNotFoundError, match="set FILE in this script to its present path"):
+        exec(text, {})
