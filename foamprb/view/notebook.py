@@ -15,6 +15,8 @@ from foamprb.view.results import Run
 
 _HEIGHT = 700
 """Height of the frame of a page, pixels."""
+_UNTRUSTED = "This notebook is not trusted. To see the page, run the cell or take File &gt; Trust Notebook."
+"""Text in the frame: Jupyter removes a frame from outputs that another user has computed, but no text."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ class ViewPage:
     def _repr_html_(self) -> str:
         text = html.escape(self.path.read_text(encoding="utf-8"))
         size = f'width="100%" height="{_HEIGHT}" frameborder="0"'
-        return f'<iframe title="foamprb view" srcdoc="{text}" {size}></iframe>'
+        return f'<iframe title="foamprb view" srcdoc="{text}" {size}>{_UNTRUSTED}</iframe>'
 
 
 @dataclass(frozen=True, repr=False)

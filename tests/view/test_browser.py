@@ -21,6 +21,7 @@ from PIL import Image
 from view_run import Motion, modes, motion, write_run
 
 from foamprb.view.colours import LIGHT, colour_map, colour_of_name, rgb
+from foamprb.view.notebook import ViewPage
 from foamprb.view.picture import picture
 from foamprb.view.results import open_run
 from foamprb.view.scene import VIEW_ANGLE, Scene
@@ -610,6 +611,27 @@ class TestControls:
         tab.page.keyboard.press("0")
         assert tab.run(place) == pytest.approx(before)
         tab.page.keyboard.press("w")
+
+    def test_a_frame_takes_the_wheel_after_a_click(self, browser, request_):
+        """Before it, the wheel and a finger scroll the notebook or page around the frame."""
+        outer = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
+        frame = ViewPage(write_page(request_, None, 30.0, "1.2.3"))._repr_html_()
+        outer.set_content(f"<body>{frame}<div style='height: 2000px'>")
+        inner = outer.frames[1]
+        inner.wait_for_selector("#app:not(.loading)")
+        distance = inner.evaluate("foamprb.eye.distance")
+        touch = "document.getElementById('canvas').style.touchAction"
+        assert inner.evaluate(touch) == "pan-y"
+        outer.mouse.move(300, 300)
+        outer.mouse.wheel(0, 100)
+        outer.wait_for_function("scrollY === 100")
+        assert inner.evaluate("foamprb.eye.distance") == distance
+        outer.mouse.click(300, 300)
+        outer.mouse.wheel(0, 100)
+        inner.wait_for_function(f"foamprb.eye.distance > {distance}")
+        assert inner.evaluate(touch) == ""
+        assert outer.evaluate("scrollY") == 100
+        outer.close()
 
     def test_the_address_restores_camera_time_and_body(self, tab, browser, address):
         place = "[...foamprb.eye.camera.position, foamprb.state.t, foamprb.state.chosen, foamprb.state.name]"

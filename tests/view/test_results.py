@@ -29,6 +29,8 @@ def test_a_notebook_shows_the_page_of_view(case):
     shown = page._repr_html_()
     assert shown.startswith('<iframe title="foamprb view" srcdoc="&lt;!doctype html')
     assert '"' not in shown.split('"')[3]
+    # Jupyter shows only this text where the notebook is not trusted.
+    assert ">This notebook is not trusted. To see the page, run the cell" in shown
 
 
 def test_the_name_of_a_case_need_not_be_text(tmp_path, monkeypatch):

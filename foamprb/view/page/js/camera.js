@@ -167,7 +167,13 @@ export class Eye {
     canvas.addEventListener("pointerup", end);
     canvas.addEventListener("pointercancel", end);
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    // In a frame of another page, the wheel and one finger scroll that page until this one is clicked.
+    const isPassive = () => window.parent !== window && !document.hasFocus();
+    const update = () => { canvas.style.touchAction = isPassive() ? "pan-y" : ""; };
+    for (const name of ["focus", "blur"]) addEventListener(name, update);
+    update();
     canvas.addEventListener("wheel", (event) => {
+      if (isPassive() && !event.ctrlKey) return;
       event.preventDefault();
       const lines = event.deltaMode === 1 ? 16 : 1;
       const place = at(event);
