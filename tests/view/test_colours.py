@@ -10,7 +10,7 @@ import pytest
 from matplotlib.font_manager import FontProperties
 from paths import ROOT
 
-from foamprb.view.colours import MAPS, colour_map, font_file, rgb
+from foamprb.view.colours import DARK, LIGHT, MAPS, colour_map, font_file, rgb
 from foamprb.view.report import plots
 from foamprb.view.report.plots import FATES
 
@@ -39,6 +39,11 @@ def lab(colours, kind):
     return np.stack([116 * f[:, 1] - 16, 500 * (f[:, 0] - f[:, 1]), 200 * (f[:, 1] - f[:, 2])], axis=1)
 
 
+def least_distance(colours, kind):
+    """Smallest CIELAB distance of two of some colours."""
+    return min(np.linalg.norm(a - b) for a, b in combinations(lab(colours, kind), 2))
+
+
 @pytest.mark.parametrize("kind", BLINDNESS)
 @pytest.mark.parametrize("name", MAPS)
 def test_values_of_a_map_can_be_ordered(name, kind):
@@ -54,10 +59,19 @@ def test_values_of_a_map_can_be_ordered(name, kind):
 
 
 @pytest.mark.parametrize("kind", BLINDNESS)
+@pytest.mark.parametrize(
+    "table", [*map(colour_map, MAPS), LIGHT.plane, DARK.plane], ids=[*MAPS, "light", "dark"]
+)
+def test_tenths_of_a_map_differ(table, kind):
+    """Any two of eleven colours, by twice what can just be seen; those of a rainbow do not."""
+    tenths = np.asarray(table)[np.linspace(0, 255, 11).round().astype(int), :3]
+    assert least_distance(tenths, kind) > 2 * 2.3
+
+
+@pytest.mark.parametrize("kind", BLINDNESS)
 def test_colours_of_fates_differ(kind):
     """By seven times what can just be seen, a CIELAB distance of 2.3; hatches and markers differ, too."""
-    colours = lab([rgb(colour) for colour in FATES.values()], kind)
-    assert min(np.linalg.norm(a - b) for a, b in combinations(colours, 2)) > 7 * 2.3
+    assert least_distance([rgb(colour) for colour in FATES.values()], kind) > 7 * 2.3
 
 
 def test_pages_pictures_and_plots_have_one_typeface():
