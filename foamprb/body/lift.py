@@ -8,7 +8,9 @@ Hood, Lee & Roper (2015).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 
@@ -138,6 +140,13 @@ def duct_coefficient(s: Scalar, table: Sequence[Scalar]) -> Scalar:
 
 LONG, SHORT = 10, 7
 """Numbers of terms of :func:`rectangle_coefficient` along the longer sides and along the shorter ones."""
+
+
+@cache
+def rectangles() -> dict[float, tuple[tuple[float, ...], ...]]:
+    """Return c_mn of :func:`rectangle_coefficient` by aspect ratio, along longer and shorter sides."""
+    rows = np.loadtxt(Path(__file__).with_name("rectangle.txt")).reshape(-1, 2, 1 + LONG * SHORT).tolist()
+    return {along[0]: (tuple(along[1:]), tuple(across[1:])) for along, across in rows}
 
 
 def rectangle_coefficient(s: Scalar, t: Scalar, table: Sequence[Scalar], terms: int) -> Scalar:

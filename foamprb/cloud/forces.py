@@ -28,8 +28,8 @@ from foamprb.body.lift import (
     duct_lift,
     hinges,
     rectangle_coefficient,
+    rectangles,
 )
-from foamprb.body.rectangle import RECTANGLES
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, plus, scale_vector
 from foamprb.cloud.block import Medium, at, choose3, load3, local_fluid
 from foamprb.cloud.layout import LANES
@@ -228,8 +228,8 @@ class RectangularDuctLift(Force):
     evaluate: ClassVar = staticmethod(rectangle_focusing)
 
     def __post_init__(self) -> None:
-        if self.aspectRatio not in RECTANGLES:
-            allowed = ", ".join(f"{ratio:g}" for ratio in RECTANGLES)
+        if self.aspectRatio not in rectangles():
+            allowed = ", ".join(f"{ratio:g}" for ratio in rectangles())
             raise InputError(f"has the aspectRatio {self.aspectRatio:g}. Allowed: {allowed}")
         turned = inner(self.axis, self.direction)
         if not (any(self.axis) and any(self.direction)) or abs(turned) > 1e-6 * norm(self.axis) * norm(
@@ -243,7 +243,7 @@ class RectangularDuctLift(Force):
         short = scale_vector(1.0 / norm(self.direction), self.direction)
         long = tuple(map(float, np.cross(scale_vector(1.0 / norm(self.axis), self.axis), short)))
         sides = float(self.aspectRatio * self.size), float(self.size)
-        tables = (tuple(map(float, table)) for table in RECTANGLES[self.aspectRatio])
+        tables = rectangles()[self.aspectRatio]
         return tuple(map(float, self.origin)), long, short, sides, float(self.shearRate), *tables
 
 

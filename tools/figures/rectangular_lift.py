@@ -2,8 +2,8 @@
 
 Computes the coefficients at some places by :mod:`validation.references.rectangle`, adds their values at the
 walls, −55π/96 times the square of the local shear rate across a wall and 0 along it, and fits the series of
-:func:`foamprb.body.lift.rectangle_coefficient`. Writes ``foamprb/body/rectangle.py`` and prints the errors of
-the fit and where neutral spheres gather. Takes seven minutes.
+:func:`foamprb.body.lift.rectangle_coefficient`. Writes ``foamprb/body/rectangle.txt`` and prints the
+errors of the fit and where neutral spheres gather. Takes seven minutes.
 """
 
 from __future__ import annotations
@@ -32,11 +32,10 @@ PLACES = {
 }
 """Places along the longer sides over half of them, and orders of the polynomials, by aspect ratio."""
 WALL = np.linspace(0.0, 1.0, 21)
-_HEAD = '''"""Lift by inertia of the fluid in rectangular ducts, by ``tools/figures/rectangular_lift.py``."""
-
-# c_mn of foamprb.body.lift.rectangle_coefficient by aspect ratio, along the longer and the shorter sides.
-RECTANGLES: dict[float, tuple[tuple[float, ...], tuple[float, ...]]] = {
-'''
+_HEAD = """\
+# c_mn of foamprb.body.lift.rectangle_coefficient, by tools/figures/rectangular_lift.py: aspect ratio,
+# row by row the series along the longer sides, and the one along the shorter sides.
+"""
 
 
 def places(A: int) -> Floats:
@@ -108,9 +107,8 @@ def main() -> None:
 
         for start in ((0.0, 0.65), (0.85, 0.0), (0.6, 0.6), (0.85, 0.6)):
             print("  no force at", fsolve(C, start).round(4), "from", start)
-        rows = ("(\n        " + ",\n        ".join(f"{c:g}" for c in table) + ",\n    )" for table in tables)
-        text += f"    {A}.0: ({', '.join(rows)}),\n"
-    (ROOT / "foamprb/body/rectangle.py").write_text(text + "}\n")
+        text += "".join(" ".join(f"{c:g}" for c in (A, *table)) + "\n" for table in tables)
+    (ROOT / "foamprb/body/rectangle.txt").write_text(text)
 
 
 if __name__ == "__main__":

@@ -15,8 +15,8 @@ from foamprb.body.lift import (
     duct_coefficient,
     hinges,
     rectangle_coefficient,
+    rectangles,
 )
-from foamprb.body.rectangle import RECTANGLES
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DuctLift
@@ -178,9 +178,9 @@ def rectangular(quick: bool) -> Outcome:
 
 def _across(A: int, z: float, y: float) -> float:
     """Return C of the shorter direction; z along the force and y across it over the shorter side."""
-    return float(rectangle_coefficient(2.0 * z, 2.0 * y / A, RECTANGLES[A][1], LONG))
+    return float(rectangle_coefficient(2.0 * z, 2.0 * y / A, rectangles()[A][1], LONG))
 
 
 def _along(y: float) -> float:
     """Return C of the longer direction in a 2:1 duct in the middle of the other."""
-    return float(rectangle_coefficient(y, 0.0, RECTANGLES[2][0], SHORT))
+    return float(rectangle_coefficient(y, 0.0, rectangles()[2][0], SHORT))
