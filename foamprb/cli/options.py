@@ -87,13 +87,7 @@ def fraction(text: str) -> float:
 
 
 def source_of(arguments: argparse.Namespace) -> FlowSource:
-    """Return the source of the flow that the options of :func:`add_flow` select.
-
-    Raises
-    ------
-    InputError
-        If the feature angle or the scale is out of range.
-    """
+    """Return the source of the flow that the options of :func:`add_flow` select."""
     from foamprb.flow.read.source import Division, FlowSource
 
     angle = arguments.featureAngle

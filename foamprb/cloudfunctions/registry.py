@@ -55,13 +55,7 @@ FUNCTIONS: dict[str, type[CloudFunction]] = {
 
 
 class CloudFunctions:
-    """The cloud functions of a run with their data.
-
-    Raises
-    ------
-    InputError
-        If the cloud lacks a name in the entries of a function.
-    """
+    """The cloud functions of a run with their data."""
 
     def __init__(self, functions: Mapping[str, CloudFunction], cloud: ObservedCloud) -> None:
         self.functions = dict(functions)
@@ -163,11 +157,6 @@ class CloudFunctions:
             Names of all arrays, ``function/array``.
         read
             Returns one of them, with all rows.
-
-        Raises
-        ------
-        InputError
-            If it belongs to other functions.
         """
         expected, names = {*self.state()}, {*stored}
         if expected != names:

@@ -20,13 +20,7 @@ _PIECE = 1 << 20
 
 
 def existing(path: Path) -> Path | None:
-    """Return the file itself, else its compressed form ``.gz``, else None, in OpenFOAM's order.
-
-    Raises
-    ------
-    InputError
-        If the folder may not be read.
-    """
+    """Return the file itself, else its compressed form ``.gz``, else None, in OpenFOAM's order."""
     for form in (path, _compressed(path)):
         if _is_file(form):
             return form

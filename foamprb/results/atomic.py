@@ -67,13 +67,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 def refuse_other_kind(path: Path, *beginnings: bytes) -> None:
-    """Refuse to replace an existing file that is not of the kind to be written, as an input of the user.
-
-    Raises
-    ------
-    InputError
-        If the file has contents, and begins otherwise.
-    """
+    """Refuse to replace an existing file that is not of the kind to be written, as an input of the user."""
     if path.is_file():
         with path.open("rb") as file:
             head = file.read(max(map(len, beginnings)))
@@ -82,13 +76,7 @@ def refuse_other_kind(path: Path, *beginnings: bytes) -> None:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file in one step.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
+    """Write a text file in one step."""
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
@@ -134,15 +122,7 @@ def unfinished(file: Path) -> Path | None:
 
 @contextmanager
 def only_writer(folder: Path) -> Iterator[None]:
-    """Lock a folder for this process, which ends the lock; make the folder if it is absent.
-
-    Raises
-    ------
-    InputError
-        If another process has locked the folder.
-    OSError
-        If the folder cannot be made.
-    """
+    """Lock a folder for this process, which ends the lock; make the folder if it is absent."""
     folder.mkdir(parents=True, exist_ok=True)
     descriptor = os.open(folder, os.O_RDONLY)
     try:

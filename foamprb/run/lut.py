@@ -131,13 +131,7 @@ def compute_lut(
 
 
 def inflow(job: Job) -> float:
-    """Return the volume flow into the flow of a job, m³/s.
-
-    Raises
-    ------
-    InputError
-        If the fluxes are unknown, or nothing enters.
-    """
+    """Return the volume flow into the flow of a job, m³/s."""
     flow: Any = job.cloud.flow
     mesh: Any = getattr(flow, "mesh", None)
     phi = np.empty(0) if mesh is None else flow.arrays(0.0, ()).phi

@@ -343,13 +343,7 @@ def execute_run(
 
 
 def require_entries(study: Study, outside_libs: bool = False) -> None:
-    """Check the settings of the first and the last run; a misspelt entry is wrong in both.
-
-    Raises
-    ------
-    InputError
-        If both are wrong: the mistakes of the first.
-    """
+    """Check the settings of the first and the last run; a misspelt entry is wrong in both."""
     numbers, faults = {1, len(study)}, []
     with _logged_to(Path(os.devnull)):
         for number in sorted(numbers):

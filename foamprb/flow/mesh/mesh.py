@@ -148,11 +148,6 @@ def assemble(poly: PolyMesh, source: str) -> Mesh:
     ----------
     poly, source
         Points, faces and patches; the name of the mesh for messages.
-
-    Raises
-    ------
-    InputError
-        A cell is open, or its faces cannot be oriented; or coupled patches do not fit.
     """
     points, faces, *_ = poly
     cell_start, cell_points = points_of_cells(faces, len(points))

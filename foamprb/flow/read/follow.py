@@ -88,13 +88,7 @@ class FollowedCase:
                 raise InputError(self._returned(f"the time {name} was written again"))
 
     def look(self) -> None:
-        """Find the times that are complete by now.
-
-        Raises
-        ------
-        InputError
-            The solver has gone back to an earlier time.
-        """
+        """Find the times that are complete by now."""
         self._roots = self._roots or self._find_roots()
         if not self._roots:
             return

@@ -225,13 +225,7 @@ def read_addresses(processors: Processors, folder: Path, pieces: Sequence[Piece]
 
 
 def found_addresses(pieces: Sequence[Piece]) -> list[Address]:
-    """Return a numbering of the whole mesh by which the pieces meet at their processor patches.
-
-    Raises
-    ------
-    InputError
-        A processor patch has no counterpart with the same faces.
-    """
+    """Return a numbering of the whole mesh by which the pieces meet at their processor patches."""
     internal = starts(np.array([len(piece.neighbour) for piece in pieces]))
     between, n = _between(pieces, int(internal[-1]))
     outer = _boundary_starts(pieces, n)

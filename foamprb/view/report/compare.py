@@ -39,13 +39,6 @@ def write_comparison(runs: Runs, target: Path) -> Path:
     Returns
     -------
     The page.
-
-    Raises
-    ------
-    InputError
-        If none has ended, or files are damaged.
-    OSError
-        If the file cannot be written.
     """
     refuse_other_kind(target, PAGE_BEGINS)
     ended = {name: fates for name, run in runs.items() if (fates := run.fates()) is not None}
