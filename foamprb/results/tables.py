@@ -53,7 +53,10 @@ def rows_of(columns: Mapping[str, Column]) -> Rows:
 
 
 def write_rows(path: Path, parts: Iterable[Rows], before: Callable[[], object] = lambda: None) -> None:
-    """Write a table from its rows part by part; see :func:`write_table`."""
+    """Write a table from its rows part by part; see :func:`write_table`.
+
+    ``before`` is called when all is written; if it raises, no file remains.
+    """
     with atomic_write(path) as temporary:
         with temporary.open("wb") as file:
             for i, part in enumerate(parts):
@@ -63,9 +66,7 @@ def write_rows(path: Path, parts: Iterable[Rows], before: Callable[[], object] =
         before()
 
 
-def write_table(
-    path: Path, columns: Mapping[str, Column], before: Callable[[], object] = lambda: None
-) -> None:
+def write_table(path: Path, columns: Mapping[str, Column]) -> None:
     """Write a table, in one step.
 
     The text begins with a line of column names. A floating-point number is written with the fewest
@@ -78,8 +79,6 @@ def write_table(
         The file.
     columns
         Numbers or text of each column, all of the same length n, by name and in order.
-    before
-        Called when all is written; if it raises, no file remains.
 
     Raises
     ------
@@ -91,7 +90,7 @@ def write_table(
         rows_of({name: column[start : start + _AT_ONCE] for name, column in columns.items()})
         for start in range(0, max(n, 1), _AT_ONCE)
     )
-    write_rows(path, parts, before)
+    write_rows(path, parts)
 
 
 def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any]]:
