@@ -244,11 +244,6 @@ class SeriesFlow(Timeline, MeshFlow):
         Further fields that ``read`` returns.
     names
         Names of the times, which ``read`` shares; :meth:`extend` adds to them.
-
-    Raises
-    ------
-    InputError
-        The times do not rise, or do not fill the period.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012

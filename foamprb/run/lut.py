@@ -83,11 +83,6 @@ def compute_lut(
     width, flow_rate
         Width of the channel, m, by default the smallest one of the flow; volume flow, m³/s, by default that
         through the openings.
-
-    Raises
-    ------
-    InputError
-        If the case is no device, or no body gives a deformation that is large enough.
     """
     plane_ = plane_of(plane, job)
     device = Device(job, plane_, view_of(view, job, plane_))

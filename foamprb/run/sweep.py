@@ -316,13 +316,6 @@ def execute_run(
         See :func:`foamprb.run.job.prepare`.
     cache
         See :class:`~foamprb.flow.read.source.FlowSource`.
-
-    Raises
-    ------
-    InputError, RunStopped
-        If the run cannot start or has to end early; or if its folder holds a run with other values.
-    RunInterrupted
-        If a signal stopped it.
     """
     folder, overrides = study.folder(number), study.overrides(number)
     source = FlowSource(region=study.region, cache=cache)

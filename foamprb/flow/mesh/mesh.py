@@ -131,12 +131,6 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         the whole boundary is one patch ``boundary`` of type ``wall``.
     source
         Name of the grid for messages, e.g. its file.
-
-    Raises
-    ------
-    InputError
-        Cells of another type; a face of three cells; an open cell; boundary faces in no patch or in two
-        patches; patch faces that are not on the boundary.
     """
     return assemble(poly_of_grid(grid, surfaces, source), source)
 

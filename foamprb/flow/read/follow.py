@@ -47,11 +47,6 @@ class FollowedCase:
         Region of the mesh.
     decomposed
         Read the processor folders even if there is a flow beside them.
-
-    Raises
-    ------
-    InputError
-        ``selection`` is not a range; ``system/controlDict`` is missing, or its ``purgeWrite`` is not 0.
     """
 
     def __init__(
