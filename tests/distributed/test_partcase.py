@@ -21,13 +21,17 @@ from foamprb.flow.read.source import FlowSource
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    """A case of four processors: slabs, between two of which a few cells are dealt at random."""
+    """A case of four processors: slabs, between two of which a few cells are dealt at random.
+
+    The floor is on the first processor alone.
+    """
     case = tmp_path_factory.mktemp("parts") / "case"
     mesh = write_case(case, "mixed")
-    x = mesh.centres[:, 0]
+    x, _, z = mesh.centres.T
     part_of = np.clip((4 * x).astype(int), 0, 3)
     some = (x > 0.4) & (x < 0.6)
     part_of[some] = np.random.default_rng(3).integers(1, 3, np.count_nonzero(some))
+    part_of[z < 0.3] = 0
     decompose(case, mesh, part_of, ("0", "1"))
     return case
 

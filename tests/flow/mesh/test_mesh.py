@@ -185,7 +185,7 @@ REFUSED = {
     "a face of three cells": (of_cells(12, np.tile(CUBE_CELLS, (3, 1))), "three or more cells"),
     "an open cell": (lambda: build_mesh(polyhedra(CUBE, [CUBE_FACES[:5]])), "1 cells are not closed"),
     "too few points": (
-        of_cells(12, CUBE_CELLS[:, :6]), "cell 0 has 6 points, but its type is hexahedron"
+        of_cells(12, CUBE_CELLS[:, :7]), "cell 0 has 7 points, but its type is hexahedron"
     ),
     "a point beyond the mesh": (
         lambda: build_mesh(polyhedra(CUBE[:7], [CUBE_FACES])),

@@ -106,3 +106,12 @@ def test_what_is_missing_or_wrong_is_named(case):
     (folder / "1e1/k").unlink()
     with pytest.raises(InputError, match=r"1e1/k: no such field\. The dispersionModel needs k and epsilon"):
         read_case(folder, turbulent=True)
+
+
+def test_diffusivity_of_eddies_is_that_of_their_energy_and_life(case):
+    """k²/3ε is k/9 where ε is 3 k."""
+    folder, mesh = case
+    put(folder / "1e1", "epsilon", 3.0 * (1.0 + mesh.centres[:, 0]))
+    table = read_case(folder, turbulent=True).turbulence_at_nodes()
+    assert table[:, 2].min() > 0.4
+    np.testing.assert_allclose(table[:, 5:], table[:, 2:5] / 9.0, atol=1e-9)
