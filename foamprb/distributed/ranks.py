@@ -195,7 +195,7 @@ class Ranks(Communicator):
         self.call(Worker.prepare, cloud.tracker, cloud.threads)
         self._way = (_PartedFlow if isinstance(flow, DistributedFlow) else _WholeFlow)(self, cloud)
         cloud.publish()
-        cloud.particles = empty(0)
+        cloud.particles = empty(0, cloud.particles.n_times)
         self.distribute()
         nodes = self.rank.windows.nodes
         log.info("\nSharing out %d particles among %d processes of %d thread%s on %d computer%s",

@@ -26,6 +26,8 @@ _STIFF = 1e8
 _SHORT_STEPS, _SMALL_TOLERANCE, _OFTEN = (1, 2), 1e-6, 20
 """``maxDeltaT`` in Δt, tolerance, and Δt between writes with which a run costs more than twice as much; from
 ``tools/benchmark -only observed``."""
+_MANY_STEPS = 1e7
+"""Least number of steps of a particle above which the user is warned."""
 SMALL_REYNOLDS = 0.1
 """Largest particle Reynolds number without a warning; the model assumes Stokes flow around the particle."""
 
@@ -147,9 +149,16 @@ def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> f
     return float(np.mean(np.sqrt(3.0) * extension * times > STEADY_CAPILLARY))
 
 
-def costly_settings(solution: Solution, cloud: Cloud) -> list[str]:
-    """Return a sentence for each setting that more than doubles the cost of a run."""
+def costly_settings(solution: Solution, cloud: Cloud, steps: int) -> list[str]:
+    """Return a sentence for each setting that more than doubles the cost of a run of ``steps`` deltaT."""
     sentences, tolerance = [], cloud.models.tolerance
+    longest_step = cloud.tracker.stride or cloud.tracker.stretch_steps
+    if steps > _MANY_STEPS * longest_step:
+        sentences.append(
+            f"solution: the run is {steps:.3g} deltaT, and no step is longer than {longest_step} deltaT: a "
+            f"particle takes {steps / longest_step:.2g} steps or more until endTime. Use a longer deltaT; "
+            "foamprb init proposes one."
+        )
     adaptive = INTEGRATORS[cloud.models.integrator].adaptive
     if adaptive and solution.stride in _SHORT_STEPS:
         longest = solution.maxDeltaT / cloud.dt

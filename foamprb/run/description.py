@@ -67,7 +67,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     remarks = [model.remarks(survey) for model in models.surroundings]
     notes = [line for remark in remarks for line in remark.notes]
     warnings += [line for remark in remarks for line in remark.warnings]
-    warnings += costly_settings(settings.solution, cloud)
+    warnings += costly_settings(settings.solution, cloud, steps)
     if cloud.size == 0:
         warnings.append("there is no particle: no injection model releases any.")
     scale = settings.solution.scale
@@ -127,6 +127,9 @@ def _surveyed(cloud: Cloud) -> Particles:
     for some in cloud.map_by_id(_arrays_of, tuple(names)):
         rows = some.pop("number")
         for name, array in some.items():
+            if arrays[name].shape[1:] != array.shape[1:]:
+                # Relaxation times have a column each.
+                arrays[name] = np.zeros((cloud.size, *array.shape[1:]))
             arrays[name][rows] = array
     return Particles(**arrays)
 

@@ -209,6 +209,23 @@ def test_walls_and_molecules_do_the_same_after_a_kill_with_other_numbers(case, p
     assert_same(case, pushed)
 
 
+def with_memory(folder: Path) -> Path:
+    case = short_case(folder)
+    edit(case, r"shape\s+paper;", "shape stokes;")
+    relaxation = "relaxation { type prony; moduli (0.05 0.02); times (1e-4 1e-3); }"
+    edit(case, r"(type\s+neoHooke;)", rf"\1 {relaxation}")
+    return case
+
+
+def test_solids_with_memory_do_the_same_after_a_kill_with_other_numbers(tmp_path):
+    truth, case = (with_memory(tmp_path / name) for name in ("truth", "case"))
+    assert main(["run", "-case", str(truth)]) == 0
+    kill = after_hook(tmp_path, at_write("os.kill(os.getpid(), signal.SIGKILL)", 1))
+    assert run(2, case, script=kill).returncode != 0
+    finish(3, case, "-resume")
+    assert_same(case, truth, functions=False)
+
+
 def test_one_process_writes_what_it_writes_without_mpi(case, truth):
     words = [sys.executable, "-m", "foamprb", "run", "-case", str(case), "-parallel"]
     subprocess.run(words, check=True, capture_output=True, env=ENVIRONMENT)

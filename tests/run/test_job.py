@@ -307,6 +307,14 @@ def test_settings_that_cost_more_than_the_run_are_warned_of(case, capsys):
     assert "Warning : solution: maxDeltaT is 1 deltaT" in out
     assert "with the tolerance 1e-07 steps are about 10 times as many" in out
     assert "results are written every 10 deltaT" in out
+    edit(case, r"maxDeltaT 2e-5;", "")
+    edit(case, r"deltaT\s+\S+;", "deltaT 1e-15;")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    (steps, longest, least) = re.search(
+        r"the run is (\S+) deltaT, and no step is longer than (\d+) deltaT: a particle takes (\S+) steps",
+        capsys.readouterr().out,
+    ).groups()
+    assert float(least) == pytest.approx(float(steps) / float(longest), rel=0.05)
 
 
 def test_first_example_of_the_python_page_runs():
