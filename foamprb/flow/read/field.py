@@ -206,6 +206,9 @@ class _Reader:
                     fields[name] = values
         if "type" not in words:
             raise dictionary.missing("type", "Allowed: the name of a boundary condition.")
+        if words["type"] == "empty":
+            # decomposePar writes a list without values.
+            fields = {}
         return PatchField(words["type"], key.startswith('"'), fields, words)
 
     def _values(self, entry: Entry) -> Floats | None:

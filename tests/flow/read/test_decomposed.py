@@ -347,19 +347,22 @@ def test_a_field_is_read_whatever_stands_beside_the_values(tmp_path):
         b"outlet { type inletOutlet; inletValue uniform (0 0 0); phi phi; value uniform (7 8 9); }\n"
         b"mixed { type mixed; refGradient " + list_of_two + b"; valueFraction nonuniform List<scalar> 1\n("
         + np.ones(1).tobytes() + b"); value nonuniform List<vector> 0; }\n"
-        b'"(a|b)" { type noSlip; }\n}\n'
+        b'"(a|b)" { type noSlip; }\nfront { type empty; value nonuniform List<vector> 0; }\n}\n'
     )  # fmt: skip
     field = read_field(file, VELOCITY_FIELD, tmp_path)
     assert field.cells.tolist() == [[1, 2, 3]]
     assert {name: entry.type for name, entry in field.patches.items()} == {
         "inlet": "flowRateInletVelocity", "outlet": "inletOutlet", "mixed": "mixed", "(a|b)": "noSlip",
+        "front": "empty",
     }  # fmt: skip
     assert field.patches["inlet"].fields["value"].tolist() == vectors.tolist()
     assert field.patches["outlet"].fields["value"].tolist() == [[7, 8, 9]]
     assert len(field.patches["mixed"].fields["value"]) == 0
+    # As decomposePar writes the patch of a flux.
+    assert field.patches["front"].fields == {}
     assert field.patches["mixed"].fields["valueFraction"].tolist() == [[1.0]]
     assert field.patches["(a|b)"].fields == {}
-    assert [entry.pattern for entry in field.patches.values()] == [False, False, False, True]
+    assert [entry.pattern for entry in field.patches.values()] == [False, False, False, True, False]
 
 
 def test_patches_keep_all_their_entries(written):
