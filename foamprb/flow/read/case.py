@@ -140,6 +140,10 @@ def require_case(case: Path, region: str) -> None:
     if not region:
         require_choice(case, names)
     folder = case / "constant" / region / "polyMesh"
+    if existing(case / "system/controlDict") is not None:
+        raise InputError(
+            f"{folder}: no mesh here. Make it and the flow first, as by blockMesh and simpleFoam."
+        )
     raise InputError(f"{folder}: no mesh here; is {case} an OpenFOAM case?")
 
 

@@ -75,6 +75,9 @@ def test_a_case_has_a_mesh(tmp_path):
         require_case(tmp_path / "nothing", "")
     with pytest.raises(InputError, match=r"constant/polyMesh: no mesh here; is .* an OpenFOAM case"):
         require_case(tmp_path, "")
+    touch(tmp_path / "system/controlDict")
+    with pytest.raises(InputError, match=r"constant/polyMesh: no mesh here\. Make it and the flow first"):
+        require_case(tmp_path, "")
     touch(tmp_path / "constant/air/polyMesh/faces")
     require_case(tmp_path, "air")
     with pytest.raises(InputError, match="the mesh is divided into regions; choose one"):

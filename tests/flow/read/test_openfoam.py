@@ -290,7 +290,7 @@ def remove(name):
 
 
 BREAKAGES = {
-    "no mesh": (remove(POLY[:-1]), "polyMesh: no mesh here; is .* an OpenFOAM case"),
+    "no mesh": (remove(POLY[:-1]), r"polyMesh: no mesh here\. Make it and the flow first"),
     "no U": (remove("1e1/U"), r"1e1: no field U; the fields are p\."),
     "U cut short": (cut("1e1/U"), "1e1/U"),
     "U cut in the boundary": (cut("1e1/U", 0.9), "1e1/U"),
