@@ -28,7 +28,7 @@ from foamprb.results.intervals import share
 from foamprb.run.checks import SMALL_REYNOLDS
 from foamprb.run.job import Job
 from foamprb.run.slip import Slip, drag_excess, slip_of
-from foamprb.run.validity import PathRecord
+from foamprb.run.validity import PathRecord, warnings_of
 
 log = logging.getLogger("foamprb")
 
@@ -263,7 +263,7 @@ class RunLog:
         log.info("Largest values on the paths")
         for line in record.lines(affine=not models.has_quadratic):
             log.info("    %s", line)
-        for warning in record.warnings(models.material):
+        for warning in warnings_of(record.n, record.beyond, models.material):
             log.warning("%s", warning)
         if not models.has_quadratic and (advice := record.advice()):
             log.info("%s", advice)

@@ -121,15 +121,34 @@ class Excess(NamedTuple):
     """The smallest numbers of them."""
 
     @classmethod
-    def of(cls, p: Particles, beyond: NDArray[np.bool_]) -> Excess:
-        """Return the particles for which ``beyond`` is true, (n,)."""
-        numbers = np.sort(p.number[beyond])
-        return cls(len(numbers), tuple(numbers[:_MOST_LISTED].tolist()))
+    def of(cls, numbers: NDArray[np.int64]) -> Excess:
+        """Return the particles with some numbers."""
+        return cls(len(numbers), tuple(np.sort(numbers)[:_MOST_LISTED].tolist()))
 
     def __str__(self) -> str:
         """Return the numbers as text."""
         more = ", …" if self.n > len(self.first) else ""
         return f"particle{'s' if self.n > 1 else ''} {', '.join(map(str, self.first))}{more}"
+
+
+def excesses(numbers: NDArray[np.int64], values: Mapping[str, Floats], material: str) -> dict[str, Excess]:
+    """Return the particles beyond each limit, from largest values on their paths."""
+    return {name: Excess.of(numbers[values[name] > limit]) for name, limit in limits_of(material).items()}
+
+
+def warnings_of(n: int, beyond: Mapping[str, Excess], material: str) -> list[str]:
+    """Return a sentence for each limit of the model that some of n particles exceeded."""
+    compared = limits_of(material)["maxD"]
+    texts = {
+        "maxD": f"D beyond {compared:g}, the largest with which {material} was compared",
+        "maxBulletAmplitude": f"a bullet amplitude beyond {_LARGE_BULLET:g}, where a theory of first "
+        "order in the strain ends",
+    }
+    return [
+        f"{beyond[name].n} of {n} particles reached {text}: {beyond[name]} (column {name} of fates)."
+        for name, text in texts.items()
+        if beyond[name].n
+    ]
 
 
 class PathRecord(NamedTuple):
@@ -156,7 +175,7 @@ class PathRecord(NamedTuple):
             p.size,
             counts,
             {name: float(np.fmax.reduce(values[name], initial=0.0)) for name in _LINES},
-            {name: Excess.of(p, values[name] > limit) for name, limit in limits_of(models.material).items()},
+            excesses(p.number, values, models.material),
             int(np.count_nonzero(values["curvatureNumber"] > _AT_AXIS)),
         )
 
@@ -195,20 +214,6 @@ class PathRecord(NamedTuple):
                 shares = f"50 % below {half:.3g}, 99 % below {nearly:.3g}, at most {most:.3g}"
                 lines.append(f"{title:24s} {shares}")
         return lines
-
-    def warnings(self, material: str) -> list[str]:
-        """Return a sentence for each limit of the model that particles exceeded, with these particles."""
-        limits = limits_of(material)
-        texts = {
-            "maxD": f"D beyond {limits['maxD']:g}, the largest with which {material} was compared",
-            "maxBulletAmplitude": f"a bullet amplitude beyond {_LARGE_BULLET:g}, where a theory of first "
-            "order in the strain ends",
-        }
-        return [
-            f"{excess.n} of {self.n} particles reached {text}: {excess} (column {name} of fates)."
-            for name, text in texts.items()
-            if (excess := self.beyond[name]).n
-        ]
 
     def advice(self) -> str:
         """Return a proposal of the quadratic mode for affine bodies; empty if few bodies need it."""

@@ -8,7 +8,7 @@ import pytest
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.surroundings.largest import LARGEST
 from foamprb.cloud.tracker import Models
-from foamprb.run.validity import PathRecord, are_curved, path_values
+from foamprb.run.validity import PathRecord, are_curved, path_values, warnings_of
 
 N = 100
 
@@ -31,21 +31,25 @@ def record(p, models, parts=1):
     return PathRecord.total([PathRecord.of(p.take(k), 1000.0, models) for k in rows])
 
 
+def warnings(record, material="neoHooke"):
+    return warnings_of(record.n, record.beyond, material)
+
+
 def test_particles_beyond_the_largest_compared_deformation_are_named():
     D = np.full(N, 0.2)
     D[[7, 40, 41]] = 0.95, 0.31, 0.99
-    solid, capsule = (record(bodies(D), Models(material=m)).warnings(m) for m in ("neoHooke", "capsule"))
+    solid, capsule = (warnings(record(bodies(D), Models(material=m)), m) for m in ("neoHooke", "capsule"))
     assert solid[0].startswith("2 of 100 particles reached D beyond 0.94")
     assert "particles 7, 41 (" in solid[0]
     assert "particles 7, 40, 41 (" in capsule[0]
-    assert record(bodies(0.2), Models()).warnings("neoHooke") == []
+    assert warnings(record(bodies(0.2), Models())) == []
 
 
 def test_a_record_is_the_same_for_any_distribution_of_the_particles():
     p = bodies(np.linspace(0.0, 0.99, N), np.linspace(0.0, 0.3, N))
     whole, parts = (record(p, Models(), n) for n in (1, 7))
     assert whole.lines(affine=True) == parts.lines(affine=True)
-    assert whole.warnings("neoHooke") == parts.warnings("neoHooke")
+    assert warnings(whole) == warnings(parts)
     assert whole.lines(affine=True)[0].endswith("at most 0.99")
     median = float(whole.lines(affine=True)[0].split("50 % below ")[1].split(",")[0])
     assert median == pytest.approx(0.49, rel=0.03)

@@ -24,7 +24,7 @@ from foamprb.view.report.report import write_report
 N = 60
 LARGEST = {
     "maxD": 0.65, "maxShearRate": 100.0, "maxShearStress": 0.1, "maxReynolds": 0.01, "curvatureNumber": 0.2,
-    "maxBulletAmplitude": 0.1,
+    "maxBulletAmplitude": 0.3,
 }  # fmt: skip
 """Largest values on the paths, and the largest of these."""
 
@@ -88,6 +88,12 @@ def test_the_headline_is_the_largest_deformation_on_the_paths(page):
     text = re.sub("<[^>]+>", " ", page.split("Largest values on the paths</caption>")[1])
     assert re.search(r"curvature number\s+0.1\s+0.198\s+0.2\s+50 % \(37.7–62.3 %\) beyond 0.1", text)
     assert re.search(r"Reynolds number\s+0.005\s+0.0099\s+0.01\s+0 % \(0–6.02 %\) beyond 0.1", text)
+
+
+def test_the_head_warns_of_particles_beyond_the_model(page):
+    head = html.unescape(page.partition('id="bodies"')[0])
+    assert "20 of 60 particles reached a bullet amplitude beyond 0.2" in head
+    assert "particles 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, … (column maxBulletAmplitude of fates)" in head
 
 
 def test_the_page_needs_no_network(page):

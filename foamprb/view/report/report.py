@@ -26,7 +26,7 @@ from foamprb.results.intervals import quantile, share
 from foamprb.results.manifest import Manifest
 from foamprb.results.reading import reading
 from foamprb.results.record import RECORD_FORMAT
-from foamprb.run.validity import COLUMNS, limits_of
+from foamprb.run.validity import COLUMNS, excesses, limits_of, warnings_of
 from foamprb.view.colours import DARK, LIGHT, number, with_interval, written
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
@@ -121,7 +121,7 @@ def write_report(
             f"{title_of(case)}: {run.name}",
             _subtitle(run),
             _cards(fates),
-            [*run.record.get("warnings", ()), *_leftovers(run), *missing],
+            [*run.record.get("warnings", ()), *_beyond(fates, run), *_leftovers(run), *missing],
             [section for section in sections if section is not None],
         )
     for name, plot in report.made.items():
@@ -349,9 +349,19 @@ def _deformation(report: _Report) -> PageSection | None:
     return PageSection("deformation", "Deformation", grid(drawn)) if drawn else None
 
 
+def _beyond(fates: Table, run: Run) -> list[str]:
+    """Return warnings of particles beyond the limits of the model."""
+    if "maxD" not in fates:
+        return []
+    material = run.record.get("models", {}).get("solid", "")
+    released = int(np.count_nonzero(fates["fate"] != "pending"))
+    return warnings_of(released, excesses(fates["id"], fates, material), material)
+
+
 def _largest(report: _Report) -> str:
     """Return a table of the largest values on the paths, with the shares beyond the limits of the model."""
-    fates, limits = report.fates, limits_of(report.run.record.get("models", {}).get("solid", ""))
+    fates, models = report.fates, report.run.record.get("models", {})
+    limits, affine = limits_of(models.get("solid", "")), models.get("shape") == "affine"
     rows = []
     for name, text in COLUMNS.items():
         values, limit = fates[name][np.isfinite(fates[name])], limits.get(name)
@@ -359,7 +369,8 @@ def _largest(report: _Report) -> str:
             continue
         part = share(int(np.count_nonzero(values > (limit or np.inf))), len(values)).percent()
         beyond = f"{part} beyond {number(limit)}" if limit else ""
-        rows.append((text, *(number(q, 3) for q in np.quantile(values, (0.5, 0.99, 1.0)).tolist()), beyond))
+        title = f"steady {text}" if affine and name == "maxBulletAmplitude" else text
+        rows.append((title, *(number(q, 3) for q in np.quantile(values, (0.5, 0.99, 1.0)).tolist()), beyond))
     gap = fates["minGap"]
     if (gap < NEAR).any():
         gap = np.minimum(gap[fates["fate"] != "pending"], NEAR)
