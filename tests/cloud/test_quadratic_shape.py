@@ -88,24 +88,23 @@ def test_shapes_follow_a_flow_that_changes_along_the_path():
     assert np.linalg.norm(error) / np.linalg.norm(half) == pytest.approx(5.0, rel=0.2)
 
 
-def test_long_steps_resolve_the_change_of_the_flow():
+@pytest.mark.parametrize(("height", "substeps"), [(1.0, 0.5), (2.0, 0.05)], ids=["ripples", "rise"])
+def test_long_steps_resolve_the_change_of_the_flow(height, substeps):
     """A straight path at constant speed, where nothing but the source of the mode changes."""
     results = []
     for stride in (1, 64):
-        p = bodies((0.0, 0.0, RIPPLES))
+        p = bodies((0.0, 0.0, height))
         advanced(p, WAVES_AND_RIPPLES, 512, 1e-2 / 512, stride=stride)
         results.append(p.B[0].copy())
-    assert p.substeps[0] < 0.5
+    assert p.substeps[0] < substeps
     assert results[1] == pytest.approx(results[0], abs=0.02 * np.abs(results[0]).max())
 
 
-RIPPLES = 1.0
-"""Height at which the flow is that of ripples, m."""
-
-
-def _waves_and_ripples(x, y, z):
-    """Two flows, neither of which depends on z, in one loop."""
-    if z > 0.5 * RIPPLES:
+def _waves_and_ripples(x, y, z, t):
+    """Three flows in one loop: waves at z = 0, ripples at 1 m, and one that rises slowly at 2 m."""
+    if z > 1.5:
+        return 1e7 * y * y * np.sin(10.0 * t), 0.0 * y, 0.0 * z
+    if z > 0.5:
         return 0.05 + 1e6 * y * y * np.sin(3e4 * x), 0.0 * y, 0.0 * z
     k, v = 3e3, 0.05
     return (
