@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from itertools import combinations
 from typing import Any
 
@@ -104,10 +105,11 @@ def reason_against(names: frozenset[str]) -> str:
     return ""
 
 
-def sets_of_pairs(refused: dict[frozenset[str], str]) -> list[frozenset[str]]:
+def sets_of_pairs(refused: dict[frozenset[str], str], order: random.Random) -> list[frozenset[str]]:
     """Return sets of models that go together, which contain all pairs that do."""
     sets = []
     missing = [pair for pair in PAIRS if pair not in refused]
+    order.shuffle(missing)
     while missing:
         names = missing[0]
         while fitting := [n for n in MODELS if not any(frozenset((n, m)) in refused for m in names)]:
@@ -115,7 +117,7 @@ def sets_of_pairs(refused: dict[frozenset[str], str]) -> list[frozenset[str]]:
             gains = [sum(n in pair and pair <= names | {n} for pair in missing) for n in fitting]
             if not any(gains):
                 break
-            names |= {fitting[int(np.argmax(gains))]}
+            names |= {order.choice([n for n, gain in zip(fitting, gains, strict=True) if gain == max(gains)])}
         sets.append(names)
         missing = [pair for pair in missing if not pair <= names]
     return sets
@@ -150,7 +152,9 @@ def test_a_refusal_names_one_of_the_models(refused):
 @pytest.mark.filterwarnings("ignore::foamprb.errors.FailedParticlesWarning")
 def test_all_other_pairs_run_and_resume_bit_for_bit(refused):
     """With rosenbrock and wallLift the nearest bodies may need too many steps: see the page of wallLift."""
-    for names in sets_of_pairs(refused):
+    # Each set is a loop to be compiled.
+    fewest = min((sets_of_pairs(refused, random.Random(seed)) for seed in range(20)), key=len)
+    for names in fewest:
         whole, part = cloud_of(names), cloud_of(names)
         whole.advance(6)
         part.advance(2)
