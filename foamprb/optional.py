@@ -19,6 +19,11 @@ def load(module: str, extra: str = "view", reason: str = "pages, pictures and re
         Name of the extra in ``pyproject.toml``; by default ``view``: Matplotlib, pyvista and Pillow.
     reason
         Beginning of the message: the subject and ``need`` or ``needs``.
+
+    Raises
+    ------
+    InputError
+        If the module is not installed; the message says how to install it.
     """
     try:
         return importlib.import_module(module)

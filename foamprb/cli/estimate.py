@@ -55,7 +55,13 @@ def execute(arguments: argparse.Namespace) -> int:
 
 
 def lines(arguments: argparse.Namespace) -> list[str]:
-    """Return the estimates, line by line."""
+    """Return the estimates, line by line.
+
+    Raises
+    ------
+    InputError
+        If a number is not positive.
+    """
     # Slow imports, which other commands do not need.
     from foamprb.body.bonds import force_on_held_sphere
     from foamprb.body.estimate import SoftSphere, Surroundings, across_forces, estimate, shear_modulus

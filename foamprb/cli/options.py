@@ -87,7 +87,13 @@ def fraction(text: str) -> float:
 
 
 def source_of(arguments: argparse.Namespace) -> FlowSource:
-    """Return the source of the flow that the options of :func:`add_flow` select."""
+    """Return the source of the flow that the options of :func:`add_flow` select.
+
+    Raises
+    ------
+    InputError
+        If the feature angle or the scale is out of range.
+    """
     from foamprb.flow.read.source import Division, FlowSource
 
     angle = arguments.featureAngle

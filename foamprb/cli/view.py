@@ -72,7 +72,13 @@ def execute(arguments: argparse.Namespace) -> int:
 
 
 def read_size(text: str) -> tuple[int, int]:
-    """Return width and height from a text like ``1600x900``."""
+    """Return width and height from a text like ``1600x900``.
+
+    Raises
+    ------
+    InputError
+        If the text has another form.
+    """
     match = re.fullmatch(r"([1-9]\d{1,4})x([1-9]\d{1,4})", text)
     if not match:
         raise InputError(f"-size {text}: not a width and a height like 1600x900.")

@@ -302,6 +302,11 @@ class Cloud:
         A :class:`~foamprb.errors.FailedParticlesWarning` reports failed particles; the others continue. A
         :class:`~foamprb.errors.ValidityWarning` reports, once, that steps are too long for a model of the
         surroundings or for the integrator ``paper``. After Ctrl-C the cloud can be advanced further.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read; earlier steps are kept.
         """
         p = self.particles
         before = p.counts()[Status.FAILED]
@@ -353,6 +358,11 @@ class Cloud:
         Returns
         -------
         The arguments of the flow's kernels, and the number of steps, at least 1.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read.
         """
         until = self.flow.load(self.time, self.time_of(self.step + 1))
         ready = (until - self.time) / self.dt + _ROUND_OFF

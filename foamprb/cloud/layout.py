@@ -105,6 +105,11 @@ def layout(*parts: tuple[int, ...]) -> Layout:
     ----------
     parts
         :func:`offsets` of the block's declarations, in order.
+
+    Raises
+    ------
+    ValueError
+        If two declarations have a name in common.
     """
     rows: Placed = {}
     for at in parts:

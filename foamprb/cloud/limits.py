@@ -9,7 +9,13 @@ from typing import NamedTuple
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of a particle, by the names of their entries in ``solution``."""
+    """Limits of a particle, by the names of their entries in ``solution``.
+
+    Raises
+    ------
+    ValueError
+        If one is out of its range.
+    """
 
     maxStretch: float = 100.0
     """Largest stretch from the shape at rest, 1."""

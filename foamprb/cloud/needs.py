@@ -197,7 +197,13 @@ _KINDS = {1: "a scalar", 3: "a vector", 6: "a symmetric tensor", 9: "a tensor"}
 
 
 def check_needs(forces: Sequence[Force], columns: Sequence[FieldColumns]) -> None:
-    """Try forces with the fields of a flow."""
+    """Try forces with the fields of a flow.
+
+    Raises
+    ------
+    InputError
+        A field is missing, or a force does not take it.
+    """
     components = {column.name: column.components for column in columns}
     for force in forces:
         fields = [name for name in force.needs if name not in STATE]

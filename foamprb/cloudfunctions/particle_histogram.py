@@ -67,7 +67,13 @@ class ParticleHistogram(PathFunction):
                 raise InputError(f"has the field {name}. {suggestion(name, _EXPOSURES)[:-1]}")
 
     def initial(self, cloud: ObservedCloud) -> Memory:
-        """Return integrals of zero."""
+        """Return integrals of zero.
+
+        Raises
+        ------
+        InputError
+            If an injection model has the name of another column of the tables.
+        """
         if taken := {"lower", "upper"} & set(cloud.names["injector"]):
             raise InputError(f"no injection model may be called {min(taken)}, as a column of the tables is.")
         D = shapes(cloud.particles)[1]

@@ -52,7 +52,13 @@ class PatchPostProcessing(CloudFunction, ContactObserver):
     arrays: ClassVar = {"rebounds": table}
 
     def begin(self, cloud: ObservedCloud) -> Memory:
-        """Check the names of the patches; return an empty table of rebounds if particles bounce off one."""
+        """Check the names of the patches; return an empty table of rebounds if particles bounce off one.
+
+        Raises
+        ------
+        InputError
+            If there is no such patch, or the cloud does not record the rebounds from it.
+        """
         names = cloud.names["patch"]
         for name in self.patches:
             if not _patches_named(cloud, name):

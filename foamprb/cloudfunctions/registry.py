@@ -55,7 +55,13 @@ FUNCTIONS: dict[str, type[CloudFunction]] = {
 
 
 class CloudFunctions:
-    """The cloud functions of a run with their data."""
+    """The cloud functions of a run with their data.
+
+    Raises
+    ------
+    InputError
+        If the cloud lacks a name in the entries of a function.
+    """
 
     def __init__(self, functions: Mapping[str, CloudFunction], cloud: ObservedCloud) -> None:
         self.functions = dict(functions)
@@ -157,6 +163,11 @@ class CloudFunctions:
             Names of all arrays, ``function/array``.
         read
             Returns one of them, with all rows.
+
+        Raises
+        ------
+        InputError
+            If it belongs to other functions.
         """
         expected, names = {*self.state()}, {*stored}
         if expected != names:

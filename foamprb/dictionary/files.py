@@ -20,7 +20,13 @@ _PIECE = 1 << 20
 
 
 def existing(path: Path) -> Path | None:
-    """Return the file itself, else its compressed form ``.gz``, else None, in OpenFOAM's order."""
+    """Return the file itself, else its compressed form ``.gz``, else None, in OpenFOAM's order.
+
+    Raises
+    ------
+    InputError
+        If the folder may not be read.
+    """
     for form in (path, _compressed(path)):
         if _is_file(form):
             return form

@@ -22,6 +22,11 @@ def override(root: Dictionary, values: Mapping[str, object]) -> dict[str, str]:
     values
         By path, ``"solution/deltaT"``: a number, a bool, a sequence as a list ``( … )``, a mapping as a
         dictionary ``{ … }`` whose entries are merged, or the text of an entry.
+
+    Raises
+    ------
+    InputError
+        If the dictionary of an entry does not exist, or a text is not the value of an entry.
     """
     texts = {path: _text_of(value) for path, value in values.items()}
     for path, text in texts.items():

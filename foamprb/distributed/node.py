@@ -192,7 +192,13 @@ class Part:
         return self._lead(read)
 
     def share(self, *walls: Any) -> int:
-        """Place the arrays of the flow, with some walls, in the memory of the node; return bytes shared."""
+        """Place the arrays of the flow, with some walls, in the memory of the node; return bytes shared.
+
+        Raises
+        ------
+        InputError
+            The lists of walls would be too long.
+        """
 
         def place(_: MpiTeam) -> Any:
             assert self.flow is not None

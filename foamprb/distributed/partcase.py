@@ -81,7 +81,13 @@ class PartCase(DecomposedCase):
         return {time: fault for damaged in of_nodes for time, fault in damaged.items()}
 
     def mesh(self, time: str) -> CaseMesh:
-        """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`."""
+        """Read the mesh at a time; see :meth:`~foamprb.flow.read.openfoam.Case.mesh`.
+
+        Raises
+        ------
+        IndivisibleMeshError
+            The folders have no addressing files, or see :func:`hold_part`; or patches are coupled.
+        """
         team, folder = self._team, self.mesh_folder(time)
         files = mesh_files(self._first, time, self.region)
         if self._whole is not None and files == self._files:

@@ -37,6 +37,11 @@ def hold_part(
         Number of layers in which bodies may move.
     team, source
         The nodes, which call it together; the name of the mesh for messages.
+
+    Raises
+    ------
+    IndivisibleMeshError
+        The mesh has baffles or folded cells.
     """
     pieces = [read()]
     if has_baffles(pieces[0], team, n_internal):

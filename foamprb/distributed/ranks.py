@@ -74,6 +74,11 @@ class Ranks(Communicator):
             Function and arguments.
         here
             Further arguments for this process alone, which cannot be sent.
+
+        Raises
+        ------
+        InputError, RunStopped, OSError, RankError
+            If a process fails.
         """
         worker, message = self.rank, pickle.dumps((function, arguments))
         self._in_collective = True

@@ -57,7 +57,13 @@ class Windows:
         self._windows: dict[int, Any] = {}
 
     def make(self, key: int, shape: tuple[int, ...], dtype: str) -> None:
-        """Make an array."""
+        """Make an array.
+
+        Raises
+        ------
+        RunStopped
+            If the computer has not so much memory to share.
+        """
         size = int(np.prod(shape)) * np.dtype(dtype).itemsize
         try:
             window = self._MPI.Win.Allocate_shared(size if self.node.rank == 0 else 0, 1, comm=self.node)

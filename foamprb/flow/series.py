@@ -244,6 +244,11 @@ class SeriesFlow(Timeline, MeshFlow):
         Further fields that ``read`` returns.
     names
         Names of the times, which ``read`` shares; :meth:`extend` adds to them.
+
+    Raises
+    ------
+    InputError
+        The times do not rise, or do not fill the period.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -313,6 +318,11 @@ class SeriesFlow(Timeline, MeshFlow):
         Returns
         -------
         The last of these times, s.
+
+        Raises
+        ------
+        InputError
+            The flow does not cover ``start`` to ``end``, or one of its times cannot be read.
         """
         self._levels = self._levels_for(start, end)
         wanted = [self._index(level) for level in self._levels]
@@ -537,6 +547,11 @@ def series_of(
         See :class:`SeriesFlow`.
     make
         Class of the flow.
+
+    Raises
+    ------
+    InputError
+        The times do not rise, or do not fill the period.
     """
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."

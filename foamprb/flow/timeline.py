@@ -54,7 +54,13 @@ class Timeline:
         self.span = self.times[0], self.times[-1]
 
     def _levels_for(self, start: float, end: float) -> range:
-        """Return the levels from the last one up to ``start`` to the first one from ``end`` on."""
+        """Return the levels from the last one up to ``start`` to the first one from ``end`` on.
+
+        Raises
+        ------
+        InputError
+            The times do not cover ``start`` to ``end``.
+        """
         beyond = _ENDS * max(abs(self.times[0]), abs(self.times[-1]))
         if not (self.span[0] - beyond <= start and end <= self.span[1] + beyond):
             raise InputError(

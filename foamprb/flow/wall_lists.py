@@ -144,6 +144,11 @@ def near_walls(tree: WallTree, boxes: Floats, reach: float, names: Ints, size: f
     near_start, near
         As in :class:`foamprb.flow.mesh.arrays.MeshArrays`; boxes contain their triangles, so that none is
         missed.
+
+    Raises
+    ------
+    InputError
+        The lists would be longer than memory should bear.
     """
     n_cells = len(boxes)
     start = np.zeros(n_cells + 1, dtype=np.int32)

@@ -67,7 +67,13 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 def refuse_other_kind(path: Path, *beginnings: bytes) -> None:
-    """Refuse to replace an existing file that is not of the kind to be written, as an input of the user."""
+    """Refuse to replace an existing file that is not of the kind to be written, as an input of the user.
+
+    Raises
+    ------
+    InputError
+        If the file has contents, and begins otherwise.
+    """
     if path.is_file():
         with path.open("rb") as file:
             head = file.read(max(map(len, beginnings)))
@@ -76,7 +82,13 @@ def refuse_other_kind(path: Path, *beginnings: bytes) -> None:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file in one step."""
+    """Write a text file in one step.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
@@ -122,7 +134,15 @@ def unfinished(file: Path) -> Path | None:
 
 @contextmanager
 def only_writer(folder: Path) -> Iterator[None]:
-    """Lock a folder for this process, which ends the lock; make the folder if it is absent."""
+    """Lock a folder for this process, which ends the lock; make the folder if it is absent.
+
+    Raises
+    ------
+    InputError
+        If another process has locked the folder.
+    OSError
+        If the folder cannot be made.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     descriptor = os.open(folder, os.O_RDONLY)
     try:

@@ -67,6 +67,11 @@ class ResultsFolder:
             Region of the mesh; by default the default region, or any other if that has no results.
         root
             Folder of the results instead of ``postProcessing`` in the case.
+
+        Raises
+        ------
+        InputError
+            If there are no such results, or results of several clouds or regions.
         """
         if not case.is_dir():
             raise InputError(f"{case}: no such folder.")

@@ -47,7 +47,13 @@ class Manifest:
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
-        """Read the list of a run in its folder; it is empty without a manifest."""
+        """Read the list of a run in its folder; it is empty without a manifest.
+
+        Raises
+        ------
+        InputError
+            If the manifest is damaged or has another format.
+        """
         manifest = cls(folder)
         if manifest.path.exists() or manifest.path.is_symlink():
             with reading(manifest.path):
@@ -57,7 +63,13 @@ class Manifest:
         return manifest
 
     def expect(self, files: Iterable[Path]) -> None:
-        """List files that are about to be written."""
+        """List files that are about to be written.
+
+        Raises
+        ------
+        InputError
+            If a folder on the way to a file is a link.
+        """
         files = frozenset(files)
         self._add(files - (self._expected or frozenset()))
         self._expected = files

@@ -37,7 +37,13 @@ class Rows(NamedTuple):
 
 
 def rows_of(columns: Mapping[str, Column]) -> Rows:
-    """Return rows of a table as :func:`write_rows` takes them."""
+    """Return rows of a table as :func:`write_rows` takes them.
+
+    Raises
+    ------
+    ValueError
+        If the columns differ in length, or one has more than one axis.
+    """
     arrays = {name: as_column(name, column) for name, column in columns.items()}
     lengths = {name: len(array) for name, array in arrays.items()}
     if len(set(lengths.values())) > 1:

@@ -90,7 +90,13 @@ class Seen(NamedTuple):
 
 
 def plane_of(text: str | None, job: Job) -> Plane:
-    """Return the plane of ``x=0.01``, ``x`` or ``(0.01 0 0) (1 0 0)``, or that of a cloud function."""
+    """Return the plane of ``x=0.01``, ``x`` or ``(0.01 0 0) (1 0 0)``; by default that of a cloud function.
+
+    Raises
+    ------
+    InputError
+        If the text is none of these; or without a text, if no cloud function has a plane.
+    """
     if text is None:
         planes = [f for f in job.settings.functions.values() if isinstance(f, PlaneFunction)]
         if not planes:
@@ -210,6 +216,11 @@ class Device:
         Returns
         -------
         Places, (n, 3), m, NaN where paths decide; distances, (n,), m.
+
+        Raises
+        ------
+        InputError
+            If neither the plane nor the table has the coordinate along the normal.
         """
         point, normal = self.plane
         places = np.stack([measured.of(name) for name in "xyz"], axis=1)

@@ -154,6 +154,13 @@ def fit_job(
         Whether to start over.
     stop
         Called several times a second; True to stop.
+
+    Raises
+    ------
+    InputError
+        If the table or the case cannot be used.
+    RunInterrupted
+        If ``stop`` returned True.
     """
     unknown = tuple(dict.fromkeys(unknown))
     for name in unknown:

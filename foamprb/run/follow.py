@@ -74,7 +74,13 @@ class Following:
         self._extend()
 
     def wait_until(self, t: float, purpose: str) -> None:
-        """Wait until the flow covers a time before the run."""
+        """Wait until the flow covers a time before the run.
+
+        Raises
+        ------
+        RunStopped
+            The solver has written no time for too long, or a signal ended the wait.
+        """
         if not self._wait(lambda: self.flow.span[1] >= t, never, f"the flow until {t:.12g} s, {purpose}"):
             raise RunInterrupted(_BEFORE_START, self._signal())
 
@@ -150,6 +156,14 @@ def begin_to_follow(
         Returns the flow at the times until now.
     signal
         See :class:`Following`.
+
+    Raises
+    ------
+    InputError
+        The solver ends before its second time; or see
+        :class:`FollowedCase` and :func:`foamprb.flow.read.flows.read_transient_flow`.
+    RunStopped
+        The solver has written no time for too long, or a signal ended the wait.
     """
     if source.file is not None:
         raise InputError(f"{source.file}: -follow goes with a case of OpenFOAM, not with a mesh file.")

@@ -386,7 +386,13 @@ def assemble(
     growing: bool = False,
     comm: Communicator | None = None,
 ) -> Job:
-    """Place the particles of the settings in a flow; a ``growing`` one may end before the run."""
+    """Place the particles of the settings in a flow; a ``growing`` one may end before the run.
+
+    Raises
+    ------
+    InputError
+        If a patch has no interaction or particles would start outside the flow.
+    """
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = _medium(settings)
     start = _start(settings, flow, growing)

@@ -83,6 +83,11 @@ def compute_lut(
     width, flow_rate
         Width of the channel, m, by default the smallest one of the flow; volume flow, m³/s, by default that
         through the openings.
+
+    Raises
+    ------
+    InputError
+        If the case is no device, or no body gives a deformation that is large enough.
     """
     plane_ = plane_of(plane, job)
     device = Device(job, plane_, view_of(view, job, plane_))
@@ -126,7 +131,13 @@ def compute_lut(
 
 
 def inflow(job: Job) -> float:
-    """Return the volume flow into the flow of a job, m³/s."""
+    """Return the volume flow into the flow of a job, m³/s.
+
+    Raises
+    ------
+    InputError
+        If the fluxes are unknown, or nothing enters.
+    """
     flow: Any = job.cloud.flow
     mesh: Any = getattr(flow, "mesh", None)
     phi = np.empty(0) if mesh is None else flow.arrays(0.0, ()).phi

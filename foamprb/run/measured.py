@@ -95,6 +95,12 @@ def read_measured(table: PathLike[str] | str | Mapping[str, ArrayLike]) -> Measu
         A ``.csv`` file whose heads have units, ``d [um]``; a file of dclab, ``.rtdc`` or ``.tsv``; the
         ``_evaluated.csv`` of shear flow deformation cytometry; or arrays in SI units by the names of
         :class:`Measured`.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read; if a unit is missing or unknown, a column that is needed is missing, or a
+        cell is no number.
     """
     if isinstance(table, Mapping):
         return _checked("measured", {name: np.asarray(values) for name, values in table.items()})

@@ -85,6 +85,11 @@ class Release:
         The flow, and its viscosity, density and gravity.
     span
         Shortest and longest time of the run, s.
+
+    Raises
+    ------
+    InputError
+        If an injection model cannot release particles in the flow.
     """
 
     def __init__(
@@ -102,7 +107,13 @@ class Release:
         self.size = sum(source.size for source in self._sources)
 
     def parts(self, most: int = sys.maxsize) -> Iterator[Particles]:
-        """Yield the particles in the order of their numbers, at most so many together."""
+        """Yield the particles in the order of their numbers, at most so many together.
+
+        Raises
+        ------
+        InputError
+            If a stiffness is not positive, or a particle lies outside the flow.
+        """
         first = 0
         for source in self._sources:
             for p in source.parts(most):

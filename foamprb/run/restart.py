@@ -271,6 +271,11 @@ def restore(
         See :meth:`foamprb.cloud.cloud.Cloud.store_at`.
     where
         What a message begins with.
+
+    Raises
+    ------
+    InputError
+        If the checkpoint has other arrays, or is that of a run with other cloud functions.
     """
     header, n = checkpoint.header, cloud.size
     layout = {

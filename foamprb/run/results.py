@@ -69,7 +69,15 @@ _ELSEWHERE = "The option -output DIR writes the results into another folder."
 
 @contextmanager
 def open_results(job: Job) -> Iterator[Results]:
-    """Lock the folder of a run against other runs; on leaving, wait for unfinished writes."""
+    """Lock the folder of a run against other runs; on leaving, wait for unfinished writes.
+
+    Raises
+    ------
+    InputError
+        If another run writes there.
+    RunStopped
+        If results cannot be written, in place of the OSError; if memory runs out.
+    """
     try:
         with only_writer(job.folder.path), Writer() as writer:
             yield Results(job, writer)
@@ -117,6 +125,11 @@ class Results:
         ----------
         start_from
             See :func:`foamprb.run.loop.execute`.
+
+        Raises
+        ------
+        InputError
+            If the run cannot continue from its checkpoints, or the user must decide whether it shall.
         """
         job = self._job
         self._fingerprint = fingerprint(job.settings, job.cloud)
@@ -132,7 +145,13 @@ class Results:
         self._start_over(overwrite=start_from == "startTime")
 
     def write_start(self) -> None:
-        """Write the snapshot of the start time, with particles that appear then; no-op after a restart."""
+        """Write the snapshot of the start time, with the particles that appear then; no-op after a restart.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written.
+        """
         cloud = self._job.cloud
         if cloud.step > 0 or self._series.entries:
             return
@@ -163,6 +182,11 @@ class Results:
 
         Snapshots and checkpoint are written from a copy while the cloud advances. Tables and checkpoint are
         those of the present time.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written, now or at the time before.
         """
         cloud = self._ready()
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
@@ -184,7 +208,13 @@ class Results:
         self._writer.submit(partial(self._end_write, begun, snapshot, memory, parts))
 
     def save(self) -> None:
-        """Write only a checkpoint, for a run that is stopped between two write times."""
+        """Write only a checkpoint, for a run that is stopped between two write times.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written.
+        """
         cloud = self._ready()
         self._manifest.settle(self._checkpoint_files(now=True))
         # Particles that are ahead of the others have passed write times.
@@ -195,6 +225,11 @@ class Results:
         """Write ``fates``, a row per particle, and ``failed`` if a particle failed.
 
         ``fates`` marks a finished run: it takes its name after the last snapshot and checkpoint.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written, now or at the time before.
         """
         cloud = self._job.cloud
         failed = cloud.counts()[Status.FAILED] > 0

@@ -316,6 +316,13 @@ def execute_run(
         See :func:`foamprb.run.job.prepare`.
     cache
         See :class:`~foamprb.flow.read.source.FlowSource`.
+
+    Raises
+    ------
+    InputError, RunStopped
+        If the run cannot start or has to end early; or if its folder holds a run with other values.
+    RunInterrupted
+        If a signal stopped it.
     """
     folder, overrides = study.folder(number), study.overrides(number)
     source = FlowSource(region=study.region, cache=cache)
@@ -336,7 +343,13 @@ def execute_run(
 
 
 def require_entries(study: Study, outside_libs: bool = False) -> None:
-    """Check the settings of the first and the last run; a misspelt entry is wrong in both."""
+    """Check the settings of the first and the last run; a misspelt entry is wrong in both.
+
+    Raises
+    ------
+    InputError
+        If both are wrong: the mistakes of the first.
+    """
     numbers, faults = {1, len(study)}, []
     with _logged_to(Path(os.devnull)):
         for number in sorted(numbers):

@@ -432,7 +432,13 @@ def _fluid(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScales) -
 def _viscosity(
     file: Path, case: Path, region: str, time: str | None, rate: float, where: str
 ) -> tuple[float | None, float | None, list[str]]:
-    """Return a viscosity, m²/s or else Pa s, and its entry or a comment."""
+    """Return a viscosity, m²/s or else Pa s, and its entry or a comment.
+
+    Raises
+    ------
+    InputError
+        It is unknown.
+    """
     try:
         return _typical(read_viscosity(file, case, None, region, time), rate, where)
     except InputError:

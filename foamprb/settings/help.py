@@ -93,7 +93,13 @@ def meaning(section: str, entry: str, model: str = "") -> EntryText:
 
 
 def explain(word: str | None) -> list[str]:
-    """Return the documentation of an entry, a dictionary, a type or a value, or a list of all."""
+    """Return the documentation of an entry, a dictionary, a type or a value; without a word, a list of all.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown; with the most similar name.
+    """
     if word is None:
         return _overview()
     wanted, (sections, forces, everything) = word.strip("/"), _texts()

@@ -40,7 +40,13 @@ def loaded_libs() -> tuple[Path, ...]:
 
 
 def require_inside(files: Iterable[Path], case: Path) -> None:
-    """Refuse Python files outside a case."""
+    """Refuse Python files outside a case.
+
+    Raises
+    ------
+    InputError
+        If one of them lies elsewhere, or a link leads there.
+    """
     for file in files:
         if not file.resolve().is_relative_to(case.resolve()):
             raise InputError(

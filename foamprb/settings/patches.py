@@ -183,6 +183,11 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
         Rules of the settings and patches of the mesh.
     file
         The file that a message names.
+
+    Raises
+    ------
+    InputError
+        If rules match no patch, or patches of other kinds have no rule; all of them.
     """
     where = f"{file}: subModels/localInteractionCoeffs/patches"
     names = [patch.name for patch in patches]

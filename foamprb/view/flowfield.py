@@ -237,7 +237,13 @@ def _rate(l: Floats) -> Floats:
 
 
 def read_plane(text: str, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Return point and unit normal of the plane of ``-slice``, in the box of a mesh."""
+    """Return point and unit normal of the plane of ``-slice``, in the box of a mesh.
+
+    Raises
+    ------
+    InputError
+        If the text has no allowed form, or the plane misses the box.
+    """
     by_axis = re.fullmatch(rf"([xyz])(?:=({_NUMBER}))?", text.strip())
     by_normal = re.fullmatch(rf"{_VECTOR}\s*{_VECTOR}", text.strip())
     if by_axis:

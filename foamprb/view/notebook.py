@@ -50,6 +50,11 @@ class CaseRun(Run):
             Largest size, MB.
         options
             Fields of :class:`foamprb.view.show.Request`: ``time``, ``colour``, ``enlargement``, ``slice``, ….
+
+        Raises
+        ------
+        InputError, OSError
+            See :func:`foamprb.view.show.write_page`.
         """
         from foamprb.view.show import Request, write_page
 

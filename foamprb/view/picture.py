@@ -277,7 +277,13 @@ def typeset(text: Any, bold: bool = False) -> None:
 
 
 def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, texts: bool = True) -> None:
-    """Write a picture of the scene's first time, ``.png``, in one step."""
+    """Write a picture of the scene's first time, ``.png``, in one step.
+
+    Raises
+    ------
+    InputError
+        If the name of the file has another ending.
+    """
     if path.suffix.lower() != ".png":
         raise InputError(f"-png {path}: the name must end in .png.")
     with vtk_messages():

@@ -111,7 +111,13 @@ class Run:
         return self.results.tables
 
     def file(self, table: str) -> Path:
-        """Return the file of one of :attr:`tables`."""
+        """Return the file of one of :attr:`tables`.
+
+        Raises
+        ------
+        InputError
+            If there is no such table.
+        """
         file = self.results.table(table)
         if not file.exists():
             raise InputError(f"{self.folder}: no table '{table}'. {suggestion(table, self.tables)}")
@@ -128,7 +134,13 @@ class Run:
         return read_table(self.file(name), _WORDS)
 
     def frame(self, name: str = "fates") -> Any:
-        """Return a table as a data frame of pandas."""
+        """Return a table as a data frame of pandas.
+
+        Raises
+        ------
+        InputError
+            As :meth:`table`; or if pandas is not installed.
+        """
         return frame_of(self.table(name))
 
     @property
@@ -137,7 +149,13 @@ class Run:
         return self.results.table(FATES).exists()
 
     def fates(self) -> Table | None:
-        """Return the table ``fates``; None if the run has not ended."""
+        """Return the table ``fates``; None if the run has not ended.
+
+        Raises
+        ------
+        InputError
+            If the table is damaged or lacks a column.
+        """
         if not self.has_fates:
             return None
         table = self.table("fates")
@@ -194,7 +212,13 @@ class Run:
         return PointCloud(entry.time, _points(data), values, self.units, self.names)
 
     def snapshot(self, time: float | None = None) -> pyvista.PolyData:
-        """Return the cloud at the written time nearest to ``time``, s, or the last, with all arrays."""
+        """Return the cloud at the written time nearest to ``time``, s, by default the last, with all arrays.
+
+        Raises
+        ------
+        InputError
+            If the file is missing or damaged, or pyvista is not installed.
+        """
         cloud = self.cloud(-1 if time is None else self.nearest(time))
         mesh = load("pyvista").PolyData(poly_data(cloud))
         mesh.field_data["time"] = [cloud.time]
@@ -217,6 +241,11 @@ class Run:
             Factor of the size.
         resolution
             Number of facets around a body.
+
+        Raises
+        ------
+        InputError
+            See :meth:`snapshot`.
         """
         pyvista, cloud = load("pyvista"), self.cloud(-1 if time is None else self.nearest(time))
         sphere = pyvista.Sphere(radius=1.0, theta_resolution=resolution, phi_resolution=resolution)
@@ -250,6 +279,11 @@ class Run:
         Returns
         -------
         None without the function, or if it has recorded no path.
+
+        Raises
+        ------
+        InputError
+            If the file is damaged.
         """
         file = self.results.tracks
         if file is None:

@@ -88,6 +88,11 @@ class Runs(Mapping[str, Run]):
         """Return the rows of a table of all runs, with the columns ``run`` and one for each replaced entry.
 
         Runs without this table are left out, and columns that some of the others lack.
+
+        Raises
+        ------
+        InputError
+            If no run has such a table, or one is damaged.
         """
         tables = {key: run.table(name) for key, run in self.runs.items() if name in run.tables}
         if not tables:
@@ -107,7 +112,13 @@ class Runs(Mapping[str, Run]):
         return columns
 
     def frame(self, name: str = "fates") -> Any:
-        """Return :meth:`table` as a data frame of pandas."""
+        """Return :meth:`table` as a data frame of pandas.
+
+        Raises
+        ------
+        InputError
+            As :meth:`table`; or if pandas is not installed.
+        """
         return frame_of(self.table(name))
 
 

@@ -131,7 +131,13 @@ class ManualInjection(Injection):
     ignoreOutOfBounds: _LEAVE_OUT = False
 
     def places(self, flow: Flow, _random: np.random.Generator, read: ReadPositions) -> Places:
-        """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``."""
+        """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``.
+
+        Raises
+        ------
+        InputError
+            If positions lie outside the flow; with their number and the first of them.
+        """
         SOI = start_of_injection(self, flow)
         x, columns = read(self.positionsFile, GIVEN)
         hosts = flow.locate(x)
@@ -157,7 +163,13 @@ class PatchInjection(Injection):
     SOI: _SOI = START_OF_FLOW
 
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
-        """Return random places on the patch, with a density proportional to the flux, at even intervals."""
+        """Return random places on the patch, with a density proportional to the flux, at even intervals.
+
+        Raises
+        ------
+        InputError
+            If no fluid enters through the patch, or no particle is injected.
+        """
         SOI = start_of_injection(self, flow)
         n = require_room(
             self.parcelsPerSecond * self.duration,
@@ -207,6 +219,11 @@ class PatchFlowRateInjection(Injection):
         """Return random places on the patch, as the inflow at the times of release.
 
         Particle k is released when the volume for k + ½ particles has entered.
+
+        Raises
+        ------
+        InputError
+            If no fluid enters through the patch, or no particle is injected.
         """
         start = start_of_injection(self, flow)
         end = min(start + self.duration, flow.span[1])
@@ -265,7 +282,13 @@ class LineInjection(Injection):
     ignoreOutOfBounds: _LEAVE_OUT = False
 
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
-        """Return the places on the line, without those outside the flow if ``ignoreOutOfBounds``."""
+        """Return the places on the line, without those outside the flow if ``ignoreOutOfBounds``.
+
+        Raises
+        ------
+        InputError
+            If places lie outside the flow; with their number and the first of them.
+        """
         n = require_room(self.number, f"lineInjection: number {self.number}")
         x = np.linspace(self.start, self.end, n)
         hosts = flow.locate(x)
@@ -337,6 +360,11 @@ def _in_mesh(
         Corners of a box around the region, (2, 3), m; only its part in that of the mesh is searched.
     contains
         Returns which points lie in the region.
+
+    Raises
+    ------
+    InputError
+        If less than a thousandth of that part lies in region and mesh.
     """
     low, high = np.maximum(box[0], flow.bounds[0]), np.minimum(box[1], flow.bounds[1])
     n = require_room(model.number, f"{what}: number {model.number}")
@@ -356,7 +384,13 @@ def _in_mesh(
 
 
 def _inside(x: Floats, hosts: NDArray[np.int32], leave_out: bool, what: object) -> NDArray[np.bool_]:
-    """Return which of the positions lie in the flow."""
+    """Return which of the positions lie in the flow.
+
+    Raises
+    ------
+    InputError
+        If some do not and shall not be left out; with their number and the first of them.
+    """
     outside = hosts < 0
     if outside.any() and not leave_out:
         first = ", ".join("({:g} {:g} {:g})".format(*row) for row in x[outside][:3])
@@ -442,7 +476,13 @@ class ConeInjection(Injection):
             raise InputError("has an axis (0 0 0) in positionAxis")
 
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
-        """Return the positions in turn, at even intervals in time, with a random direction each."""
+        """Return the positions in turn, at even intervals in time, with a random direction each.
+
+        Raises
+        ------
+        InputError
+            If a position lies outside the flow, or no particle is injected.
+        """
         SOI = start_of_injection(self, flow)
         positions, axes = (np.array(part, dtype=float) for part in zip(*self.positionAxis, strict=True))
         hosts = flow.locate(positions)
@@ -507,6 +547,11 @@ def require_room(number: float, what: str) -> int:
         Number of particles, infinite if that overflows.
     what
         Beginning of a message: the entries that give the number.
+
+    Raises
+    ------
+    InputError
+        If it is zero, or if there is not enough memory for them.
     """
     need, there = number * BYTES, memory()
     if not need < there:
@@ -550,6 +595,11 @@ def given_shear_modulus(
         ν_s, which ``youngsModulus`` needs.
     mu, shear_rate
         Viscosity μ_f of the fluid, Pa s, and γ̇, 1/s, to which Ca refers.
+
+    Raises
+    ------
+    InputError
+        If there are several of these columns, or if ``Ca`` or ``youngsModulus`` lacks its second quantity.
     """
     names = [name for name in ("shearModulus", "youngsModulus", "Ca") if name in columns]
     if len(names) > 1:

@@ -119,7 +119,13 @@ class Surrounding:
         return {}
 
     def walls(self, patches: Sequence[Patch]) -> tuple[float, Sequence[int]]:  # noqa: ARG002
-        """Return how far away the flow must find walls, in radii of a particle, and their patches."""
+        """Return how far away the flow must find walls, in radii of a particle, and indices of their patches.
+
+        Raises
+        ------
+        InputError
+            If its entries name patches that the flow does not have.
+        """
         return 0.0, ()
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002

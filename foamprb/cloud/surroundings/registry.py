@@ -77,6 +77,11 @@ def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) ->
         Layout of the integrator's block without them.
     inertia
         Whether the integrator's solid has inertia.
+
+    Raises
+    ------
+    InputError
+        If two models determine the same quantity.
     """
     if not surroundings:
         return {}

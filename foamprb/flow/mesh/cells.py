@@ -67,7 +67,13 @@ def poly_of_grid(grid: Any, surfaces: Sequence[PatchSurface] | None, source: str
 
 
 def list_half_faces(grid: Any, source: str) -> HalfFaces:
-    """List the faces of the cells of a ``vtkUnstructuredGrid``, cell by cell."""
+    """List the faces of the cells of a ``vtkUnstructuredGrid``, cell by cell.
+
+    Raises
+    ------
+    InputError
+        Cells of an unknown type, indices out of range, or more cells than 32-bit indices allow.
+    """
     types, n_points = _STRAIGHT[cell_types(grid)], grid.GetNumberOfPoints()
     unknown = sorted(set(np.flatnonzero(np.bincount(types)).tolist()) - set(CELL_KINDS))
     if unknown:

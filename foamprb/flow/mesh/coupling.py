@@ -81,6 +81,11 @@ def couple(
     -------
     patches, couplings
         The patches with their coupled neighbours; the couplings, each with its reverse.
+
+    Raises
+    ------
+    InputError
+        A cyclic patch names no neighbour, or the two do not match.
     """
     named = [patch._replace(neighbour="") for patch in patches]
     names = [patch.name for patch in patches]

@@ -131,6 +131,12 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         the whole boundary is one patch ``boundary`` of type ``wall``.
     source
         Name of the grid for messages, e.g. its file.
+
+    Raises
+    ------
+    InputError
+        Cells of another type; a face of three cells; an open cell; boundary faces in no patch or in two
+        patches; patch faces that are not on the boundary.
     """
     return assemble(poly_of_grid(grid, surfaces, source), source)
 
@@ -142,6 +148,11 @@ def assemble(poly: PolyMesh, source: str) -> Mesh:
     ----------
     poly, source
         Points, faces and patches; the name of the mesh for messages.
+
+    Raises
+    ------
+    InputError
+        A cell is open, or its faces cannot be oriented; or coupled patches do not fit.
     """
     points, faces, *_ = poly
     cell_start, cell_points = points_of_cells(faces, len(points))

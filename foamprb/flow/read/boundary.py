@@ -77,7 +77,14 @@ _NO_WORD = re.compile(r"""[\s"'/;{}]""")
 
 
 def read_boundary(path: Path, case: Path, file: FoamFile | None = None) -> tuple[PatchInfo, ...]:
-    """Read the patches of ``polyMesh/boundary``, or of its contents if they have been read."""
+    """Read the patches of ``polyMesh/boundary``, or of its contents if they have been read.
+
+    Raises
+    ------
+    InputError
+        The file is missing or broken; the name of a patch is not a word of OpenFOAM or occurs twice; a patch
+        does not begin where the previous one ends; a type is misspelt, like ``wal``.
+    """
     existing_file = existing(path)
     if existing_file is None:
         raise InputError(f"{path}: no such file.")

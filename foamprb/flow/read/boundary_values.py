@@ -90,6 +90,12 @@ def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, 
         The patches as the case lists them, and the mesh.
     cells
         (n_cells, 3) velocity at the cells, m/s.
+
+    Raises
+    ------
+    InputError
+        The field has no entry for a patch, an entry of a type that the patch cannot have, or one without the
+        values that it needs; or the counts of values and faces differ.
     """
     owner = mesh.owner[mesh.n_internal :]
     sizes = np.linalg.norm(mesh.boundary_areas, axis=1)

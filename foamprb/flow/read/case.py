@@ -265,6 +265,11 @@ def select_times(
     selection
         Values and ranges ``a:b``, ``a:`` or ``:b`` (ends included), separated by commas or blanks;
         ``latestTime``; None for all.
+
+    Raises
+    ------
+    InputError
+        The case cannot be read; a value or a range selects nothing; or two names are the same time.
     """
     case = Path(case)
     return choose_times(case, _require_times(case, region), selection)

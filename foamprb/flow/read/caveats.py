@@ -55,7 +55,13 @@ def balanced(conserve: Conservation, *values: Any, notes: list[Any]) -> Floats |
 
 
 def balanced_in_time(conserve: Conservation, *values: Any, accept: Sequence[str]) -> Floats:
-    """Return the fluxes at a time of a transient flow; NaN if an unbalanced flow is accepted."""
+    """Return the fluxes at a time of a transient flow; NaN if they cannot be balanced, and this is accepted.
+
+    Raises
+    ------
+    InputError
+        If they cannot be balanced, and this is not accepted.
+    """
     try:
         return conserve(*values)
     except UnbalancedFlowError as error:

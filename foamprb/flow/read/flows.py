@@ -77,7 +77,13 @@ def read_transient_flow(case: Path, times: str | None, period: float | None, sou
 
 
 def rotations_of(case: Path, source: FlowSource) -> tuple[Rotation, ...]:
-    """Read the active zones of ``MRFProperties`` if they are described in the frames of their rotors."""
+    """Read the active zones of ``MRFProperties`` if they are described in the frames of their rotors.
+
+    Raises
+    ------
+    InputError
+        The dictionary cannot be read, or an entry is missing or not a constant.
+    """
     return read_rotations(case, source.region) if source.relative and source.file is None else ()
 
 

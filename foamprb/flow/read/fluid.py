@@ -162,6 +162,11 @@ def read_viscosity(
         Time of a viscosity that is a field; None if it may not be one.
     transient
         Whether all times are read, so that a field must be there at all of them.
+
+    Raises
+    ------
+    InputError
+        The viscosity is missing or of another kind; or it depends on a temperature that is not known.
     """
     root = read_dictionary(file, case, warn=True)
     here = _Fields(case, region, time, transient)
@@ -600,7 +605,14 @@ class Mixture(NamedTuple):
 
 
 def read_mixture(case: Path, region: str, time: float | str | None, transient: bool = False) -> Mixture:
-    """Read the phases of a case with two; see :func:`read_viscosity`."""
+    """Read the phases of a case with two; see :func:`read_viscosity`.
+
+    Raises
+    ------
+    InputError
+        The case has other phases than two; or the viscosity or density of one is not constant; or the field
+        of the fraction is missing at a time.
+    """
     phases = phases_of(case, region)
     if len(phases) != 2:
         listed = ", ".join(phases) or "none"

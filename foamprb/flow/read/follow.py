@@ -47,6 +47,11 @@ class FollowedCase:
         Region of the mesh.
     decomposed
         Read the processor folders even if there is a flow beside them.
+
+    Raises
+    ------
+    InputError
+        ``selection`` is not a range; ``system/controlDict`` is missing, or its ``purgeWrite`` is not 0.
     """
 
     def __init__(
@@ -83,7 +88,13 @@ class FollowedCase:
                 raise InputError(self._returned(f"the time {name} was written again"))
 
     def look(self) -> None:
-        """Find the times that are complete by now."""
+        """Find the times that are complete by now.
+
+        Raises
+        ------
+        InputError
+            The solver has gone back to an earlier time.
+        """
         self._roots = self._roots or self._find_roots()
         if not self._roots:
             return

@@ -348,7 +348,13 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
 
 def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[list[str], list[str]]:
-    """Return the times of a transient flow at which the velocity is whole, and notes."""
+    """Return the times of a transient flow at which the velocity is whole, and notes.
+
+    Raises
+    ------
+    InputError
+        The selection has no times, or the mesh changes in time.
+    """
     selected, notes = case.select_times(selection), []
     damaged = case.damaged(selected, velocity)
     names = [name for name in selected if name not in damaged] or list(selected)

@@ -48,6 +48,11 @@ class PreparedTimes:
         Mesh of the flow.
     comm
         The nodes that hold the mesh; each has files of its own.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be made.
     """
 
     def __init__(self, folder: Path | None, mesh: Mesh, comm: MeshCommunicator = SINGLE_NODE) -> None:

@@ -225,7 +225,13 @@ def read_addresses(processors: Processors, folder: Path, pieces: Sequence[Piece]
 
 
 def found_addresses(pieces: Sequence[Piece]) -> list[Address]:
-    """Return a numbering of the whole mesh by which the pieces meet at their processor patches."""
+    """Return a numbering of the whole mesh by which the pieces meet at their processor patches.
+
+    Raises
+    ------
+    InputError
+        A processor patch has no counterpart with the same faces.
+    """
     internal = starts(np.array([len(piece.neighbour) for piece in pieces]))
     between, n = _between(pieces, int(internal[-1]))
     outer = _boundary_starts(pieces, n)

@@ -43,6 +43,11 @@ def kinds_of(
         Returns the classes of the fields at a time, by name.
     times
         The times at which they are read.
+
+    Raises
+    ------
+    InputError
+        A field is missing at a time, or has no value for each cell.
     """
     kinds: list[Kind] = []
     for time in times if names else ():

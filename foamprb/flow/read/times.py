@@ -26,6 +26,11 @@ def choose_times(source: Path, names: Sequence[str], selection: str | None = Non
     selection
         Values and ranges ``a:b``, ``a:`` or ``:b`` (ends included), separated by commas or blanks;
         ``latestTime``; None for all.
+
+    Raises
+    ------
+    InputError
+        A value or a range selects nothing; or two names are the same time.
     """
     if selection is None:
         _require_different(source, names)
@@ -45,7 +50,13 @@ def choose_times(source: Path, names: Sequence[str], selection: str | None = Non
 
 
 def names_in(source: Path, names: Sequence[str], selection: str | None) -> tuple[str, ...]:
-    """Return the times in a range ``a:b``, ``a:`` or ``:b``, perhaps none; all for None."""
+    """Return the times in a range ``a:b``, ``a:`` or ``:b``, perhaps none; all for None.
+
+    Raises
+    ------
+    InputError
+        ``selection`` is not a range.
+    """
     word = ":" if selection is None else selection.strip()
     match = _RANGE.fullmatch(word)
     low, high = (

@@ -27,7 +27,26 @@ _MOST_CONTRASTS = 50
 
 
 def write_comparison(runs: Runs, target: Path) -> Path:
-    """Write a page about several runs that have ended, with a row for each; return the page."""
+    """Write a page about several runs that have ended, in one step: a row for each, and their distributions.
+
+    Parameters
+    ----------
+    runs
+        The runs.
+    target
+        The page.
+
+    Returns
+    -------
+    The page.
+
+    Raises
+    ------
+    InputError
+        If none has ended, or files are damaged.
+    OSError
+        If the file cannot be written.
+    """
     refuse_other_kind(target, PAGE_BEGINS)
     ended = {name: fates for name, run in runs.items() if (fates := run.fates()) is not None}
     if not ended:
