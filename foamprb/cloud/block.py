@@ -99,7 +99,7 @@ class Rows(NamedTuple):
 at = offsets(Rows)
 """Index of the first row of each quantity."""
 ROWS = end(at)
-idle, load_rows, save_rows, prefetch_rows = layout(at)[1:5]
+idle, load_rows, save_rows = layout(at)[1:4]
 
 # Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; stored frames may be a little more skew.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
@@ -225,8 +225,6 @@ class Scratch(NamedTuple):
     """Their integers, (:data:`SHELF`, :data:`LABELS`)."""
     counts: Any
     """(:data:`COUNTS`,) numbers of particles set aside, and other counts (:mod:`foamprb.cloud.lanes`)."""
-    prefetched: Any
-    """Sink for prefetched values; keeps the compiler from removing the prefetch."""
     stride: Any
     """(LANES,) tracking steps to the end of the stretch."""
     passed: Any
@@ -295,7 +293,6 @@ def new_scratch(
         shelf=np.empty((SHELF, len(lasting_rows))),
         labels=np.empty((SHELF, LABELS), dtype=np.int64),
         counts=np.zeros(COUNTS, dtype=np.int64),
-        prefetched=np.empty(1),
         stride=next(lanes),
         passed=next(lanes),
         paths=np.empty((0, 0, 0)),
@@ -557,11 +554,6 @@ def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     s.block[at.maxStretch * LANES + i] = s.bounds.maxStretch * longest_stretch(load9(s.block, at.F0, i))
     s.block[at.maxLength * LANES + i] = s.bounds.maxLength
     s.block[at.length * LANES + i] = p.R[k] * longest_stretch(load9(s.block, at.F, i))
-
-
-def prefetch_particle(p: Particles, k: int) -> float:
-    """Prefetch particle k, so that cache misses of several particles overlap."""
-    return float(p.status[k] + p.host[k] + p.number[k] + p.gamma[k] + prefetch_rows(p, k))
 
 
 def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:

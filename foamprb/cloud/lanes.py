@@ -18,7 +18,6 @@ from foamprb.cloud.block import (
     at,
     idle_lanes,
     load_particle,
-    prefetch_particle,
     save_particle,
 )
 from foamprb.cloud.layout import LANES
@@ -75,16 +74,6 @@ def pause(s: Scratch) -> None:
 def others(s: Scratch, n: int) -> bool:
     """Return True if one of n particles could take the lane of one that is set aside."""
     return bool(s.counts[READY] > 0 or s.counts[_NEXT] < n)
-
-
-def prefetch_next(p: Particles, members: NDArray[np.int64], s: Scratch) -> None:
-    """Prefetch the next particle for each free lane."""
-    k, total = s.counts[_NEXT], 0.0
-    for i in range(LANES):
-        if s.member[i] < 0 and k < len(members):
-            total += prefetch_particle(p, members[k])
-            k += 1
-    s.prefetched[0] = total
 
 
 def fetch(p: Particles, members: NDArray[np.int64], s: Scratch, i: int, step: int) -> int:
@@ -160,7 +149,6 @@ def fill_lanes(
                 hold(flow, patches, s, i, last, dt, start)
                 if not must_move(s, i, last):
                     finish(p, s, i, len(members))
-        prefetch_next(p, members, s)
         loaded, new = 0, 0
         for i in range(LANES):
             if s.member[i] < 0:

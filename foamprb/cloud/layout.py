@@ -54,9 +54,6 @@ class Layout(NamedTuple):
     """``load(p, k, block, i)`` copies particle k of the cloud into lane i."""
     save: Callable[[Any, int, Any, int], None]
     """``save(p, k, block, i)`` copies the saved rows of lane i to particle k."""
-    prefetch: Callable[[Any, int], float]
-    """``prefetch(p, k)`` reads the arrays of particle k that ``load`` reads. Its sum keeps the compiler from
-    removing the reads."""
     parts: tuple[tuple[int, ...], ...]
     """:func:`offsets` of the block's declarations, in order."""
     lasting: NDArray[np.int64]
@@ -118,7 +115,7 @@ def layout(*parts: tuple[int, ...]) -> Layout:
                 raise ValueError(f"the row {name} is declared twice")
             rows[name] = first, row
     scope: dict[str, Any] = {"__name__": __name__, "LANES": LANES}
-    exec("\n".join([*_idle(rows), *_load(rows), *_save(rows), *_prefetch(rows)]), scope)
+    exec("\n".join([*_idle(rows), *_load(rows), *_save(rows)]), scope)
     loaded = _numbers(placed for placed in rows.values() if placed[1].of)
     unloaded = _numbers(placed for placed in rows.values() if placed[1].lasting and not placed[1].of)
     loaded_only = Layout(
@@ -126,7 +123,6 @@ def layout(*parts: tuple[int, ...]) -> Layout:
         idle=scope["idle"],
         load=scope["load_rows"],
         save=scope["save_rows"],
-        prefetch=scope["prefetch_rows"],
         parts=parts,
         lasting=np.array(loaded, dtype=np.int64),
         fresh=np.empty(0),
@@ -185,27 +181,12 @@ def _save(rows: Placed) -> Iterator[str]:
         yield from (margin + line for line in _copies(quantities, "{array} = {lane}"))
 
 
-def _prefetch(rows: Placed) -> Iterator[str]:
-    # Nine numbers lie on two cache lines at most: read the first and the last.
-    loaded = {row.of: 0 if _is_scalar(row) else row.components for _, row in rows.values() if row.of}
-    yield "def prefetch_rows(p, k):"
-    yield "    total = 0.0"
-    for array, components in loaded.items():
-        ends = ["k, 0", f"k, {components - 1}"] if components else ["k"]
-        yield from (f"    total += p.{array}[{place}]" for place in ends)
-    yield "    return total"
-
-
-def _is_scalar(row: Row) -> bool:
-    """Return whether the array of a quantity has no columns."""
-    return row.components == 1 and not row.columns
-
-
 def _copies(placed: Iterable[tuple[int, Row]], copy: str) -> Iterator[str]:
     """Generate lines that copy between lane i and particle k, one loop for each number of components."""
     by_components: dict[int, list[tuple[int, str]]] = {}
     for first, row in placed:
-        by_components.setdefault(0 if _is_scalar(row) else row.components, []).append((first, row.of))
+        components = 0 if row.components == 1 and not row.columns else row.components
+        by_components.setdefault(components, []).append((first, row.of))
     for components, quantities in by_components.items():
         if components == 0:
             for first, array in quantities:

@@ -217,7 +217,6 @@ class Tracker:
         others = (*models.surroundings, *((Adhesion(),) if adheres else ()))
         around = (*model_of(medium.mu), *needed, largest, *others)
         self.layout = layout = surroundings.with_rows(integrator.layout, around)
-        bindings["prefetch_rows"] = layout.prefetch
         required: dict[str, Any] = {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         required |= integrator.bindings
         required |= compose(models.forces, partial(reader_of, columns=columns, inertia=integrator.inertia))
