@@ -19,6 +19,7 @@ from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError, ValidityWarning
 from foamprb.flow import analytic
+from foamprb.flow.base import NEAR
 
 MU_F, R, T = 1e-3, 0.5e-6, 300.0
 KT = BOLTZMANN * T
@@ -138,6 +139,18 @@ def test_random_numbers_may_hold_for_several_tracking_steps():
     for _ in range(64 // cloud.stretch_steps):
         cloud.advance(cloud.stretch_steps)
     assert np.array_equal(whole.x, p.x)
+
+
+@pytest.mark.parametrize(("gap", "fewest", "most"), [(0.2, 1.3, 2.6), (1.0, 1.3, 2.6), (30.0, 1.0, 1.0)])
+def test_random_numbers_hold_while_a_body_moves_a_fifth_of_the_gap(gap, fewest, most):
+    """Four tracking steps are then one step, near the wall 1.3 to 2.6, as gaps change meanwhile.
+
+    A wall farther away than :data:`NEAR` radii is ignored.
+    """
+    hold = 0.5 * (0.2 * min(gap, NEAR) * R) ** 2 / D
+    models, p = (BrownianMotion(T=T, shape=False),), beads(200, height=(1.0 + gap) * R)
+    carried(p, 64, hold / 4.0, flow=analytic.shear_over_wall(0.0), models=models, stride=None)
+    assert fewest <= 4.0 * p.substeps.mean() <= most
 
 
 @pytest.mark.parametrize("ratio", [1.0, 20.0])
