@@ -140,6 +140,9 @@ def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
     for pattern in [os.fspath(pattern) for pattern in patterns]:
         matches = sorted(glob.glob(pattern)) if glob.has_magic(pattern) else [pattern]  # noqa: PTH207
         for path in map(Path, matches):
+            if path.suffix == ".html" and path.is_file():
+                # The page of a study, which the shell finds among its runs.
+                continue
             try:
                 paths[path] = _open(path)
             except InputError:

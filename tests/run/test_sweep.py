@@ -191,6 +191,8 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
     np.testing.assert_array_equal(table["D"][table["run"] == "002"], runs["002"].table()["D"])
     assert len(table["id"]) == 2 * n
     page = (tmp_path / "study/comparison.html").read_text()
+    # A pattern that the shell has expanded, which finds the page, too.
+    assert list(foamprb.open_runs(*sorted((tmp_path / "study").iterdir()))) == ["001", "002"]
     for text in (
         '<td class="n">0.1</td>',
         "stuck: wall",
