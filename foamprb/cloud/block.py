@@ -245,7 +245,7 @@ class Scratch(NamedTuple):
     """Arrays of the fields of the case that forces need, see :func:`foamprb.flow.fields.blend_fields`."""
 
 
-SHELF, LABELS, COUNTS = 15 * LANES, 8, 6
+SHELF, LABELS, COUNTS = 10 * LANES, 8, 5
 """Places on the shelf, integers of each, and counts."""
 
 

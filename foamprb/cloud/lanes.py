@@ -1,8 +1,8 @@
 """Assignment of particles to the lanes of a block, in which each particle advances by its own steps.
 
 A lane whose particle is finished takes the next one. A particle can also be set aside with its whole state
-and continue later in any lane: an evaluation costs a block as much for one lane as for all, so a rare one is
-made for many particles at once. The cloud's arrays are written only for finished particles.
+and continue later in any lane: an evaluation costs a block as much for one lane as for all, so that of the
+ends is made for many particles at once. The cloud's arrays are written only for finished particles.
 """
 
 from __future__ import annotations
@@ -32,17 +32,17 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.state import Particles
 
-READY, WAITING, ENDED, _NEXT, _RELOCATED, PAUSED = 0, 1, 2, 3, 4, 5
-"""Indices in :attr:`~foamprb.cloud.block.Scratch.counts`: particles set aside that may continue, that need
-order 3, and that need the rates at their end; particles loaded so far; walks that needed the tree; 1 between
-two calls for the same particles, else 0."""
+READY, ENDED, _NEXT, _RELOCATED, PAUSED = 0, 1, 2, 3, 4
+"""Indices in :attr:`~foamprb.cloud.block.Scratch.counts`: particles set aside that may continue, and that
+need the rates at their end; particles loaded so far; walks that needed the tree; 1 between two calls for the
+same particles, else 0."""
 NOTHING, AGAIN, NEW = 0, 1, 2
 """Results of :func:`fetch`."""
 _MEMBER, _STATUS, _REASON, _PATCH, _HOST, _STEP, _NUMBER, _WALKS = 0, 1, 2, 3, 4, 5, 6, 7
 """Columns of :attr:`~foamprb.cloud.block.Scratch.labels`."""
-_PLACES = SHELF // 3
-"""Places for each of the three kinds. As a new particle is loaded only if none is ready, at most those in the
-lanes, 2 LANES that need order 3 and LANES that ended are set aside."""
+_PLACES = SHELF // 2
+"""Places for each of the two kinds. As a new particle is loaded only if none is ready, at most those in the
+lanes and LANES that ended are set aside."""
 
 updates_end = 0
 """Bound to 1 by an integrator with an ``end_slope``."""
@@ -77,7 +77,7 @@ def others(s: Scratch, n: int) -> bool:
 
 
 def fetch(p: Particles, members: NDArray[np.int64], s: Scratch, i: int, step: int) -> int:
-    """Load lane i with a particle that is ready, a new one, or one that needs order 3, in this order.
+    """Load lane i with a particle that is ready, or else a new one.
 
     Parameters
     ----------
@@ -90,22 +90,19 @@ def fetch(p: Particles, members: NDArray[np.int64], s: Scratch, i: int, step: in
     -------
     NEW, AGAIN for a particle that was set aside, or NOTHING.
     """
-    k = s.counts[_NEXT]
     if s.counts[READY] > 0:
         take_back(s, i, READY)
-    elif k < len(members):
-        s.counts[_NEXT] = k + 1
-        loaded = len(s.lasting) - len(s.fresh)
-        for n in range(len(s.fresh)):
-            s.block[s.lasting[loaded + n] * LANES + i] = s.fresh[n]
-        load_particle(p, members[k], s, i)
-        s.member[i], s.step[i], s.mended[i] = members[k], step, 0
-        return NEW
-    elif s.counts[WAITING] > 0:
-        take_back(s, i, WAITING)
-    else:
+        return AGAIN
+    k = s.counts[_NEXT]
+    if k == len(members):
         return NOTHING
-    return AGAIN
+    s.counts[_NEXT] = k + 1
+    loaded = len(s.lasting) - len(s.fresh)
+    for n in range(len(s.fresh)):
+        s.block[s.lasting[loaded + n] * LANES + i] = s.fresh[n]
+    load_particle(p, members[k], s, i)
+    s.member[i], s.step[i], s.mended[i] = members[k], step, 0
+    return NEW
 
 
 def leave(p: Particles, s: Scratch, i: int) -> None:
@@ -188,12 +185,12 @@ def finish(p: Particles, s: Scratch, i: int, n: int) -> None:
     """
     if not updates_end or s.status[i] != ACTIVE:
         leave(p, s, i)
-    elif s.counts[ENDED] < LANES and (others(s, n) or s.counts[WAITING] > 0):
+    elif s.counts[ENDED] < LANES and others(s, n):
         set_aside(s, i, ENDED)
 
 
 def set_aside(s: Scratch, i: int, kind: int) -> None:
-    """Set the particle in lane i aside as READY, WAITING or ENDED."""
+    """Set the particle in lane i aside as READY or ENDED."""
     place = kind * _PLACES + s.counts[kind]
     s.counts[kind] += 1
     for n in range(len(s.lasting)):
@@ -217,15 +214,6 @@ def take_back(s: Scratch, i: int, kind: int) -> None:
     s.step[i], s.mended[i] = s.labels[place, _STEP], s.labels[place, _WALKS]
 
 
-def swap_lanes(s: Scratch, kind: int) -> None:
-    """Set all lanes aside as READY, and load them with particles of a kind."""
-    for i in range(LANES):
-        if s.member[i] >= 0:
-            set_aside(s, i, READY)
-        if s.counts[kind] > 0:
-            take_back(s, i, kind)
-
-
 def walks_relocated(s: Scratch) -> int:
     """Return the number of walks of finished particles that needed the tree."""
     return int(s.counts[_RELOCATED])
@@ -247,7 +235,7 @@ def _is_unfinished(s: Scratch, number: float) -> bool:
     for i in range(LANES):
         if s.member[i] >= 0 and s.number[i] == number:
             return True
-    for kind in range(3):
+    for kind in range(2):
         for n in range(s.counts[kind]):
             if s.labels[kind * _PLACES + n, _NUMBER] == number:
                 return True

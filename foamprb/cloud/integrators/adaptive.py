@@ -71,16 +71,13 @@ from foamprb.cloud.integrators.base import (
 from foamprb.cloud.lanes import (
     ENDED,
     READY,
-    WAITING,
     begin_lanes,
     drop_unfinished,
     fill_lanes,
     leave,
     must_move,
-    others,
     pause,
     set_aside,
-    swap_lanes,
     take_back,
     updates_end,
     walks_relocated,
@@ -161,8 +158,6 @@ _SHARE_OF_TIME = 3.0
 """Largest length of such a stretch over the time scale of the flow, if that is more than the least one."""
 CELLS, MOST_CELLS = 2, 3
 """Cells that a step longer than Δt aims to enter, and enters at most: the flow is not sampled between."""
-_MANY = 6
-"""Least number of lanes, of 16, that go to order 3 together; fewer are set aside while others can run."""
 
 
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
@@ -430,8 +425,6 @@ def track_adaptive(
         if is_full(scratch):
             pause(scratch)
             return 0
-        if scratch.counts[WAITING] >= LANES:
-            swap_lanes(scratch, WAITING)
         moving = 0
         for i in range(LANES):
             moving += must_move(scratch, i, last)
@@ -479,7 +472,7 @@ def track_adaptive(
         first_slope(block, medium)
         evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
-        if count_thirds(scratch, len(members)):
+        if count_thirds(block):
             for i in range(LANES):
                 if needs_third(block, i):
                     _sample_middle(flow, scratch.host[i], block, i)
@@ -660,30 +653,12 @@ def needs_third(block: Any, i: int) -> bool:
     return bool(block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0)
 
 
-def count_thirds(s: Scratch, n: int) -> int:
-    """Return the number of lanes that go to order 3 now.
-
-    If they are few and others of n particles can run, they are set aside and none does: a third evaluation
-    costs a block as much for one lane as for all.
-    """
-    block, count = s.block, 0
+def count_thirds(block: Any) -> int:
+    """Return the number of lanes that take a step of order 3."""
+    count = 0
     for i in range(LANES):
         count += needs_third(block, i)
-    if count >= _MANY or count == 0 or not others(s, n):
-        return count
-    set_thirds_aside(s)
-    return 0
-
-
-def set_thirds_aside(s: Scratch) -> None:
-    """Set the lanes that need order 3 aside before their step, and load others."""
-    block = s.block
-    for i in range(LANES):
-        if needs_third(block, i):
-            block[at.moving * LANES + i] = 0.0
-            set_aside(s, i, WAITING)
-            if s.counts[READY] > 0:
-                take_back(s, i, READY)
+    return count
 
 
 def has_ended(s: Scratch) -> bool:
@@ -722,6 +697,6 @@ def update_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) 
 
 
 RARE = (
-    fill_lanes, set_thirds_aside, swap_lanes, update_ends, record_starts, record_ends, record_before, capture
+    fill_lanes, update_ends, record_starts, record_ends, record_before, capture
 )  # fmt: skip
 """Functions that few steps call, compiled as separate functions to keep the loop short."""
