@@ -217,9 +217,11 @@ def refuse_changes(checkpoint: StoredCheckpoint, marks: Fingerprint, where: str)
     changed = _differences(checkpoint.header["fingerprint"], marks)
     if changed:
         more = f", and {len(changed) - _MOST_NAMED} more" if len(changed) > _MOST_NAMED else ""
+        of_times = any("memoryRates" in change for change in changed)
+        cause = "The relaxation times of a powerLaw follow from deltaT and endTime. " if of_times else ""
         raise InputError(
-            f"{where}, as the run began with something else: {'; '.join(changed[:_MOST_NAMED])}{more}. Undo "
-            "the change, or start over: -overwrite, or startFrom startTime."
+            f"{where}, as the run began with something else: {'; '.join(changed[:_MOST_NAMED])}{more}. "
+            f"{cause}Undo the change, or start over: -overwrite, or startFrom startTime."
         )
 
 

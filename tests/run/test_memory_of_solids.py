@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import logging
 import re
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -28,6 +30,7 @@ from foamprb.run.log import log_description
 from foamprb.run.lut import compute_lut
 from foamprb.run.measured import read_measured
 from foamprb.run.release import with_power_law
+from foamprb.run.restart import fingerprint, refuse_changes
 
 PRONY = "relaxation { type prony; moduli ( 200 100 ); times ( 1e-2 0.2 ); }"
 
@@ -148,3 +151,11 @@ def test_a_property_that_the_solid_does_not_have_is_refused(tmp_path):
         fit_job(job, measured, ("shearModulus",), "x=1e-3")
     with pytest.raises(InputError, match=r"-moduli of shearModulus: the solid powerLaw has no such"):
         compute_lut(job, (7e-6, 8e-6), (1e2, 1e3), 2, "x=1e-3")
+
+
+def test_an_extended_run_of_a_power_law_is_refused_with_the_cause(tmp_path):
+    text = solid("type powerLaw; k 82; alpha 0.44;")
+    job, longer = (pipe_job(tmp_path, t) for t in (text, text.replace("endTime 2;", "endTime 4;")))
+    stored: Any = SimpleNamespace(header={"fingerprint": fingerprint(job.settings, job.cloud)})
+    with pytest.raises(InputError, match="The relaxation times of a powerLaw follow from deltaT and endTime"):
+        refuse_changes(stored, fingerprint(longer.settings, longer.cloud), "case")
