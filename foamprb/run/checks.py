@@ -122,7 +122,7 @@ def _softest_of(p: Particles, injector: int) -> list[tuple[float, float]]:
     rows = np.flatnonzero(p.injector == injector)
     if len(rows) == 0:
         return []
-    moduli = p.take(rows).steady_modulus
+    moduli = p.steady_modulus[rows]
     softest = np.argmin(moduli)
     return [(float(moduli[softest]), float(p.eta[rows[softest]]))]
 
