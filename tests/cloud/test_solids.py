@@ -28,7 +28,7 @@ from foamprb.body import stokes
 from foamprb.body.ellipsoid import integrals
 from foamprb.body.material import MATERIALS, piola
 from foamprb.body.tensor import principal_frame
-from foamprb.cloud.state import set_rest_shape
+from foamprb.cloud.state import Status, set_rest_shape
 
 MU_F, R = 1e-3, 1e-6
 REST = (0.0, 0.0, 0.0)
@@ -130,6 +130,25 @@ def shape(c):
 def test_surface_tension_is_not_for_the_papers_scheme():
     with pytest.raises(InputError, match="surfaceTension"):
         cloud(analytic.shear(1.0), 0.1, 1e-3, "paper", gamma=1e-3)
+
+
+@pytest.mark.filterwarnings("ignore::foamprb.errors.FailedParticlesWarning")
+@pytest.mark.parametrize(
+    ("rate", "numbers"),
+    [((1.0, -0.5, -0.5), (0.155, 0.17)), ((1.0, -1.0, 0.0), (0.175, 0.2))],
+    ids=["uniaxial", "planar"],
+)
+def test_surface_tension_alone_holds_a_body_in_weak_extension(rate, numbers):
+    """Up to μ_f γ̇ R/γ = 0.16 in uniaxial and 0.18 in planar extension."""
+    gamma = np.sqrt(2.0 * np.square(rate).sum()) / np.array(numbers)
+    p = spheres(np.zeros((2, 3)), d=2.0, rho=1.0, mu=1e-3 * gamma, poissons_ratio=0.4999, gamma=gamma)
+    flow, models = analytic.linear(np.diag(rate)), Models(integrator="stokes")
+    cloud = Cloud(p, flow, Medium(1.0, 1.0, (0.0, 0.0, 0.0)), [], 0.02, models, threads=1)
+    cloud.advance(1000)
+    assert p.status.tolist() == [Status.ACTIVE, Status.FAILED]
+    before = p.F[0].copy()
+    cloud.advance(500)
+    np.testing.assert_allclose(p.F[0], before, atol=1e-3)
 
 
 FLUID = (Gravity(), PressureGradient(), VirtualMass(Cvm=0.5))

@@ -34,14 +34,15 @@ def flow_of(gradient):
     return MeshFlow(mesh, mesh.nodes @ l.T, np.broadcast_to(l, (len(mesh.nodes), 3, 3)))
 
 
-def warnings_in(gradient, Ca, ratio=None, relaxing=0.0):
+def warnings_in(gradient, Ca, ratio=None, relaxing=0.0, tension=0.0):
     """Warnings of a solid, or of a drop of this ratio of the viscosities.
 
-    Nine tenths of the solid's modulus relax if ``relaxing`` is nine.
+    Nine tenths of the solid's modulus relax if ``relaxing`` is nine; ``tension`` is γ/R over the modulus.
     """
     flow, x = flow_of(gradient), np.full((1, 3), 0.5)
     if ratio is None:
         p, material = spheres(x, d=1e-4, rho=1000.0, mu=1.0 / Ca / (1.0 + relaxing)), "neoHooke"
+        p.gamma[:] = tension * p.mu * p.R
         if relaxing:
             p = with_relaxation(p, [relaxing * p.mu[0]], [1.0])
     else:
@@ -90,6 +91,9 @@ def test_extension_beyond_steady_shapes_is_a_doubt_and_shear_is_none():
     # Of a solid with memory the modulus that stays counts.
     assert len(warnings_in(extension, 0.04, relaxing=9.0)) == 1
     assert warnings_in(extension, 0.025, relaxing=9.0) == []
+    # Surface tension holds a body, too.
+    assert warnings_in(extension, 0.5, tension=5.0) == []
+    assert len(warnings_in(extension, 1.5, tension=5.0)) == 1
 
 
 @pytest.mark.parametrize(("ratio", "critical"), [(0.1, 0.51909), (1.0, 0.59795), (2.0, 0.87803)])
