@@ -7,6 +7,8 @@ of intervals that hold the exact index; the mean width of the intervals over tha
 
 from __future__ import annotations
 
+import argparse
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
@@ -41,6 +43,9 @@ def estimates(n: int, seed: int) -> Floats:
 
 def main() -> None:
     """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
+    parser.parse_args()
     columns = []
     for n in SIZES:
         indices, low, high = np.array([estimates(n, seed) for seed in range(DESIGNS)]).transpose(1, 0, 2, 3)
