@@ -20,7 +20,7 @@ def pipe_job(folder: Path, text: str = SETTINGS, flow=None, threads: int = 1) ->
     (folder / "constant").mkdir(exist_ok=True, parents=True)
     (folder / "constant/softCloudProperties").write_text(text)
     flow = flow or analytic.pipe(RADIUS, MEAN, 2e-3)
-    return replace(assemble(read_settings(folder, time=None), flow, threads), output=folder / "results")
+    return replace(assemble(read_settings(folder), flow, threads), output=folder / "results")
 
 
 def seen_cells(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,6 @@ from foamprb.cli.options import add_cache, add_flow, source_of
 from foamprb.errors import InputError, UsageError
 
 if TYPE_CHECKING:
-    from foamprb.run.follow import Follow
     from foamprb.settings.solution import StartFrom
 
 PURPOSE = "track the particles of constant/softCloudProperties"
@@ -44,15 +42,6 @@ def declare(parser: argparse.ArgumentParser) -> None:
         "--output", type=Path, metavar="DIR", help="folder of the results [postProcessing in the case]"
     )
     parser.add_argument(
-        "--follow", action="store_true", help="beside the running solver: take each time as it is written"
-    )
-    parser.add_argument(
-        "--patience",
-        type=float,
-        metavar="SECONDS",
-        help="with -follow: give up after SECONDS without a new time",
-    )
-    parser.add_argument(
         "--estimateErrors",
         action="store_true",
         help="repeat the run with finer steps and other gradients, and log which fates change",
@@ -67,8 +56,8 @@ def execute(arguments: argparse.Namespace) -> int:
     from foamprb.run.log import log_description, log_dry_run
     from foamprb.run.loop import execute_until_signal
 
-    if arguments.estimateErrors and (arguments.parallel or arguments.follow or arguments.dry_run):
-        raise UsageError("-estimateErrors does not go with -parallel, -follow or -dry-run.")
+    if arguments.estimateErrors and (arguments.parallel or arguments.dry_run):
+        raise UsageError("-estimateErrors does not go with -parallel or -dry-run.")
     comm = arguments.comm or Communicator()
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
@@ -85,7 +74,6 @@ def execute(arguments: argparse.Namespace) -> int:
         outside_libs=arguments.outsideLibs,
         output=arguments.output,
         comm=comm,
-        follow=_follow_options(arguments, start_from),
     )
     log_description(job)
     if arguments.dry_run:
@@ -97,19 +85,3 @@ def execute(arguments: argparse.Namespace) -> int:
 
         log_errors(estimate_errors(job))
     return 0
-
-
-def _follow_options(arguments: argparse.Namespace, start_from: StartFrom | None) -> Follow | None:
-    """Return the options of a run beside a running solver, or None."""
-    from foamprb.run.follow import Follow
-
-    if not arguments.follow:
-        if arguments.patience is not None:
-            raise UsageError("-patience goes with -follow.")
-        return None
-    if arguments.dry_run:
-        raise UsageError("-dry-run does not go with -follow, which waits for the solver.")
-    patience = math.inf if arguments.patience is None else arguments.patience
-    if not patience > 0.0:
-        raise InputError(f"-patience {patience:g}: a number of seconds > 0 is needed.")
-    return Follow(start_from, patience)

@@ -371,10 +371,6 @@ class Cloud:
         self._grow_reach()
         return self.flow_arrays(), steps if ready > steps else max(1, int(ready))
 
-    def steps_until(self, t: float) -> int:
-        """Return the number of steps from the start to a time, s; the last may exceed it by round-off."""
-        return self.most_steps if t >= self.end else math.floor((t - self.start) / self.dt + _ROUND_OFF)
-
     def steps_before(self, t: float) -> int:
         """Return the number of steps that end before a time, s, from the start."""
         return math.ceil((t - self.start) / self.dt - _ROUND_OFF) - 1

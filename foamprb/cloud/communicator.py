@@ -232,10 +232,6 @@ class Communicator:
         """
         return []
 
-    def signal(self) -> int:
-        """Return a signal that any rank has received while all wait for something, 0 for none."""
-        return 0
-
     def open_flow(self, read: Callable[[], Flow], *source: Any) -> Flow:  # noqa: ARG002
         """Return the flow of a source, which ``read`` reads on this process."""
         return read()

@@ -73,13 +73,8 @@ class WholeCounts(NamedTuple):
     tets: range
 
 
-def require_divisible(case: Path, source: FlowSource, nodes: int, followed: bool = False) -> None:
-    """Raise IndivisibleMeshError if each node must hold the whole mesh, before any node reads the case.
-
-    ``followed`` is true if the solver of the flow is running.
-    """
-    if followed:
-        raise IndivisibleMeshError("-follow reads times while the solver writes them")
+def require_divisible(case: Path, source: FlowSource, nodes: int) -> None:
+    """Raise IndivisibleMeshError if each node must hold the whole mesh, before any node reads the case."""
     if source.file is not None:
         raise IndivisibleMeshError("a mesh file is read")
     if not (source.decomposed or is_only_decomposed(case, source.region)):

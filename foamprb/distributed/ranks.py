@@ -163,14 +163,14 @@ class Ranks(Communicator):
         read
             Returns the flow, read on this process.
         source
-            The case; the times of the flow; the names of its fields; the time between two points where
-            particles can change nodes, s; and whether the solver is running.
+            The case; the times of the flow; the names of its fields; and the time between two points where
+            particles can change nodes, s.
         """
         nodes = self.rank.windows.nodes
         return read() if nodes == 1 else self._parts_of_flow(nodes, *source) or read()
 
     def _parts_of_flow(
-        self, nodes: int, case: Path, times: FlowTimes, source: FlowSource, step: float, followed: bool
+        self, nodes: int, case: Path, times: FlowTimes, source: FlowSource, step: float
     ) -> Any:
         """Return the flow with a part on each node; None if it cannot be divided."""
 
@@ -178,7 +178,7 @@ class Ranks(Communicator):
             return self.call(Worker.open_part, case, times, source, depth)
 
         try:
-            require_divisible(case, source, nodes, followed)
+            require_divisible(case, source, nodes)
             flow = distributed_flow(self.call, open_parts, step)
         except IndivisibleMeshError as reason:
             log.info("    Each of %d nodes holds the whole mesh: %s.", nodes, reason)
@@ -188,11 +188,6 @@ class Ranks(Communicator):
             log.info("    %-24s %d cells, and %d around them", f"node {number}", summary.owned,
                      summary.held - summary.owned)  # fmt: skip
         return flow
-
-    def signal(self) -> int:
-        """See :meth:`Communicator.signal`."""
-        self.call(Worker.wait_for_all)
-        return next(iter(self.signals), 0)
 
     def prepare_steps(self, cloud: Cloud) -> None:
         """Send the particles to the processes that advance them."""

@@ -242,8 +242,6 @@ class SeriesFlow(Timeline, MeshFlow):
         Whether ``read`` returns the turbulence, the fluxes, the viscosity, and the second derivatives.
     sampled
         Further fields that ``read`` returns.
-    names
-        Names of the times, which ``read`` shares; :meth:`extend` adds to them.
 
     Raises
     ------
@@ -280,14 +278,12 @@ class SeriesFlow(Timeline, MeshFlow):
         conservative: bool = False,
         viscous: bool = False,
         sampled: Sequence[FieldColumns] = (),
-        names: list[str] | None = None,
         curved: bool = False,
     ) -> None:
         nodes = mesh.n_points + mesh.n_cells
         super().__init__(mesh, None, None, notes, zones)
         self._set_times(times, period)
         self._read, self._keep = read, keep
-        self._names = names if names is not None else []
         self._turbulent, self._viscous = turbulent, viscous
         self.field_columns = tuple(sampled)
         self.field_table: NDArray[np.float64] = np.empty((0, nodes, width(sampled)))
@@ -333,11 +329,6 @@ class SeriesFlow(Timeline, MeshFlow):
         if self._is_level(following) and self._index(following) not in self._in_memory:
             self._prefetch(self._index(following))
         return self._time_of(self._levels[-1])
-
-    def extend(self, names: Sequence[str], usable: int) -> None:
-        """See :meth:`Timeline.extend`."""
-        self._names[:] = names
-        super().extend(names, usable)
 
     def arrays(  # type: ignore[override]
         self,
@@ -519,7 +510,7 @@ _MOST_IN_MEMORY = 1 << 28
 def series_of(
     source: Path,
     mesh: Mesh,
-    names: list[str],
+    names: Sequence[str],
     read: Callable[[str], tuple[Any, ...]],
     period: float | None,
     notes: Sequence[str],
@@ -563,8 +554,7 @@ def series_of(
     try:
         return make(
             mesh, times, lambda i: read(names[i]), period, [*notes, note], keep=keep, zones=zones,
-            turbulent=turbulent, conservative=conservative, viscous=viscous, sampled=sampled, names=names,
-            curved=curved,
+            turbulent=turbulent, conservative=conservative, viscous=viscous, sampled=sampled, curved=curved,
         )  # fmt: skip
     except InputError as error:
         raise InputError(f"{source}: {error}") from None

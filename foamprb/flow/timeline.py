@@ -12,7 +12,7 @@ from foamprb.errors import InputError
 
 _SLACK = 1e-11
 """Share of a time by which another may differ and still be the same. It does not depend on other times of the
-flow: results are then the same, bit for bit, while a solver writes more of them."""
+flow: results are then the same, bit for bit, when a solver has written more of them."""
 _ENDS = 1e-9
 """Share of the first or last time by which a step may go beyond it: names of times are rounded."""
 _OF_PERIOD = 1e-6
@@ -39,19 +39,6 @@ class Timeline:
         self.period = period
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
-
-    def extend(self, names: Sequence[str], usable: int) -> None:
-        """Add the times that a solver has written meanwhile to a flow without period.
-
-        Parameters
-        ----------
-        names
-            Names of all times, the present ones first.
-        usable
-            Number of times that the flow goes through. Those after it serve the rates of change at the last.
-        """
-        self.times = self._ends = tuple(float(name) for name in names[:usable])
-        self.span = self.times[0], self.times[-1]
 
     def _levels_for(self, start: float, end: float) -> range:
         """Return the levels from the last one up to ``start`` to the first one from ``end`` on.

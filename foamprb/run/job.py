@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -22,9 +22,6 @@ from foamprb.cloud.communicator import Communicator
 from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.models import (
     START_OF_FLOW,
-    PatchFlowRateInjection,
-    PatchInjection,
-    start_of_injection,
 )
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.adaptive import stretch_of
@@ -46,7 +43,6 @@ from foamprb.flow.series import SeriesFlow
 from foamprb.results.folder import ResultsFolder
 from foamprb.run.compilation import Compilation
 from foamprb.run.description import describe
-from foamprb.run.follow import Follow, Following, begin_to_follow
 from foamprb.run.release import Release, number_of_times
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import Settings, read_settings
@@ -70,8 +66,6 @@ class Job:
     compilation: Compilation = field(default_factory=Compilation)
     output: Path | None = None
     """Folder of the results instead of ``postProcessing`` in the case."""
-    following: Following | None = None
-    """Flow whose solver is running."""
 
     @property
     def observed(self) -> ObservedCloud:
@@ -93,11 +87,8 @@ class Job:
 
     @property
     def steps(self) -> int:
-        """Number of steps from the start to the end of the run, or of the solver that it follows."""
-        steps, _ = _last_step(self.settings.solution, self.cloud.start)
-        if self.following is not None and self.following.ended:
-            return min(steps, self.cloud.steps_until(self.following.flow.span[1]))
-        return steps
+        """Number of steps from the start to the end of the run."""
+        return _last_step(self.settings.solution, self.cloud.start)[0]
 
     def next_write(self, step: int) -> int:
         """Return the next step after ``step`` at which results are written, at most the last."""
@@ -137,7 +128,6 @@ def prepare(
     overrides: Mapping[str, object] | None = None,
     flows: dict[FlowSource, Flow] | None = None,
     comm: Communicator | None = None,
-    follow: Follow | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -167,22 +157,16 @@ def prepare(
         Steady flows of this case and time that have been read, by their sources; a new one is added.
     comm
         Processes of ``mpirun`` that advance the particles; by default this one alone.
-    follow
-        Options of a run beside the solver of a transient flow: its times are read as they are written.
 
     Raises
     ------
     InputError
         If the case, the flow or the settings cannot be used: what, where, and what is allowed.
-    RunStopped
-        With ``follow``, if the solver has written no time for too long.
     """
     case, comm = Path(case), comm or Communicator()
     source = source or FlowSource()
     check_region(case, source)
-    # The latest time may be unfinished, and is another one when the run continues.
-    fluid_time = None if follow is not None else time_of_fluid(time)
-    settings = read_settings(case, dictionary, source.region, fluid_time, outside_libs, overrides)
+    settings = read_settings(case, dictionary, source.region, time_of_fluid(time), outside_libs, overrides)
     scale = settings.solution.scale if source.scale is None else source.scale
     settings = replace(settings, solution=replace(settings.solution, scale=scale))
     source = replace(source, scale=None if scale == 1.0 else scale)
@@ -202,15 +186,9 @@ def prepare(
     # A loop whose forces read fields depends on the kinds of these.
     if precompile and not any(force.needed_fields for force in settings.forces.values()):
         compilation.begin(*_loop(settings, rotating))
-    output = None if output is None else Path(output)
-    following = None
     log.info("Reading flow of case %s", case if source.file is None else source.file)
     with compilation.shown():
         flow = None if flows is None or settings.solution.transient else flows.get(source)
-        if follow is not None:
-            following = _follow(settings, time, source, output, follow, comm)
-            followed: Any = following.flow
-            flow = followed
         if flow is None:
             times = FlowTimes(time, settings.solution.transient, settings.solution.period)
             flow = _open_flow(settings, comm, case, times, source)
@@ -227,10 +205,8 @@ def prepare(
         if faults:
             accept = f"solution/accept ( {' '.join((*settings.solution.accept, *faults))} )"
             raise InputError(f"{case}: {' '.join(faults.values())} Allowed: to go on, {accept}.")
-        if following is not None:
-            _wait_for_injections(settings, following)
-        job = assemble(settings, flow, threads, following is not None, comm)
-    return replace(job, compilation=compilation, output=output, following=following)
+        job = assemble(settings, flow, threads, comm)
+    return replace(job, compilation=compilation, output=None if output is None else Path(output))
 
 
 def time_of_fluid(time: float | str | None) -> float | str:
@@ -311,12 +287,7 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
 
 
 def _open_flow(
-    settings: Settings,
-    comm: Communicator,
-    case: Path,
-    times: FlowTimes,
-    source: FlowSource,
-    followed: bool = False,
+    settings: Settings, comm: Communicator, case: Path, times: FlowTimes, source: FlowSource
 ) -> Flow:
     """Return the flow of a case; several nodes may hold it together."""
 
@@ -327,7 +298,7 @@ def _open_flow(
         return flow
 
     step = settings.solution.deltaT * stretch_of(settings.solution.stride)
-    return comm.open_flow(read, case, times, source, step, followed)
+    return comm.open_flow(read, case, times, source, step)
 
 
 def _read_flow(settings: Settings, case: Path, times: FlowTimes, source: FlowSource) -> Flow:
@@ -342,51 +313,13 @@ def _read_flow(settings: Settings, case: Path, times: FlowTimes, source: FlowSou
     return read_flow(case, times.steady, source)
 
 
-def _follow(
-    settings: Settings,
-    time: float | str | None,
-    source: FlowSource,
-    output: Path | None,
-    options: Follow,
-    comm: Communicator,
-) -> Following:
-    """Return the flow of a solver that is running."""
-    solution = settings.solution
-    if not solution.transient or solution.period is not None:
-        raise InputError(
-            f"{settings.file}: -follow goes through a flow that changes in time. Allowed: solution/transient "
-            "yes, without period."
-        )
-    if rotations_of(settings.case, source):
-        raise InputError(f"{settings.case}: rotating zones (MRFProperties) are seen in steady flows only.")
-    folder = ResultsFolder.of_case(settings.case, settings.name, settings.region, output)
-    options = replace(options, start_from=options.start_from or solution.startFrom)
-    selection = None if time is None else str(time)
-    read = partial(_open_flow, settings, comm, followed=True)
-    return begin_to_follow(settings.case, folder, options, selection, source, read, comm.signal)
-
-
-def _wait_for_injections(settings: Settings, following: Following) -> None:
-    """Wait until the flow covers the times that the injections read before the run."""
-    flow: Any = following.flow
-    for injection in settings.injections:
-        model = injection.model
-        until = start_of_injection(model, flow)
-        if isinstance(model, PatchFlowRateInjection):
-            until += model.duration
-        elif not isinstance(model, PatchInjection) and injection.solid.referenceShearRate is not None:
-            continue
-        following.wait_until(until, f"which the injection model {injection.name} reads before the run")
-
-
 def assemble(
     settings: Settings,
     flow: Flow,
     threads: int | None = None,
-    growing: bool = False,
     comm: Communicator | None = None,
 ) -> Job:
-    """Place the particles of the settings in a flow; a ``growing`` one may end before the run.
+    """Place the particles of the settings in a flow.
 
     Raises
     ------
@@ -395,7 +328,7 @@ def assemble(
     """
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = _medium(settings)
-    start = _start(settings, flow, growing)
+    start = _start(settings, flow)
     release = Release(settings.injections, flow, medium, _span(settings, start))
     solids = sorted({injection.solid.type for injection in settings.injections})
     if len(solids) > 1:
@@ -437,7 +370,7 @@ def _span(settings: Settings, start: float) -> tuple[float, float]:
     return settings.solution.deltaT, settings.solution.endTime - start
 
 
-def _start(settings: Settings, flow: Flow, growing: bool) -> float:
+def _start(settings: Settings, flow: Flow) -> float:
     """Return the first time of the flow, s, or 0; raise InputError if the flow ends before the run."""
     solution, (first, last) = settings.solution, flow.span
     start = first if math.isfinite(first) else 0.0
@@ -448,7 +381,7 @@ def _start(settings: Settings, flow: Flow, growing: bool) -> float:
         )
     steps, end = _last_step(solution, start)
     end = min(end, start + steps * solution.deltaT)
-    if not growing and end > last + TIME_TOLERANCE * abs(last):
+    if end > last + TIME_TOLERANCE * abs(last):
         raise InputError(
             f"{settings.file}: solution/endTime is {solution.endTime:g}; the last step ends at {end:g}, "
             f"the flow at {last:g}. Allowed: up to that, or a flow that repeats itself (period)."

@@ -64,35 +64,20 @@ def execute(
         results.begin(start_from or job.settings.solution.startFrom)
         if results.finished:
             return cloud.counts()
-        following = job.following
         log = RunLog(job)
-        if following is not None and not following.wait(cloud, stop):
-            raise RunStopped(f"stopped before the first step{following.reason}.")
         results.write_start()
         stepper = Stepper(cloud)
         schedule = _Schedule(stepper, job.compilation, results.store_between)
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
             while cloud.step < job.steps and (cloud.step == 0 or moving(cloud)) and not _failing(job):
-                before = cloud.step
-                try:
-                    due = _advance_to_write(job, results, schedule, stop, show)
-                finally:
-                    # This explains errors of reading better.
-                    if following is not None:
-                        following.require_unchanged(cloud.time)
+                due = _advance_to_write(job, results, schedule, stop, show)
                 if due is None:
                     results.save()
-                    reason = following.reason if following is not None else ""
-                    raise RunStopped(f"stopped at t = {cloud.time:.12g} s{reason}. {HOW_TO_GO_ON}")
-                if cloud.step == before:
-                    # The solver has ended meanwhile.
-                    break
+                    raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {HOW_TO_GO_ON}")
                 counts = {time: cloud.counts_at(time) for time in map(cloud.time_of, due)}
                 results.write(due)
                 log.write_times(counts)
-        if following is not None:
-            following.report_end(job.settings.solution.endTime)
         results.end()
         failing = _failing(job)
         log.end(finished=not failing)
@@ -164,16 +149,13 @@ def _advance_to_write(
     -------
     The steps that end at the write times until there; None if ``stop`` returned True before.
     """
-    cloud, first, following = job.cloud, job.cloud.step, job.following
-    # The target is an earlier one if the solver of the flow has ended meanwhile.
-    while cloud.step < (due := job.next_write(first)) and moving(cloud):
+    cloud, first = job.cloud, job.cloud.step
+    due = job.next_write(first)
+    while cloud.step < due and moving(cloud):
         results.check()
-        if stop() or (following is not None and not following.wait(cloud, stop)):
+        if stop():
             return None
-        until = min(job.steps, -(-due // cloud.stretch_steps) * cloud.stretch_steps)
-        computed = until if following is None else min(until, cloud.steps_until(following.flow.span[1]))
-        if computed > cloud.step:
-            schedule.advance(computed, stop)
+        schedule.advance(min(job.steps, -(-due // cloud.stretch_steps) * cloud.stretch_steps), stop)
         show(cloud.time)
     if not moving(cloud):
         # Later results would repeat those after the last end.

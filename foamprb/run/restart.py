@@ -247,7 +247,7 @@ def refuse_other_times(checkpoint: StoredCheckpoint, flow: Flow, where: str) -> 
     if change:
         raise InputError(
             f"{where}: {change}. Restore the times of the run, or start over: -overwrite, or startFrom "
-            "startTime. A run with -follow keeps the times that it still needs."
+            "startTime."
         )
 
 

@@ -105,7 +105,7 @@ def read_fluid(
     region: str,
     constant: Dictionary,
     properties: ConstantProperties | None,
-    time: float | str | None = "latestTime",
+    time: float | str = "latestTime",
     transient: bool = False,
     mixture: bool = False,
 ) -> Fluid:
@@ -118,7 +118,7 @@ def read_fluid(
     constant, properties
         The cloud's ``constantProperties``, and its entries, None if they are broken.
     time
-        Time of the fields; None to read none.
+        Time of the fields.
     transient
         Whether the flow is read at all times.
     mixture
@@ -161,7 +161,7 @@ def read_fluid(
     return Fluid(rho, viscosity.nu if viscosity.nu is not None else float(viscosity.mu or 0.0) / rho)
 
 
-def _mixed(case: Path, region: str, constant: Dictionary, time: float | str | None, transient: bool) -> Fluid:
+def _mixed(case: Path, region: str, constant: Dictionary, time: float | str, transient: bool) -> Fluid:
     """Read the fluid of two phases with local ν and ρ; ``rho`` is the mean over the cells."""
     for key in ("nu", "mu", "rhoInf"):
         if key in constant.entries:

@@ -199,7 +199,7 @@ def read_settings(
     case: Path,
     dictionary: Path | None = None,
     region: str = "",
-    time: float | str | None = "latestTime",
+    time: float | str = "latestTime",
     outside_libs: bool = False,
     overrides: Mapping[str, object] | None = None,
 ) -> Settings:
@@ -216,7 +216,7 @@ def read_settings(
     region
         Region of the mesh: its files in ``constant/REGION`` go before the files in ``constant``.
     time
-        Time of the flow, at which fields of the fluid are read; None to read none.
+        Time of the flow, at which fields of the fluid are read.
     outside_libs
         Whether Python files of ``libs`` may lie outside the case.
     overrides

@@ -310,11 +310,6 @@ def test_the_reason_for_a_whole_mesh_is_given(changes, nodes, reason, case):
         require_divisible(case, FlowSource(**changes), nodes)
 
 
-def test_a_case_beside_its_solver_is_read_as_a_whole(case):
-    with pytest.raises(IndivisibleMeshError, match="-follow reads times while the solver writes them"):
-        require_divisible(case, FlowSource(decomposed=True), 2, followed=True)
-
-
 def test_a_case_without_processor_folders_is_not_decomposed(case, tmp_path):
     whole = shutil.copytree(case, tmp_path / "case", ignore=shutil.ignore_patterns("processor*"))
     with pytest.raises(IndivisibleMeshError, match="it is not decomposed"):

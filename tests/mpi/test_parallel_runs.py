@@ -336,26 +336,6 @@ def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
     assert_same(case, alone, functions=False)
 
 
-CONTROL = "deltaT 0.1; endTime 1.5; writeControl runTime; writeInterval 1;"
-SOLVER = """
-# Each wait for the solver brings the next time.
-import math
-from pathlib import Path
-from types import SimpleNamespace
-from foamprb.flow.read import follow as links
-from foamprb.run import follow
-late = ["0.5", "1.5"]
-def solve(_):
-    # The last time is complete when its files are.
-    links._QUIET = math.inf if late else 0.0
-    name = late.pop(0) if late else "1.5"
-    for folder in Path(sys.argv[sys.argv.index("-case") + 1]).glob("processor*"):
-        if not (folder / name).exists():
-            (folder / ("late" + name)).rename(folder / name)
-follow.clock = SimpleNamespace(monotonic=lambda: 0.0, sleep=solve)
-"""
-
-
 @pytest.fixture
 def halves(tmp_path, monkeypatch):
     """A flow that changes in time in two processor folders, for two nodes."""
@@ -366,8 +346,7 @@ def halves(tmp_path, monkeypatch):
     for time_of, factor in SCALE.items():
         shutil.rmtree(case / time_of)
         for file in case.glob(f"processor*/{time_of}/U"):
-            file.write_text(scaled(file.read_text(), factor) + "\n// ***** //\n")
-    (case / "system/controlDict").write_text(header("dictionary", "controlDict") + CONTROL)
+            file.write_text(scaled(file.read_text(), factor))
     shutil.rmtree(case / "constant/polyMesh")
     return case
 
@@ -380,10 +359,7 @@ foamprb.add_force("pushByField", push, needs=("U", "grad(U)"))
 """
 
 
-@pytest.mark.parametrize("following", [False, True])
-def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
-    following, halves, tmp_path, capsys, monkeypatch
-):
+def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(halves, tmp_path, capsys, monkeypatch):
     case = halves
     monkeypatch.delitem(FORCES, "pushByField", raising=False)
     functions = """
@@ -404,25 +380,16 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(
     (distances,) = re.findall(r"distance to walls/radius.*", capsys.readouterr().out)
     # However small the mesh is, its arrays are shared.
     hook = "shared_memory._SMALLEST = 100\n"
-    if following:
-        for folder in [f / t for f in case.glob("processor*") for t in ("0.5", "1.5")]:
-            folder.rename(folder.with_name("late" + folder.name))
-        hook += SOLVER
-    options = ["-follow"] if following else ["-cache", str(tmp_path / "cache")]
+    options = ["-cache", str(tmp_path / "cache")]
     done = run(2, case, *options, script=after_hook(tmp_path, hook))
     assert done.returncode == 0, done.stderr
-    if following:
-        reason = "-follow reads times while the solver writes them"
-        assert f"Each of 2 nodes holds the whole mesh: {reason}." in done.stdout
-    else:
-        assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
-        # With the cells around its own each node has the whole mesh.
-        assert len(list((tmp_path / "cache").iterdir())) == 3
+    assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
+    # With the cells around its own each node has the whole mesh.
+    assert len(list((tmp_path / "cache").iterdir())) == 3
     assert distances in done.stdout
     assert_same(case, alone)
-    if not following:
-        assert run(2, case, *options, "-overwrite", script=after_hook(tmp_path, hook)).returncode == 0
-        assert_same(case, alone)
+    assert run(2, case, *options, "-overwrite", script=after_hook(tmp_path, hook)).returncode == 0
+    assert_same(case, alone)
 
 
 LANDING = """

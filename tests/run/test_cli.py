@@ -65,14 +65,14 @@ def test_without_a_command_the_help_is_a_mistake(capsys):
     [
         ("rn", "unknown command 'rn'. Did you mean 'run'?"),
         ("-versio", "foamprb has no option '-versio'. Did you mean '-version'? Try: foamprb -help"),
-        ("run -patiense 3", "foamprb run has no option '-patiense'. Did you mean '-patience'?"),
+        ("run -thread 3", "foamprb run has no option '-thread'. Did you mean '-threads'?"),
         ("run --overwrit", "foamprb run has no option '--overwrit'. Did you mean '-overwrite'?"),
         ("view -zzzzz", "foamprb view has no option '-zzzzz'. Try: foamprb view -help"),
         ("run a", "'a' is one argument too many. Try: foamprb run -help"),
         ("run -time", "-time: expected one argument. Try: foamprb run -help"),
         ("run --time", "--time: expected one argument. Try: foamprb run -help"),
         ("run -time 1 -latestTime", "-latestTime: not allowed with argument -time. Try: foamprb run -help"),
-        ("run -patience 3", "-patience goes with -follow."),
+        ("run -dry-run -estimateErrors", "-estimateErrors does not go with -parallel or -dry-run."),
     ],
 )
 def test_a_command_line_that_cannot_be_read_ends_with_status_2(words, message, capsys):

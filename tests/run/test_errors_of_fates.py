@@ -58,4 +58,4 @@ def test_paper_halves_its_steps(case, tmp_path):
 
 def test_no_errors_of_a_run_that_is_not_executed(case, capsys):
     assert main(["run", "-case", str(case), "-dry-run", "-estimateErrors"]) == 2
-    assert "-estimateErrors does not go with -parallel, -follow or -dry-run" in capsys.readouterr().err
+    assert "-estimateErrors does not go with -parallel or -dry-run" in capsys.readouterr().err

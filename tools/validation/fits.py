@@ -77,7 +77,7 @@ def cells(quick: bool) -> Outcome:
         folder = Path(name)
         (folder / "constant").mkdir()
         (folder / "constant/softCloudProperties").write_text(SETTINGS)
-        job = assemble(read_settings(folder, time=None), analytic.pipe(RADIUS, MEAN, 2e-3))
+        job = assemble(read_settings(folder), analytic.pipe(RADIUS, MEAN, 2e-3))
         job = replace(job, output=folder / "results")
         fits = fit_job(job, read_measured(table), ("shearModulus", "viscosity"), "x=1e-3", "z")
     rows = []

@@ -126,7 +126,7 @@ def fitted(n: int) -> list[Row]:
         folder = Path(name)
         (folder / "constant").mkdir()
         (folder / "constant/softCloudProperties").write_text(solid.replace("deltaT 2e-3", "deltaT 1e-3"))
-        job = assemble(read_settings(folder, time=None), analytic.pipe(RADIUS, MEAN, 2e-3))
+        job = assemble(read_settings(folder), analytic.pipe(RADIUS, MEAN, 2e-3))
         job = replace(job, output=folder / "results")
         fits = fit_job(job, read_measured(table), ("k", "alpha"), "x")
     title = "power laws of cells by strain and angle on their way: {}, fitted over true, worst of all"

@@ -82,12 +82,6 @@ def mass_of(
     return Mass(*values[index], growth)
 
 
-def may_vary(case: Path, region: str, read: Read) -> bool:
-    """Return whether :func:`mass_of` needs the times before and after that of ``read``."""
-    known = _mixture(case, region) is not None or len(densities(read)) > 0
-    return known and bool(_dimensions(read) != VOLUME_FLUX)
-
-
 def densities(read: Read) -> Floats:
     """Return ``rho`` at the cells, kg/m³, or no values."""
     try:

@@ -432,9 +432,7 @@ def read_density(file: Path, case: Path) -> float | None:
     return float(read_entry(state, key, Annotated[Density, Positive])) if key in state.entries else None
 
 
-def find_density(
-    case: Path, region: str, file: Path | None, time: float | str | None
-) -> tuple[float, str] | None:
+def find_density(case: Path, region: str, file: Path | None, time: float | str) -> tuple[float, str] | None:
     """Return the density of the fluid, kg/m³, and its source; None if the case has none.
 
     It is that of :func:`read_density`, else the mean of the field ``rho``, else by the equation of state.
@@ -444,17 +442,17 @@ def find_density(
     case, region, file
         The case, a region of its mesh, and the dictionary of the fluid.
     time
-        Time of the fields; None to read none.
+        Time of the fields.
     """
     if file is not None and (density := read_density(file, case)) is not None:
         return density, str(CaseFile(file, case))
-    if time is not None and (field := mean_field(case, region, time, "rho")) is not None:
+    if (field := mean_field(case, region, time, "rho")) is not None:
         return field[0], f"the field rho at time {field[1]}, its mean"
     barotropic = find_dictionary(case, region, "thermodynamicProperties")
     if barotropic is not None and "rho0" in barotropic.entries:
         rho0 = float(read_entry(barotropic, "rho0", Annotated[Density, Positive]))
         return rho0, f"{barotropic.source}, rho0"
-    if file is None or time is None:
+    if file is None:
         return None
     p, T = _state(case, region, time)
     of_state = density_of_state(read_dictionary(file, case), p, T)
@@ -604,7 +602,7 @@ class Mixture(NamedTuple):
     field: ViscosityField
 
 
-def read_mixture(case: Path, region: str, time: float | str | None, transient: bool = False) -> Mixture:
+def read_mixture(case: Path, region: str, time: float | str, transient: bool = False) -> Mixture:
     """Read the phases of a case with two; see :func:`read_viscosity`.
 
     Raises
@@ -619,7 +617,7 @@ def read_mixture(case: Path, region: str, time: float | str | None, transient: b
         raise InputError(f"{case}: solution/mixture needs a case with two phases; the phases are: {listed}.")
     values = {}
     for name, phase in phases.items():
-        nu, rho = phase_values(case, region, name, phase, math.nan, "latestTime" if time is None else time)
+        nu, rho = phase_values(case, region, name, phase, math.nan, time)
         if nu is None or rho is None:
             what = "nu" if nu is None else "rho"
             raise phase.missing(
@@ -633,8 +631,7 @@ def read_mixture(case: Path, region: str, time: float | str | None, transient: b
             (nu, rho), (other_nu, other_rho) = (values[name] for name in names)
             return Mixture((names[0], names[1]), (nu, other_nu), (rho, other_rho), field)
     fields = " or ".join(f"alpha.{name}" for name in values)
-    follow = "; it does not go with -follow" if time is None else ""
-    raise InputError(f"{case}: solution/mixture needs the field {fields} at each time of the flow{follow}.")
+    raise InputError(f"{case}: solution/mixture needs the field {fields} at each time of the flow.")
 
 
 def _number(dictionary: Dictionary, key: str) -> float | None:

@@ -1,11 +1,11 @@
-"""foamprb beside icoFoam, which removes its times."""
+"""foamprb beside icoFoam, which writes further times."""
 
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
-import threading
+import sys
+from pathlib import Path
 
 import pytest
 from foam_tutorials import tutorial
@@ -16,11 +16,13 @@ from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
+DOCS = Path(__file__).parents[2] / "docs"
+
 CHANGES = {
     "system/blockMeshDict": [(r"\(20 20 1\)", "(60 60 1)")],
     "system/controlDict": [
         (r"endTime( +)0.5", "endTime 0.24"), (r"deltaT .*;", "deltaT 0.001;"),
-        (r"writeInterval .*;", "writeInterval 40;"), (r"purgeWrite .*;", "purgeWrite 0;"),
+        (r"writeInterval .*;", "writeInterval 40;"),
     ],
 }  # fmt: skip
 RUN = [
@@ -52,17 +54,19 @@ def edit(file, pattern, text):
     file.write_text(edited)
 
 
-def solve(case):
-    subprocess.run("icoFoam", cwd=case, check=True, stdout=subprocess.DEVNULL)
+def documented_lines():
+    """The loop of docs/transient.md, for icoFoam, with a run every second."""
+    (lines,) = re.findall(r"```sh\n(track\(\).*?)```", (DOCS / "transient.md").read_text(), re.DOTALL)
+    assert "sleep 60" in lines
+    return lines.replace("pimpleFoam", "icoFoam").replace("sleep 60", "sleep 1")
 
 
-def test_run_beside_a_solver_is_that_after_it(case):
-    whole = shutil.copytree(case, case.parent / "whole")
-    solve(whole)
-    assert main(["run", "-case", str(whole)]) == 0
-    solver = threading.Thread(target=solve, args=(case,))
-    solver.start()
-    assert main(["run", "-case", str(case), "-follow"]) == 0
-    solver.join()
-    found, expected = (folder / "postProcessing/softCloud/fates.csv" for folder in (case, whole))
-    assert found.read_bytes() == expected.read_bytes()
+def test_particles_tracked_beside_a_solver_end_as_after_it(case):
+    foamprb = f'foamprb() {{ "{sys.executable}" -m foamprb "$@"; }}\n'
+    done = subprocess.run(
+        ["bash", "-c", foamprb + documented_lines()], cwd=case, check=True, capture_output=True, text=True
+    )
+    assert done.stdout.count("Continuing from the checkpoint") >= 1
+    beside = (case / "postProcessing/softCloud/fates.csv").read_bytes()
+    assert main(["run", "-case", str(case), "-overwrite"]) == 0
+    assert (case / "postProcessing/softCloud/fates.csv").read_bytes() == beside
