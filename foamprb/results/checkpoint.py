@@ -1,33 +1,31 @@
-"""Checkpoints: files of a header and arrays, with a checksum.
+"""Checkpoints: files in numpy's format ``.npz``, an uncompressed zip archive with a CRC-32 of each array.
 
-A file consists of a line with format and version, a checksum, the place of the header, the arrays in numpy's
-``.npy`` format, in the order of the header's ``arrays``, and the header in JSON. The checksum is the 64-bit
-XXH3 of everything else. If all rows of an array are equal, as in many arrays of a cloud, the file contains
-one of them; the header's ``rows`` gives their number. The last two files stay on disk, so that a run can
-resume when one of them is damaged.
+The last array, ``header``, is a text in JSON. If all rows of an array are equal, as in many arrays of a
+cloud, the file contains one of them; the header's ``rows`` gives their number. The last two files stay on
+disk, so that a run can resume when one of them is damaged.
 
 Several processes write a checkpoint together: the first its file, and each one some rows of some arrays, as a
-file ``<time>.checkpoint.<first row>`` of the same format. The header's ``parts`` gives these rows and the
-checksums.
+file ``<time>.npz.<first row>`` of the same format. The header's ``parts`` gives these rows and the checksums.
 """
 
 from __future__ import annotations
 
 import errno
-import hashlib
 import json
 import logging
 import math
 import os
 import re
+import struct
+import zipfile
+import zlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple, TypedDict
+from typing import Any, BinaryIO, NamedTuple, TypedDict
 
 import numpy as np
 import orjson
-import xxhash
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
@@ -36,16 +34,20 @@ from foamprb.results.reading import checked, open_regular
 
 log = logging.getLogger("foamprb")
 
-VERSION = 13
+VERSION = 14
 PARTICLES, FUNCTIONS = "particles/", "functions/"
 """Prefixes of array names: particle state, cloud-function data."""
 MOST_FILES = 2
 """Number of checkpoints that stay on disk."""
 
-_FORMAT = b"foamprb checkpoint "
-_NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.checkpoint")
-_SUM_BYTES = _PLACE_BYTES = 8
-_LONGEST_FIRST = len(_FORMAT) + 8
+_HEADER = "header"
+"""Name of the array with the header."""
+_OLD = b"foamprb checkpoint "
+"""First bytes of a checkpoint of format 13 or before; the number of the format follows."""
+_NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.(?:npz|checkpoint)")
+_INCOMPLETE = "it is incomplete or does not match its checksums"
+_LOCAL_HEADER = struct.Struct("<26xHH")
+"""What precedes a file in a zip archive: the lengths of its name and of the extra field, which follow."""
 # Rows that are compared first.
 _FIRST = 1000
 
@@ -64,7 +66,7 @@ class DamagedError(Exception):
 
 
 class Checkpoints:
-    """The files ``<time>.checkpoint`` in a folder.
+    """The files ``<time>.npz`` in a folder.
 
     Parameters
     ----------
@@ -83,7 +85,7 @@ class Checkpoints:
 
     def file(self, time: float) -> Path:
         """Return the file of a checkpoint at a time, s."""
-        return self.folder / f"{time:.12g}.checkpoint"
+        return self.folder / f"{time:.12g}.npz"
 
     def write(self, checkpoint: Checkpoint) -> Path:
         """Write a checkpoint, and remove all but the last two."""
@@ -164,23 +166,29 @@ def write_arrays(
     path: Path, time: float, header: Mapping[str, Any], arrays: Iterable[tuple[str, NDArray[Any]]]
 ) -> str:
     """Write a checkpoint, or a part of one, in one step, array by array; return the checksum."""
-    first, names, rows = _FORMAT + b"%d\n" % VERSION, [], {}
-    with atomic_write(path) as temporary, temporary.open("w+b") as file:
-        file.write(first + bytes(_SUM_BYTES + _PLACE_BYTES))
+    names, rows = [], {}
+    with atomic_write(path) as temporary, zipfile.ZipFile(temporary, "w") as archive:
         for name, values in arrays:
             array = np.asarray(values, order="C")
             names.append(name)
             if is_one_row(array):
                 rows[name] = len(array)
-            np.lib.format.write_array(file, array[:1] if name in rows else array)
-        place = file.tell()
-        file.write(orjson.dumps({"time": time, "arrays": names, "rows": rows, **header}))
-        file.seek(len(first) + _SUM_BYTES)
-        file.write(place.to_bytes(_PLACE_BYTES, "little"))
-        checksum = _checksum(file, first)
-        file.seek(len(first))
-        file.write(checksum)
-    return checksum.hex()
+            _write_array(archive, name, array[:1] if name in rows else array)
+        text = orjson.dumps({"format": VERSION, "time": time, "arrays": names, "rows": rows, **header})
+        _write_array(archive, _HEADER, np.frombuffer(text, dtype=np.uint8))
+    return _checksum(archive)
+
+
+def _write_array(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
+    # A name alone has a fixed date: equal states have equal bytes.
+    with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
+        np.lib.format.write_array(file, array, allow_pickle=False)
+
+
+def _checksum(archive: zipfile.ZipFile) -> str:
+    """Return a checksum of the names and checksums of the arrays."""
+    members = [(member.filename, member.CRC) for member in archive.infolist()]
+    return f"{zlib.crc32(repr(members).encode()):08x}"
 
 
 class _Place(NamedTuple):
@@ -289,6 +297,7 @@ class StoredCheckpoint:
 class _PartHeader(TypedDict):
     """Entries of the header of each file."""
 
+    format: int
     time: float
     arrays: list[str]
     rows: dict[str, int]
@@ -306,42 +315,64 @@ def _open(path: Path, verify: bool) -> tuple[_File, str]:
         return _opened(path, verify)
     except (DamagedError, InputError, FileNotFoundError, MemoryError):
         raise
+    except (zipfile.BadZipFile, EOFError) as error:
+        raise DamagedError(_INCOMPLETE) from error
     except Exception as error:
         raise DamagedError(str(error) if isinstance(error, OSError | ValueError) else repr(error)) from error
 
 
 def _opened(path: Path, verify: bool) -> tuple[_File, str]:
     with open_regular(path) as file:
-        first = file.readline(_LONGEST_FIRST)
-        version = first.removeprefix(_FORMAT).strip().decode(errors="replace")
-        checksum = file.read(_SUM_BYTES)
-        if verify and checksum != _checksum(file, first):
-            other = first.startswith(_FORMAT) and version.isdigit() and version != str(VERSION)
-            # Other versions may have other checksums.
-            raise DamagedError(
-                f"its format is {version}, not {VERSION}"
-                if other
-                else "its contents do not match its checksum"
-            )
-        if version != str(VERSION):
-            raise InputError(
-                f"{path}: a checkpoint of format {version}; this version of foamprb reads format {VERSION}."
-            )
-        file.seek(len(first) + _SUM_BYTES)
-        place = file.seek(int.from_bytes(file.read(_PLACE_BYTES), "little"))
-        header = dict[str, Any](checked(json.loads(file.read()), _Header, "its header"))
-        file.seek(len(first) + _SUM_BYTES + _PLACE_BYTES)
-        rows, places = header.pop("rows"), {}
-        for name in header.pop("arrays"):
-            np.lib.format.read_magic(file)
-            stored, _, dtype = np.lib.format.read_array_header_1_0(file)
-            shape = (rows[name], *stored[1:]) if name in rows else stored
-            if dtype.hasobject or min(shape, default=0) < 0:
-                raise ValueError(f"the array {name} has the type {dtype} and the shape {shape}")
-            places[name] = _Place(file.tell(), shape, dtype, name in rows)
-            if file.seek(math.prod(stored) * dtype.itemsize, os.SEEK_CUR) > place:
-                raise ValueError(f"the array {name} is cut short")
-    return _File(path, header.pop("time"), header, places), checksum.hex()
+        first = file.read(len(_OLD) + 8)
+        if first.startswith(_OLD):
+            raise _other_format(path, first.removeprefix(_OLD).partition(b"\n")[0].decode(errors="replace"))
+        with zipfile.ZipFile(file) as archive:
+            members = archive.infolist()
+            if any(member.compress_type != zipfile.ZIP_STORED for member in members):
+                raise DamagedError("it is compressed")
+            if verify and archive.testzip() is not None:
+                raise DamagedError(_INCOMPLETE)
+            offset, shape, _ = _array_at(file, archive.getinfo(f"{_HEADER}.npy"))
+            file.seek(offset)
+            header = dict[str, Any](json.loads(file.read(shape[0])))
+            if header.get("format") != VERSION:
+                raise _other_format(path, header.get("format"))
+            header = dict[str, Any](checked(header, _Header, "its header"))
+            del header["format"]
+            names, rows = header.pop("arrays"), header.pop("rows")
+            if [member.filename for member in members] != [f"{name}.npy" for name in (*names, _HEADER)]:
+                raise ValueError("it has other arrays than its header")
+            places = {}
+            for name, member in zip(names, members, strict=False):
+                offset, stored, dtype = _array_at(file, member)
+                shape = (rows[name], *stored[1:]) if name in rows else stored
+                if min(shape, default=0) < 0:
+                    raise ValueError(f"the array {name} has the shape {shape}")
+                places[name] = _Place(offset, shape, dtype, name in rows)
+            return _File(path, header.pop("time"), header, places), _checksum(archive)
+
+
+def _other_format(path: Path, version: object) -> InputError:
+    return InputError(
+        f"{path}: a checkpoint of format {version}; this version of foamprb reads format {VERSION}. Continue "
+        "with the version that wrote it, or start over: -overwrite, or startFrom startTime."
+    )
+
+
+def _array_at(file: BinaryIO, member: zipfile.ZipInfo) -> tuple[int, tuple[int, ...], np.dtype[Any]]:
+    """Return where the values of an array begin in a file, bytes, and its shape and type."""
+    file.seek(member.header_offset)
+    start = sum(_LOCAL_HEADER.unpack(file.read(_LOCAL_HEADER.size))) + file.tell()
+    file.seek(start)
+    np.lib.format.read_magic(file)
+    shape, _, dtype = np.lib.format.read_array_header_1_0(file)
+    if dtype.hasobject or min(shape, default=0) < 0:
+        raise ValueError(f"{member.filename} has the type {dtype} and the shape {shape}")
+    place = file.tell()
+    end = place + math.prod(shape) * dtype.itemsize
+    if end != start + member.file_size or end > os.fstat(file.fileno()).st_size:
+        raise ValueError(f"{member.filename} has {member.file_size} bytes and the shape {shape}")
+    return place, shape, dtype
 
 
 def is_one_row(array: NDArray[Any]) -> bool:
@@ -351,9 +382,3 @@ def is_one_row(array: NDArray[Any]) -> bool:
     bits = array.view(f"u{array.itemsize}")
     # Most arrays with different rows differ early, or in the last row.
     return all(bool((bits[part] == bits[0]).all()) for part in (slice(-1, None), slice(_FIRST), slice(None)))
-
-
-def _checksum(file: Any, first: bytes) -> bytes:
-    """Return the checksum of a file with a first line; it is much faster than CRC-32 or SHA-256."""
-    file.seek(len(first) + _SUM_BYTES)
-    return hashlib.file_digest(file, lambda: xxhash.xxh3_64(first)).digest()

@@ -23,7 +23,7 @@ MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
 _ROOT = "postProcessing"
 _MOST_BYTES = 200
 """Longest name: file systems allow 255, and suffixes and temporary names need some."""
-_CHECKPOINT = re.compile(r"[\d.e+-]+\.checkpoint(\.\d+)?|\..+\.tmp")
+_CHECKPOINT = re.compile(r"[\d.e+-]+\.(npz|checkpoint)(\.\d+)?|\..+\.tmp")
 _NO_WORD = re.compile(r"""[\s"'/\\;{}]""")
 HOW = "Run the particles first: foamprb run."
 

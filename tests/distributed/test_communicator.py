@@ -319,7 +319,7 @@ def test_ranks_read_their_particles_from_parts_of_other_numbers(before, tmp_path
     for worker in ranks.workers:
         for array in worker.share.memory.values():
             array[:] = (np.arange(array[:1].size) + worker.particles.number[:, None]).reshape(array.shape) % 7
-    file = tmp_path / "1.checkpoint"
+    file = tmp_path / "1.npz"
     parts = ranks.write_parts(file, 1.0)
     assert len(parts) == before
     assert [first for first, _ in parts] == list(ranks.parts)
@@ -341,7 +341,7 @@ def test_ranks_read_their_particles_from_parts_of_other_numbers(before, tmp_path
 
 def test_a_process_that_cannot_write_still_sends_what_the_others_need(tmp_path, monkeypatch):
     _, ranks = on_ranks(pipe_cloud(), 3)
-    file, write = tmp_path / "1.checkpoint", worker_module.write_arrays
+    file, write = tmp_path / "1.npz", worker_module.write_arrays
 
     def on_a_full_disk(path, time, header, arrays):
         if path.name.endswith(".14"):

@@ -137,7 +137,7 @@ def clouds(case: Path) -> list[tuple[float, dict[str, np.ndarray]]]:
 
 def content(file: Path) -> tuple[dict[str, Any], dict[str, bytes]] | bytes:
     """Content of a file; of a checkpoint without checksums of files, as each process has its own."""
-    if file.suffix != ".checkpoint":
+    if file.suffix != ".npz":
         return file.read_bytes()
     checkpoint = StoredCheckpoint(file, verify=True).read_all()
     # Sums over parts of a mesh have other round-off.
@@ -152,7 +152,7 @@ def assert_same(case: Path, truth: Path, functions: bool = True) -> None:
     listed = {folder / name for name in json.loads((folder / "manifest.json").read_text())["files"]}
     assert listed == {f for f in folder.rglob("*") if f.is_file()} - {folder / "manifest.json"}
     expected = [f.relative_to(folder_of(truth)) for f in folder_of(truth).rglob("*") if f.is_file()]
-    last = max((f for f in expected if f.suffix == ".checkpoint"), key=lambda f: float(f.stem))
+    last = max((f for f in expected if f.suffix == ".npz"), key=lambda f: float(f.stem))
     assert functions == any(f.name == "tracks.vtp" for f in expected)
     for file in expected:
         if file.suffix in ("", ".csv") or file in (last, Path("paths/tracks.vtp")):
@@ -297,7 +297,7 @@ def test_ctrl_c_on_any_process_leaves_a_checkpoint(number, case, truth, tmp_path
     ours = [line for line in done.stderr.splitlines() if "foamprb" in line]
     assert ours == ["--> foamprb stopped at t = 0.003 s. To continue from the last checkpoint, add -resume."]
     assert "Traceback" not in done.stderr
-    assert (folder_of(case) / "checkpoint/0.003.checkpoint").exists()
+    assert (folder_of(case) / "checkpoint/0.003.npz").exists()
     assert main(["run", "-case", str(case), "-resume"]) == 0
     assert_same(case, truth)
 
@@ -314,7 +314,7 @@ def test_ctrl_c_to_mpirun_ends_the_run_in_order(case):
         command(2, case), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=patient
     ) as process:
         deadline = time.monotonic() + 200.0
-        while not (folder_of(case) / "checkpoint/0.01.checkpoint").exists():
+        while not (folder_of(case) / "checkpoint/0.01.npz").exists():
             assert time.monotonic() < deadline
             assert process.poll() is None
             time.sleep(0.05)
@@ -577,9 +577,9 @@ def test_eddies_are_the_same_on_several_processes(tmp_path):
     assert run(3, case, script=kill).returncode != 0
     saved = {file.name for file in (folder_of(case) / "checkpoint").iterdir()}
     parts = ("", ".0", ".104", ".207")
-    assert saved == {f"{t}.checkpoint{part}" for t in ("0.001", "0.002") for part in parts}
+    assert saved == {f"{t}.npz{part}" for t in ("0.001", "0.002") for part in parts}
     # A part that is cut gives way to the checkpoint before.
-    part = folder_of(case) / "checkpoint/0.002.checkpoint.104"
+    part = folder_of(case) / "checkpoint/0.002.npz.104"
     part.write_bytes(part.read_bytes()[:-1])
     assert "Continuing from the checkpoint at t = 0.001 s" in finish(2, case, "-resume")
     assert_same(case, alone, functions=False)
@@ -642,7 +642,7 @@ Worker.migrate = hooked
         name = file.relative_to(folder_of(alone))
         assert (folder_of(case) / name).read_bytes() == file.read_bytes(), name
     ends = [
-        StoredCheckpoint(folder_of(c) / "checkpoint/0.015.checkpoint", verify=True).read_all().arrays
+        StoredCheckpoint(folder_of(c) / "checkpoint/0.015.npz", verify=True).read_all().arrays
         for c in (case, alone)
     ]
     for name, array in ends[1].items():

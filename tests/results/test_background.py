@@ -186,4 +186,4 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
     assert 100 <= job.cloud.step < 150
     folder = case / "postProcessing/softCloud"
     assert [entry.time for entry in pvd.read_pvd(folder / "softCloud.pvd")] == [0.0, 0.001]
-    assert [f.name for f in (folder / "checkpoint").iterdir()] == ["0.001.checkpoint"]
+    assert [f.name for f in (folder / "checkpoint").iterdir()] == ["0.001.npz"]

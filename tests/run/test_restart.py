@@ -273,11 +273,11 @@ def test_results_that_are_not_the_runs_are_refused(stopped, capsys):
 
 def test_a_damaged_checkpoint_costs_one_write_interval(stopped, truth, capsys):
     folder = stopped / "postProcessing/softCloud/checkpoint"
-    last = folder / "0.003.checkpoint"
+    last = folder / "0.003.npz"
     last.write_bytes(last.read_bytes()[:-1000])
     go_on(stopped)
     out = capsys.readouterr().out
-    assert re.search(r"Warning : .*0\.003\.checkpoint is damaged", out)
+    assert re.search(r"Warning : .*0\.003\.npz is damaged", out)
     assert "Continuing from the checkpoint at t = 0.002 s" in out
     assert results(stopped) == truth
 
@@ -329,7 +329,7 @@ def test_a_full_disk_has_one_message_and_the_run_goes_on(nth, case, truth, capsy
     assert ("-resume" in text) == any(name.startswith("checkpoint/") for name in found)
     listed = json.loads(found.pop("manifest.json", b'{"files": []}'))["files"]
     assert found.keys() <= {*listed}
-    final = {name for name in found if not name.endswith((".checkpoint", ".pvd", "run.json"))}
+    final = {name for name in found if not name.endswith((".npz", ".pvd", "run.json"))}
     assert all(truth[name] == found[name] for name in final)
     monkeypatch.undo()
     go_on(case)

@@ -187,9 +187,7 @@ def test_checkpoints_that_no_manifest_lists_are_not_removed(stopped, truth, caps
     (folder / "manifest.json").unlink()
     before = names(folder)
     text = message(stopped, capsys, "-overwrite")
-    assert re.search(
-        r"manifest\.json does not list checkpoint/0\.00[23]\.checkpoint\. .* remove or rename", text
-    )
+    assert re.search(r"manifest\.json does not list checkpoint/0\.00[23]\.npz\. .* remove or rename", text)
     assert names(folder) == before
     for file in (folder / "checkpoint").iterdir():
         file.unlink()
@@ -201,7 +199,7 @@ def test_files_of_no_run_are_named_and_removed_on_request(case, capsys):
     """As a run of an earlier version left them; notes of a user stay."""
     run(case)
     folder = folder_of(case)
-    left = ["softCloud_000017.vtp", "checkpoint/0.9.checkpoint", ".softCloud.pvd.0123abcd.tmp"]
+    left = ["softCloud_000017.vtp", "checkpoint/0.9.npz", ".softCloud.pvd.0123abcd.tmp"]
     stay = ["checkpoint/notes.txt", "other/notes.csv"]
     (folder / "other").mkdir()
     for name in (*left, *stay):
@@ -209,7 +207,7 @@ def test_files_of_no_run_are_named_and_removed_on_request(case, capsys):
     assert main(["report", "-case", str(case)]) == 0
     assert "4 files in" in (page := (folder / "report.html").read_text())
     assert all(name in page for name in (*left, "other/notes.csv"))
-    assert "manifest.json does not list checkpoint/0.9.checkpoint" in message(case, capsys)
+    assert "manifest.json does not list checkpoint/0.9.npz" in message(case, capsys)
     run(case, "-overwrite")
     assert {*left, *stay} & names(folder) == {*stay}
 
@@ -337,7 +335,7 @@ def test_files_have_single_precision_and_the_requested_arrays(case):
 def test_a_run_that_goes_on_from_before_its_first_step_lists_its_start_once(case, truth):
     with pytest.raises(RunStopped):
         execute(prepare(case), stop=lambda: True)
-    assert [file.name for file in (folder_of(case) / "checkpoint").iterdir()] == ["0.checkpoint"]
+    assert [file.name for file in (folder_of(case) / "checkpoint").iterdir()] == ["0.npz"]
     run(case, "-resume")
     assert results(case) == truth
 
