@@ -355,14 +355,11 @@ class Cloud:
     def load_flow(self, steps: int) -> tuple[Any, int]:
         """Prepare the flow for the next ``steps`` steps, or as many as its loaded times cover.
 
+        See :meth:`foamprb.flow.base.Flow.load` for its errors.
+
         Returns
         -------
         The arguments of the flow's kernels, and the number of steps, at least 1.
-
-        Raises
-        ------
-        InputError
-            If the flow ends before, or cannot be read.
         """
         until = self.flow.load(self.time, self.time_of(self.step + 1))
         ready = (until - self.time) / self.dt + _ROUND_OFF
@@ -566,7 +563,7 @@ class Stepper:
         cloud.comm.prepare_steps(cloud)
 
     def advance(self, steps: int, stop: Callable[[], bool] = never) -> None:
-        """Advance by ``steps`` time steps, without warnings about failed particles.
+        """Advance by ``steps`` time steps, without warnings; see :meth:`Cloud.advance`.
 
         Parameters
         ----------
@@ -577,11 +574,6 @@ class Stepper:
             ``cloud.step`` is the step that all particles have reached. Particles ahead of it stay there until
             the others have caught up in a later call. They also end after an instant at which the state is
             stored, as soon as all particles are at the same step.
-
-        Raises
-        ------
-        InputError
-            If the flow ends before, or cannot be read; earlier steps are kept.
         """
         cloud = self.cloud
         last = min(cloud.step + steps, cloud.most_steps)

@@ -314,11 +314,6 @@ class SeriesFlow(Timeline, MeshFlow):
         Returns
         -------
         The last of these times, s.
-
-        Raises
-        ------
-        InputError
-            The flow does not cover ``start`` to ``end``, or one of its times cannot be read.
         """
         self._levels = self._levels_for(start, end)
         wanted = [self._index(level) for level in self._levels]
@@ -524,6 +519,8 @@ def series_of(
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
 
+    See :class:`SeriesFlow` for its errors.
+
     Parameters
     ----------
     source
@@ -538,11 +535,6 @@ def series_of(
         See :class:`SeriesFlow`.
     make
         Class of the flow.
-
-    Raises
-    ------
-    InputError
-        The times do not rise, or do not fill the period.
     """
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."

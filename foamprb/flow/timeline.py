@@ -41,13 +41,7 @@ class Timeline:
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
 
     def _levels_for(self, start: float, end: float) -> range:
-        """Return the levels from the last one up to ``start`` to the first one from ``end`` on.
-
-        Raises
-        ------
-        InputError
-            The times do not cover ``start`` to ``end``.
-        """
+        """Return the levels from the last one up to ``start`` to the first one from ``end`` on."""
         beyond = _ENDS * max(abs(self.times[0]), abs(self.times[-1]))
         if not (self.span[0] - beyond <= start and end <= self.span[1] + beyond):
             raise InputError(

@@ -82,13 +82,7 @@ def refuse_other_kind(path: Path, *beginnings: bytes) -> None:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file in one step.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
+    """Write a text file in one step; OSError as :func:`atomic_write`."""
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 

@@ -54,13 +54,7 @@ class Series:
         self.entries: tuple[SnapshotFile, ...] = ()
 
     def append(self, cloud: PointCloud | Parts) -> Path:
-        """Write a snapshot and list it; return the ``.vtp`` file.
-
-        Raises
-        ------
-        ValueError
-            If the time is not later than the last listed one.
-        """
+        """Write a snapshot and list it; return the ``.vtp`` file; ValueError as :meth:`next`."""
         file = with_ending(self.next(cloud.time), ".vtp")
         write_snapshot(file, cloud)
         self.add(cloud.time, file)

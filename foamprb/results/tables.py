@@ -73,7 +73,7 @@ def write_rows(path: Path, parts: Iterable[Rows], before: Callable[[], object] =
 
 
 def write_table(path: Path, columns: Mapping[str, Column]) -> None:
-    """Write a table, in one step.
+    """Write a table, in one step; ValueError as :func:`rows_of`.
 
     The text begins with a line of column names. A floating-point number is written with the fewest
     digits that read back as the same double, or as ``nan``, ``inf`` or ``-inf``. Text with a comma, a quote
@@ -85,11 +85,6 @@ def write_table(path: Path, columns: Mapping[str, Column]) -> None:
         The file.
     columns
         Numbers or text of each column, all of the same length n, by name and in order.
-
-    Raises
-    ------
-    ValueError
-        If the columns differ in length, or one has more than one axis.
     """
     n = max((len(column) for column in columns.values()), default=0)
     parts = (

@@ -89,12 +89,7 @@ def execute(
 def execute_until_signal(job: Job, start_from: StartFrom | None = None) -> None:
     """Execute a job as :func:`execute`; Ctrl-C or SIGTERM to any of its processes stops it in order.
 
-    Raises
-    ------
-    RunInterrupted
-        If a signal stopped the run.
-    InputError, RunStopped
-        See :func:`execute`.
+    Raise RunInterrupted if a signal stopped the run; see :func:`execute` for other errors.
     """
     # Until the loop is compiled, signals act at once.
     comm = job.cloud.comm

@@ -97,7 +97,8 @@ def open_results(job: Job) -> Iterator[Results]:
 class Results:
     """Writer of a run's files; call :meth:`begin` before the other methods.
 
-    The manifest lists a file before it is written.
+    The manifest lists a file before it is written. Methods that write raise OSError if a file cannot be
+    written, now or at the time before.
 
     Parameters
     ----------
@@ -121,15 +122,12 @@ class Results:
     def begin(self, start_from: StartFrom | None) -> None:
         """Set the cloud to its start or to a checkpoint, and remove an earlier run's files of later times.
 
+        See :func:`foamprb.run.loop.execute` for its errors.
+
         Parameters
         ----------
         start_from
             See :func:`foamprb.run.loop.execute`.
-
-        Raises
-        ------
-        InputError
-            If the run cannot continue from its checkpoints, or the user must decide whether it shall.
         """
         job = self._job
         self._fingerprint = fingerprint(job.settings, job.cloud)
@@ -145,13 +143,7 @@ class Results:
         self._start_over(overwrite=start_from == "startTime")
 
     def write_start(self) -> None:
-        """Write the snapshot of the start time, with the particles that appear then; no-op after a restart.
-
-        Raises
-        ------
-        OSError
-            If a file cannot be written.
-        """
+        """Write the snapshot of the start time, with the particles released then; no-op after a restart."""
         cloud = self._job.cloud
         if cloud.step > 0 or self._series.entries:
             return
@@ -182,11 +174,6 @@ class Results:
 
         Snapshots and checkpoint are written from a copy while the cloud advances. Tables and checkpoint are
         those of the present time.
-
-        Raises
-        ------
-        OSError
-            If a file cannot be written, now or at the time before.
         """
         cloud = self._ready()
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
@@ -208,13 +195,7 @@ class Results:
         self._writer.submit(partial(self._end_write, begun, snapshot, memory, parts))
 
     def save(self) -> None:
-        """Write only a checkpoint, for a run that is stopped between two write times.
-
-        Raises
-        ------
-        OSError
-            If it cannot be written.
-        """
+        """Write only a checkpoint, for a run that is stopped between two write times."""
         cloud = self._ready()
         self._manifest.settle(self._checkpoint_files(now=True))
         # Particles that are ahead of the others have passed write times.
@@ -225,11 +206,6 @@ class Results:
         """Write ``fates``, a row per particle, and ``failed`` if a particle failed.
 
         ``fates`` marks a finished run: it takes its name after the last snapshot and checkpoint.
-
-        Raises
-        ------
-        OSError
-            If a file cannot be written, now or at the time before.
         """
         cloud = self._job.cloud
         failed = cloud.counts()[Status.FAILED] > 0

@@ -40,7 +40,7 @@ class CaseRun(Run):
     """Folder of the results instead of ``postProcessing`` in the case."""
 
     def view(self, path: Path | str | None = None, max_size: float = 30.0, **options: Any) -> ViewPage:
-        """Write the page of ``foamprb view``, and return it.
+        """Write the page of ``foamprb view``, and return it; errors as :func:`foamprb.view.show.write_page`.
 
         Parameters
         ----------
@@ -50,11 +50,6 @@ class CaseRun(Run):
             Largest size, MB.
         options
             Fields of :class:`foamprb.view.show.Request`: ``time``, ``colour``, ``enlargement``, ``slice``, ….
-
-        Raises
-        ------
-        InputError, OSError
-            See :func:`foamprb.view.show.write_page`.
         """
         from foamprb.view.show import Request, write_page
 

@@ -134,13 +134,7 @@ class Run:
         return read_table(self.file(name), _WORDS)
 
     def frame(self, name: str = "fates") -> Any:
-        """Return a table as a data frame of pandas.
-
-        Raises
-        ------
-        InputError
-            As :meth:`table`; or if pandas is not installed.
-        """
+        """Return a table as a data frame of pandas; InputError without pandas, or as :meth:`table`."""
         return frame_of(self.table(name))
 
     @property
@@ -231,7 +225,7 @@ class Run:
     ) -> pyvista.PolyData:
         """Return the surfaces of the bodies at the written time nearest to ``time``, s, by default the last.
 
-        Each point has the arrays of its body.
+        Each point has the arrays of its body. See :meth:`snapshot` for the errors.
 
         Parameters
         ----------
@@ -241,11 +235,6 @@ class Run:
             Factor of the size.
         resolution
             Number of facets around a body.
-
-        Raises
-        ------
-        InputError
-            See :meth:`snapshot`.
         """
         pyvista, cloud = load("pyvista"), self.cloud(-1 if time is None else self.nearest(time))
         sphere = pyvista.Sphere(radius=1.0, theta_resolution=resolution, phi_resolution=resolution)

@@ -112,13 +112,7 @@ class Runs(Mapping[str, Run]):
         return columns
 
     def frame(self, name: str = "fates") -> Any:
-        """Return :meth:`table` as a data frame of pandas.
-
-        Raises
-        ------
-        InputError
-            As :meth:`table`; or if pandas is not installed.
-        """
+        """Return :meth:`table` as a data frame of pandas; InputError without pandas."""
         return frame_of(self.table(name))
 
 

@@ -117,7 +117,8 @@ class Injection(Schema, Protocol):
         Raises
         ------
         InputError
-            If the flow lacks a name in the entries, or no particle would be injected.
+            If the flow lacks a name in the entries, a place lies outside the flow, or no particle would be
+            injected.
         """
 
 
@@ -131,13 +132,7 @@ class ManualInjection(Injection):
     ignoreOutOfBounds: _LEAVE_OUT = False
 
     def places(self, flow: Flow, _random: np.random.Generator, read: ReadPositions) -> Places:
-        """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``.
-
-        Raises
-        ------
-        InputError
-            If positions lie outside the flow; with their number and the first of them.
-        """
+        """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``."""
         SOI = start_of_injection(self, flow)
         x, columns = read(self.positionsFile, GIVEN)
         hosts = flow.locate(x)
@@ -163,13 +158,7 @@ class PatchInjection(Injection):
     SOI: _SOI = START_OF_FLOW
 
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
-        """Return random places on the patch, with a density proportional to the flux, at even intervals.
-
-        Raises
-        ------
-        InputError
-            If no fluid enters through the patch, or no particle is injected.
-        """
+        """Return random places on the patch, with a density proportional to the flux, at even intervals."""
         SOI = start_of_injection(self, flow)
         n = require_room(
             self.parcelsPerSecond * self.duration,
@@ -219,11 +208,6 @@ class PatchFlowRateInjection(Injection):
         """Return random places on the patch, as the inflow at the times of release.
 
         Particle k is released when the volume for k + ½ particles has entered.
-
-        Raises
-        ------
-        InputError
-            If no fluid enters through the patch, or no particle is injected.
         """
         start = start_of_injection(self, flow)
         end = min(start + self.duration, flow.span[1])
@@ -282,13 +266,7 @@ class LineInjection(Injection):
     ignoreOutOfBounds: _LEAVE_OUT = False
 
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
-        """Return the places on the line, without those outside the flow if ``ignoreOutOfBounds``.
-
-        Raises
-        ------
-        InputError
-            If places lie outside the flow; with their number and the first of them.
-        """
+        """Return the places on the line, without those outside the flow if ``ignoreOutOfBounds``."""
         n = require_room(self.number, f"lineInjection: number {self.number}")
         x = np.linspace(self.start, self.end, n)
         hosts = flow.locate(x)
@@ -476,13 +454,7 @@ class ConeInjection(Injection):
             raise InputError("has an axis (0 0 0) in positionAxis")
 
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
-        """Return the positions in turn, at even intervals in time, with a random direction each.
-
-        Raises
-        ------
-        InputError
-            If a position lies outside the flow, or no particle is injected.
-        """
+        """Return the positions in turn, at even intervals in time, with a random direction each."""
         SOI = start_of_injection(self, flow)
         positions, axes = (np.array(part, dtype=float) for part in zip(*self.positionAxis, strict=True))
         hosts = flow.locate(positions)
