@@ -169,23 +169,11 @@ def prepare(
     settings = read_settings(case, dictionary, source.region, time_of_fluid(time), outside_libs, overrides)
     scale = settings.solution.scale if source.scale is None else source.scale
     settings = replace(settings, solution=replace(settings.solution, scale=scale))
-    source = replace(source, scale=None if scale == 1.0 else scale)
-    turbulent = any(model.traits.turbulence for model in settings.dispersion.values())
-    relative = settings.solution.rotatingZones == "relative"
-    curved = settings.shape != "affine" or any(
-        "curvature" in model.traits.kernels for model in settings.surroundings.values()
-    )
-    source = replace(
-        source, turbulent=turbulent, curved=curved, relative=relative, viscosity=settings.fluid.field
-    )
-    readers: list[Any] = [*settings.functions.values(), *settings.forces.values()]
-    needed = dict.fromkeys(name for reader in readers for name in reader.needed_fields)
-    source = replace(source, sampled=tuple(needed), accept=settings.solution.accept)
-    rotating = bool(rotations_of(case, source))
+    source = _with_fields(source, settings)
     compilation = Compilation()
     # A loop whose forces read fields depends on the kinds of these.
     if precompile and not any(force.needed_fields for force in settings.forces.values()):
-        compilation.begin(*_loop(settings, rotating))
+        compilation.begin(*_loop(settings, bool(rotations_of(case, source))))
     log.info("Reading flow of case %s", case if source.file is None else source.file)
     with compilation.shown():
         flow = None if flows is None or settings.solution.transient else flows.get(source)
@@ -194,17 +182,7 @@ def prepare(
             flow = _open_flow(settings, comm, case, times, source)
         if flows is not None and not settings.solution.transient:
             flows[source] = flow
-        faults: dict[str, str] = {}
-        for note in flow.notes:
-            if not isinstance(note, Caveat):
-                log.info("    %s", note)
-            elif note.fault and note.fault not in settings.solution.accept:
-                faults.setdefault(note.fault, note)
-            else:
-                log.warning("%s", note)
-        if faults:
-            accept = f"solution/accept ( {' '.join((*settings.solution.accept, *faults))} )"
-            raise InputError(f"{case}: {' '.join(faults.values())} Allowed: to go on, {accept}.")
+        _log_notes(flow, settings)
         job = assemble(settings, flow, threads, comm)
     return replace(job, compilation=compilation, output=None if output is None else Path(output))
 
@@ -212,6 +190,40 @@ def prepare(
 def time_of_fluid(time: float | str | None) -> float | str:
     """Return the time of the fluid's density and viscosity: of a range of times the latest."""
     return "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
+
+
+def _with_fields(source: FlowSource, settings: Settings) -> FlowSource:
+    """Return a source with the fields and operators that the settings need."""
+    scale = settings.solution.scale
+    curved = settings.shape != "affine" or any(
+        "curvature" in model.traits.kernels for model in settings.surroundings.values()
+    )
+    readers: list[Any] = [*settings.functions.values(), *settings.forces.values()]
+    return replace(
+        source,
+        scale=None if scale == 1.0 else scale,
+        turbulent=any(model.traits.turbulence for model in settings.dispersion.values()),
+        curved=curved,
+        relative=settings.solution.rotatingZones == "relative",
+        viscosity=settings.fluid.field,
+        sampled=tuple(dict.fromkeys(name for reader in readers for name in reader.needed_fields)),
+        accept=settings.solution.accept,
+    )
+
+
+def _log_notes(flow: Flow, settings: Settings) -> None:
+    """Log the notes of a flow; raise InputError for faults that the settings do not accept."""
+    faults: dict[str, str] = {}
+    for note in flow.notes:
+        if not isinstance(note, Caveat):
+            log.info("    %s", note)
+        elif note.fault and note.fault not in settings.solution.accept:
+            faults.setdefault(note.fault, note)
+        else:
+            log.warning("%s", note)
+    if faults:
+        accept = f"solution/accept ( {' '.join((*settings.solution.accept, *faults))} )"
+        raise InputError(f"{settings.case}: {' '.join(faults.values())} Allowed: to go on, {accept}.")
 
 
 def _loop(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 
 import numpy as np
@@ -66,17 +66,12 @@ def execute(
             return cloud.counts()
         log = RunLog(job)
         results.write_start()
-        stepper = Stepper(cloud)
-        schedule = _Schedule(stepper, job.compilation, results.store_between)
+        schedule = _Schedule(Stepper(cloud), job.compilation, results.store_between)
         log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
-            while cloud.step < job.steps and (cloud.step == 0 or moving(cloud)) and not _failing(job):
-                due = _advance_to_write(job, results, schedule, stop, show)
-                if due is None:
-                    results.save()
-                    raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {HOW_TO_GO_ON}")
-                counts = {time: cloud.counts_at(time) for time in map(cloud.time_of, due)}
-                results.write(due)
+            for steps in _advance_to_writes(job, results, schedule, stop, show):
+                counts = {time: cloud.counts_at(time) for time in map(cloud.time_of, steps)}
+                results.write(steps)
                 log.write_times(counts)
         results.end()
         failing = _failing(job)
@@ -131,31 +126,34 @@ def moving(cloud: Cloud) -> int:
     return sum(counts[status] for status in cloud.tracker.movable)
 
 
-def _advance_to_write(
+def _advance_to_writes(
     job: Job,
     results: Results,
     schedule: _Schedule,
     stop: Callable[[], bool],
     show: Callable[[float], None],
-) -> list[int] | None:
-    """Advance to the end of the stretch of steps with the next write time.
+) -> Iterator[list[int]]:
+    """Advance to the end of the run; pause after each stretch of steps with a write time.
 
-    Returns
-    -------
-    The steps that end at the write times until there; None if ``stop`` returned True before.
+    Yields
+    ------
+    The steps that end at the write times until there.
     """
-    cloud, first = job.cloud, job.cloud.step
-    due = job.next_write(first)
-    while cloud.step < due and moving(cloud):
-        results.check()
-        if stop():
-            return None
-        schedule.advance(min(job.steps, -(-due // cloud.stretch_steps) * cloud.stretch_steps), stop)
-        show(cloud.time)
-    if not moving(cloud):
-        # Later results would repeat those after the last end.
-        cloud.step = job.next_write(max(first, cloud.steps_before(cloud.last_end)))
-    return job.writes(first, cloud.step)
+    cloud = job.cloud
+    while cloud.step < job.steps and (cloud.step == 0 or moving(cloud)) and not _failing(job):
+        first = cloud.step
+        due = job.next_write(first)
+        while cloud.step < due and moving(cloud):
+            results.check()
+            if stop():
+                results.save()
+                raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {HOW_TO_GO_ON}")
+            schedule.advance(min(job.steps, -(-due // cloud.stretch_steps) * cloud.stretch_steps), stop)
+            show(cloud.time)
+        if not moving(cloud):
+            # Later results would repeat those after the last end.
+            cloud.step = job.next_write(max(first, cloud.steps_before(cloud.last_end)))
+        yield job.writes(first, cloud.step)
 
 
 MOST_STEPS = 200_000_000
