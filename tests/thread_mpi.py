@@ -8,7 +8,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-
 from foamprb.distributed.node import MpiTeam
 
 

@@ -63,8 +63,6 @@ class Rank:
     """Process with its share of the particles; this one has all, in the order of their numbers."""
 
     number = 0
-    cells: NDArray[np.int64] | None = None
-    """Numbers of the cells in the whole mesh, if this process has a part of it."""
     tracker: Tracker
     threads: int
 
@@ -92,11 +90,7 @@ class Rank:
     @property
     def seen(self) -> LoadedFlow:
         """The flow around the particles, at the loaded times."""
-        return LoadedFlow(self.tracker.kernels, self.flow, self.sampled, self.cells)
-
-    def complete(self) -> Share:
-        """Return the particles with hosts of the whole mesh."""
-        return self.share
+        return LoadedFlow(self.tracker.kernels, self.flow, self.sampled)
 
     def find(self, numbers: NDArray[np.int64]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
         """Return which of the given particles this rank owns, and the rows of these."""
@@ -232,19 +226,16 @@ class Communicator:
         """
         return []
 
-    def open_flow(self, read: Callable[[], Flow], *source: Any) -> Flow:  # noqa: ARG002
-        """Return the flow of a source, which ``read`` reads on this process."""
-        return read()
 
 
 def applied(rank: Rank, function: Callable[..., Value], of: str | None, *arguments: Any) -> Value:
     """Apply a function to the particles of a rank; see :meth:`Share.apply`."""
-    return rank.complete().apply(function, of, *arguments)
+    return rank.share.apply(function, of, *arguments)
 
 
 def particles_of(rank: Rank, numbers: NDArray[np.int64]) -> Particles:
     """Return the requested particles that a rank holds."""
-    return rank.complete().particles.take(rank.find(numbers)[1])
+    return rank.particles.take(rank.find(numbers)[1])
 
 
 def values_of(rank: Rank, numbers: NDArray[np.int64], name: str) -> tuple[NDArray[Any], ...]:

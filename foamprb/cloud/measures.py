@@ -64,7 +64,7 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.viscosity import VaryingViscosity, viscosity_at_rate, viscosity_of
+from foamprb.cloud.viscosity import VaryingViscosity, viscosity_of
 from foamprb.compile.link import link
 from foamprb.flow.base import Flow, Sampled
 from foamprb.flow.fields import Fields, FieldValues, columns_of, field_of
@@ -405,19 +405,6 @@ def path_stokes_number(p: Particles, flow: Flow, medium: Medium, time: float) ->
         u = carrier_velocity(p.take(rows), flow.sample(p.x[rows], p.host[rows], time)[0])
         slip[rows] = np.maximum(slip[rows], np.linalg.norm(p.v[rows] - u, axis=1))
     return float((tau * slip).max() / flow.width)
-
-
-def largest_slip(p: Particles, medium: Medium) -> float:
-    """Return a bound of the velocity relative to the fluid, m/s.
-
-    It is the largest initial velocity and twice the largest settling velocity of a sphere in Stokes flow.
-    """
-    if p.size == 0:
-        return 0.0
-    g, mu = math.sqrt(sum(a * a for a in medium.gravity)), viscosity_at_rate(medium.mu, None)
-    settling = 2.0 / 9.0 * np.abs(p.rho - medium.rho) * g * p.R**2 / mu
-    initial = np.nan_to_num(np.linalg.norm(p.v, axis=1))
-    return float(initial.max() + 2.0 * settling.max())
 
 
 def _value(name: str) -> Callable[[Context], Floats]:

@@ -118,10 +118,9 @@ class CloudFunctions:
             new = np.concatenate([tables[name] for tables in events])
             self._memory[name][table] = in_time(append(self._memory[name], table, new))
         for rank in comm.call(Sampling.take_sums):
-            for name, parts in rank.items():
+            for name, sums in rank.items():
                 total = self._memory[name][names_of_kind(self.functions[name], per_cell)[0]]
-                for cells, sums in parts:
-                    total[slice(None) if cells is None else cells] += sums
+                total += sums
 
     def write(self, folder: Path) -> None:
         """Let every function write into a folder of its name."""

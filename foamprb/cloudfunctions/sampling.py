@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from threading import Lock
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,14 +32,6 @@ from foamprb.cloudfunctions.base import (
 from foamprb.cloudfunctions.cells import add_up, no_sums
 
 
-class CellSums(NamedTuple):
-    """Sums of cells on a rank."""
-
-    cells: NDArray[np.int64] | None
-    """Numbers of the cells in the whole mesh; None for their indices."""
-    sums: NDArray[np.int64]
-
-
 class Sampling:
     """Functions that observe the particles of a rank, with their events and sums of cells."""
 
@@ -54,7 +46,7 @@ class Sampling:
         self.functions, self._initial = functions, memory
         self._interactions, self._medium, self._names = tuple(interactions), medium, names
         self._events: dict[str, list[NDArray[np.float64]]] = {name: [] for name in functions}
-        self._sums: dict[str, list[CellSums]] = {}
+        self._sums: dict[str, NDArray[np.int64]] = {}
 
     @staticmethod
     def install(rank: Rank, sampling: Sampling) -> None:
@@ -103,11 +95,9 @@ class Sampling:
             return no_sums(0, 0)
         mesh = getattr(rank.flow, "mesh", rank.flow)
         columns = self._initial[name][names_of_kind(function, per_cell)[0]].shape[1] // 2
-        parts = self._sums.setdefault(name, [])
-        # A node may take other cells between two writings.
-        if not parts or not _equal(parts[-1].cells, rank.cells):
-            parts.append(CellSums(rank.cells, no_sums(len(mesh.cell_start) - 1, columns)))
-        return parts[-1].sums
+        if name not in self._sums:
+            self._sums[name] = no_sums(len(mesh.cell_start) - 1, columns)
+        return self._sums[name]
 
     @staticmethod
     def _add_to_cells(
@@ -132,15 +122,11 @@ class Sampling:
         }
 
     @staticmethod
-    def take_sums(rank: Rank) -> Mapping[str, list[CellSums]]:
+    def take_sums(rank: Rank) -> Memory:
         """Return the sums of cells on a rank since the last call, by the names of the functions."""
         sampling: Sampling = rank.sampling
         sums, sampling._sums = sampling._sums, {}
         return sums
-
-
-def _equal(cells: NDArray[np.int64] | None, others: NDArray[np.int64] | None) -> bool:
-    return cells is others or (cells is not None and others is not None and np.array_equal(cells, others))
 
 
 def _with_fluid(steps: Steps, flow: Any, everywhere: bool) -> Steps:

@@ -129,51 +129,20 @@ class Publisher:
         self._own: dict[tuple[int, int], int] = {}
         """Windows that take the place of their sources, by their addresses and bytes."""
         self._small = b""
-        self._placed: list[int] = []
-        """Windows filled by the last :meth:`replace`."""
 
     @property
     def size(self) -> int:
         """Bytes shared on each computer."""
         return sum(array.nbytes for array in self._windows.arrays.values())
 
-    def move(self, array: Array, old: Array | None = None) -> Array:
-        """Put an array into shared memory for good, in place of an ``old`` one.
-
-        Processes of the computer see its changes at once.
-        """
-        before = None if old is None else self._own.pop(_extent(old), None)
-        if before is not None:
-            self._order("free", before)
+    def move(self, array: Array) -> Array:
+        """Put an array into shared memory for good; return it there."""
         if not _is_large(array):
             return array
         key = self._fill_new(array)
         moved = self._windows.arrays[key]
         self._own[_extent(moved)] = key
         return moved
-
-    def replace(self, tree: Any) -> Any:
-        """Place the arrays in a tuple in shared memory, and free those of the call before.
-
-        Returns
-        -------
-        The tuple with a :class:`Place` for each large array; the arrays themselves are not kept.
-        """
-        before, self._placed = self._placed, []
-
-        def place(leaf: Any) -> Any:
-            if not _is_large(leaf):
-                return leaf
-            key = self._own.get(_extent(leaf))
-            if key is None:
-                key = self._fill_new(leaf)
-                self._placed.append(key)
-            return Place(key, leaf.shape)
-
-        placed = _map(tree, place)
-        for key in before:
-            self._order("free", key)
-        return placed
 
     def publish(self, tree: Any) -> Any:
         """Make the arrays in a tuple known to all processes; those of the call before are forgotten.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import pickle
 import sys
 import traceback
@@ -19,15 +18,10 @@ from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.measures import injected
 from foamprb.cloud.report import Contents, report
 from foamprb.cloud.state import Status, empty
-from foamprb.cloud.surroundings.wall_lift import wall_distances
 from foamprb.cloud.tracker import Outcome
-from foamprb.distributed.exchange import pack, unpack, with_others
-from foamprb.distributed.node import Part, Summary
-from foamprb.distributed.route import Route
+from foamprb.distributed.exchange import Route, pack, unpack, with_others
 from foamprb.distributed.shared_memory import Windows, wait_for_all
 from foamprb.errors import InputError, RankError, RunStopped
-from foamprb.flow.base import Floats
-from foamprb.flow.meshflow import MeshFlow
 from foamprb.results.checkpoint import FUNCTIONS, PARTICLES, part_file, write_arrays
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
@@ -63,14 +57,10 @@ class Worker(Rank):
         self.number: int = self.comm.rank
         self.windows = Windows(MPI, self.comm)
         self._firsts = np.zeros(self.comm.size + 1, dtype=np.int64)
-        self.in_order, self._allocated = True, False
-        """Whether each rank has the particles that it writes; whether it has the particles in its cells."""
-        self._local_hosts = False
-        """Whether hosts are numbered as in the part of the node."""
+        self.in_order = True
+        """Whether each rank has the particles that it writes."""
         self._sorted: NDArray[np.int64] | None = None
         """Rows of the particles in the order of their numbers, as long as it is known."""
-        self._part: Part | None = None
-        self._ranks_of: list[list[int]] = []
         self._in_collective = False
         self.signals: Sequence[int] = ()
         """Signals that this process has received; the sequence grows."""
@@ -89,7 +79,7 @@ class Worker(Rank):
             return Answer(function(self, *arguments), None, list(signals))
         except Exception as error:
             where = f"rank {self.number}: "
-            if self._in_collective or (self._part is not None and self._part.in_collective):
+            if self._in_collective:
                 print(
                     f"--> foamprb Error : {where}{type(error).__name__}: {error}", file=sys.stderr, flush=True
                 )
@@ -115,7 +105,7 @@ class Worker(Rank):
         load_libs(libs)
         self._firsts, self.sampling = firsts, None
         self._become(Share(empty(int(firsts[self.number + 1] - firsts[self.number]), n_times)))
-        self.in_order, self._allocated, self._local_hosts = True, False, False
+        self.in_order = True
 
     def put(self, rank: int, first: int, arrays: Arrays | None = None) -> None:
         """Store arrays of particles on a rank.
@@ -140,21 +130,18 @@ class Worker(Rank):
         """Take the tracker of the cloud, which compiles with the first steps."""
         self.tracker, self.threads = tracker, threads
 
-    def distribute(self, ranks_of: list[list[int]]) -> None:
-        """Send the particles to the processes that advance them.
+    def distribute(self) -> None:
+        """Send the particles to the ranks that advance them.
 
-        Injection models release particles roughly in the order of their numbers. The processes of a node take
-        them in turn, and therefore have similar numbers of active particles.
+        Injection models release particles roughly in the order of their numbers. The ranks take them in turn,
+        and therefore have similar numbers of active particles.
         """
         with self.collective():
-            self._ranks_of = ranks_of
-            nodes = self._nodes_of(self.particles.host)
-            route = self._route(self._ranks_in(nodes, self.particles.number))
+            route = self._route(self.particles.number % self.comm.size)
             arrays, self.share = self.share.arrays(), Share(empty(0))
             # One variable after the other: memory holds one of them twice.
             self._become(Share.of({name: route.send(arrays.pop(name)) for name in [*arrays]}))
-            self.in_order, self._allocated = False, True
-            self._use_local_hosts()
+            self.in_order = False
 
     def _become(self, share: Share) -> None:
         self.share, self._sorted = share, None
@@ -167,103 +154,9 @@ class Worker(Rank):
         with self.collective():
             return self._route(to).send(array)
 
-    def _use_local_hosts(self) -> None:
-        """Number the hosts as in the part of the node, if it has one."""
-        if self._part is not None and not self._local_hosts:
-            self.particles.host[:] = self._part.hosts_of(self.particles.host)
-            self._local_hosts = True
-
-    def _use_whole_hosts(self) -> None:
-        """Number the hosts as in the whole mesh."""
-        if self._local_hosts:
-            self.particles.host[:] = self._held.numbers_of(self.particles.host)
-            self._local_hosts = False
-
-    def complete(self) -> Share:
-        """See :meth:`Rank.complete`."""
-        if not self._local_hosts:
-            return self.share
-        p = self.particles
-        return self.share._replace(particles=p._replace(host=self._held.numbers_of(p.host)))
-
-    def _nodes_of(self, hosts: NDArray[np.int64]) -> NDArray[np.int32]:
-        """Return the node of each of the hosts of this process' particles, 0 for hosts without a cell."""
-        nodes = np.zeros(len(hosts), dtype=np.int32)
-        for rank in range(self.comm.size if self._part is not None else 0):
-            sought = self.comm.bcast(hosts if rank == self.number else None, rank)
-            flow = self._held.flow
-            rows = None if flow is None else flow.own_hosts(sought)[0]
-            for number, rows_there in self.comm.gather((self._held.number, rows), rank) or ():
-                if rows_there is not None:
-                    nodes[rows_there] = number
-        return nodes
-
-    def _ranks_in(self, node: NDArray[np.int32], ids: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the process of a node for each particle, by its number."""
-        sizes = np.array([len(ranks) for ranks in self._ranks_of])
-        table = np.array([np.resize(ranks, sizes.max()) for ranks in self._ranks_of])
-        return np.asarray(table[node, ids % sizes[node]])
-
     def state(self) -> ShareState:
         """Return the state of the particles."""
         return ShareState(np.bincount(self.particles.status, minlength=len(Status)))
-
-    def open_part(self, *source: Any) -> Summary | None:
-        """Read the flow on the cells of this node; see :meth:`Part.open`."""
-        self.close_part()
-        self._part = Part(self._MPI, self.windows)
-        return self._part.open(*source)
-
-    def close_part(self) -> None:
-        """Free the flow on the cells of this node."""
-        if self._part is not None:
-            self._use_whole_hosts()
-            self._part.close()
-            self._part = None
-            gc.collect()
-
-    def share_part(self, *walls: Any) -> int:
-        """Place the arrays of the node's flow, with some walls, in its memory; return bytes shared once."""
-        size = self._held.share(*walls)
-        self._use_part()
-        if self._allocated:
-            self._use_local_hosts()
-        return size if self.windows.node.rank == 0 else 0
-
-    def load_part(self, start: float, end: float) -> tuple[float, float] | None:
-        """Load a flow that changes; see :meth:`Part.load`."""
-        loaded = self._held.load(start, end)
-        self._use_part()
-        return loaded
-
-    def _use_part(self) -> None:
-        part = self._held
-        self.flow, self.sampled, self.cells = part.arrays, part.sampled, part.places.number
-
-    def node_number(self) -> int:
-        """Return the number of the node of this process."""
-        return self._held.number
-
-    def call_flow(self, name: str, *arguments: Any) -> Any:
-        """Return the result of a method of the node's flow on its first process, else None."""
-        return self._held.call(name, *arguments)
-
-    @property
-    def _held(self) -> Part:
-        assert self._part is not None
-        return self._part
-
-    def wall_distances(self, x: Floats, numbers: NDArray[np.int64], *others: Any) -> Any:
-        """Return the rows of hosts in owned cells of the node, and their distances from walls.
-
-        On the first process of a node only; see :func:`foamprb.cloud.surroundings.wall_lift.wall_distances`.
-        """
-        part = self._held
-        if part.flow is None:
-            return None
-        rows, hosts = part.flow.own_hosts(numbers)
-        cuts, patches = others
-        return rows, wall_distances(MeshFlow.kernels, part.mesh, x[rows], hosts, cuts[rows], patches)
 
     def use_flow(self, flow: Any) -> None:
         """Replace the arguments of the flow's kernels and the fields, whose arrays lie in shared memory."""
@@ -280,17 +173,8 @@ class Worker(Rank):
     def send(self, rows: NDArray[np.int64], rank_of: NDArray[np.int64]) -> None:
         """Send the particles in rising rows to other processes; store the particles that arrive."""
         with self.collective():
-            arrived = unpack(self._route(rank_of).send(self._packed(rows)))
-            if self._local_hosts:
-                arrived.particles.host[:] = self._held.hosts_of(arrived.particles.host)
+            arrived = unpack(self._route(rank_of).send(pack(self.share, rows)))
             self._become(with_others(self.share, rows, arrived))
-
-    def _packed(self, rows: NDArray[np.int64]) -> NDArray[Any]:
-        """Return records of particles with their hosts in the whole mesh."""
-        records = pack(self.share, rows)
-        if self._local_hosts:
-            records["host"] = self._held.numbers_of(records["host"])
-        return records
 
     def take_steps(
         self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
@@ -298,36 +182,6 @@ class Worker(Rank):
         """Advance the particles by some steps; ``stop`` or a signal ends them early."""
         outcome = self.advance(step, steps, bounds, stop or (lambda: bool(self.signals)))
         return self.state()._replace(outcome=outcome)
-
-    def take_steps_in_part(
-        self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
-    ) -> ShareState:
-        """Advance the particles by some steps, then migrate.
-
-        See :meth:`take_steps`. If any process fails, none sends particles.
-        """
-        error: Exception | None = None
-        outcome = Outcome()
-        try:
-            outcome = self.take_steps(step, steps, bounds, stop).outcome
-            self._held.refuse_strays()
-        except Exception as raised:
-            error = raised
-        self.wait_for_all()
-        if not self.comm.allreduce(error is not None, self._MPI.LOR):
-            self.migrate()
-        if error is not None:
-            raise error
-        return self.state()._replace(outcome=outcome)
-
-    def migrate(self) -> None:
-        """Send movable particles to the nodes that own their cells."""
-        p, part = self.particles, self._held
-        rows = np.flatnonzero(np.isin(p.status, self.tracker.movable) & (p.host >= 0))
-        node = part.places.node[part.cells_of(p.host[rows])]
-        away = node != part.number
-        rows, node = rows[away], node[away]
-        self.send(rows, self._ranks_in(node, p.number[rows]))
 
     @property
     def _order(self) -> NDArray[np.int64]:
@@ -368,7 +222,7 @@ class Worker(Rank):
         """
         numbers, end = self.particles.number, first + rows * self.comm.size
         rows_sent = self._order[slice(*np.searchsorted(numbers, (first, end), sorter=self._order))]
-        arrived = self.sent((numbers[rows_sent] - first) // rows, self._packed(rows_sent))
+        arrived = self.sent((numbers[rows_sent] - first) // rows, pack(self.share, rows_sent))
         if self.number and not len(arrived):
             return None
         return unpack(arrived[np.argsort(arrived["number"])]).apply(function, of, *arguments)
@@ -397,8 +251,7 @@ class Worker(Rank):
 
         One variable after the other, of which memory holds two more copies.
         """
-        share = self.complete()
-        numbers = share.particles.number
+        share, numbers = self.share, self.particles.number
         with self.collective():
             route = self._route(np.searchsorted(self._firsts[1:], numbers, side="right"))
             order = np.argsort(route.send(numbers))
@@ -443,8 +296,6 @@ class Worker(Rank):
 
     def finalise(self) -> None:
         """Free the shared memory, and finalise MPI."""
-        if self._part is not None:
-            self._part.close()
         for key in sorted(self.windows.arrays):
             self.windows.free(key)
         sys.stdout.flush()

@@ -1,8 +1,7 @@
 """Least change of the fluxes through faces that keeps the mass of each cell, by conjugate gradients.
 
-Each node of a parallel run has the equations of consecutive cells, in segments that depend on the mesh alone.
-Sums over a segment have its order, and sums over segments are exact. The fluxes are therefore the same to the
-last bit for any number of nodes and threads.
+Cells are computed in segments that depend on the mesh alone; sums have the order of the cells and of the
+segments. The fluxes are therefore the same to the last bit for any number of threads.
 """
 
 from __future__ import annotations
@@ -17,7 +16,6 @@ import numpy as np
 
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator, single_node, total_of
 from foamprb.flow.mesh.interfaces import FacePairs
 from foamprb.flow.mesh.lists import Index, Mask, starts, threads
 from foamprb.flow.mesh.mesh import Mesh
@@ -85,8 +83,6 @@ class Balance:
         Other boundary faces through which the flux may change.
     closed
         See :func:`closed_pieces`.
-    comm
-        The nodes that hold the mesh.
     """
 
     def __init__(
@@ -97,30 +93,22 @@ class Balance:
         fluxes: Floats,
         free: Mask,
         closed: Ints,
-        comm: MeshCommunicator = SINGLE_NODE,
     ) -> None:
         weight, error, area = measures
-        self._mesh, self._weight, self._comm, n = mesh, weight, comm, mesh.n_internal
+        self._mesh, self._weight, self._closed, n = mesh, weight, closed, mesh.n_internal
         self._fluxes, self._area = fluxes, area
         outer = mesh.owner[n:]
         self._pairs, self._ends = pairs, (outer[pairs.faces], outer[pairs.others])
-        self._of_all = of_all = comm.of_all
-        # Each face and each cell counts on one node.
-        self._faces, self._cells = comm.own_faces, comm.own_cells
-        self._n_faces = sum(of_all(len(weight[self._faces])))
-        self._n_cells = sum(of_all(len(mesh.volumes[self._cells])))
         # The normals of two coupled faces are opposite.
         of_pairs = 0.25 * (error[n:][pairs.faces] - error[n:][pairs.others]) ** 2
         np.square(error, out=error)
-        squares = error, (fluxes / area) ** 2
-        means = [total_of(a[self._faces], of_all) / max(self._n_faces, 1) for a in squares]
-        least = _LEAST_ERROR * means[0] + 1e-12 * means[1] + 1e-300
+        least = _LEAST_ERROR * float(error.mean()) + 1e-12 * float(((fluxes / area) ** 2).mean()) + 1e-300
         error += least
         # The two halves of the way between two cells are in series.
         one, other = weight[n:][pairs.faces] * pairs.parts, weight[n:][pairs.others] * pairs.of_others
         across = one * other / np.maximum(one + other, 1e-300) * (of_pairs + least)
         weight *= error
-        largest = max(of_all(float(weight[self._faces].max(initial=1e-300))))
+        largest = float(weight.max(initial=1e-300))
         weight /= largest
         weight[n:][~free] = 0.0
         self._across = across / largest
@@ -130,10 +118,7 @@ class Balance:
         rows = start, columns, np.empty(size), np.empty(mesh.n_cells)
         faces_of = mesh.cell_face_start, mesh.cell_faces, mesh.owner, mesh.neighbour
         link(list_rows)(*faces_of, weight, pairs.start, self._ends[1], self._across, *rows)
-        blocks = _blocks(mesh.centres[self._cells], of_all)
-        segments = _segments(self._n_cells)
-        of_equations, self._put, self._get = comm.distribute(rows, blocks, segments)
-        self._equations, self._closed = Equations(*of_equations), self._put(closed[self._cells])
+        self._equations = Equations(rows, *_blocks(mesh.centres), _segments(mesh.n_cells))
 
     def __call__(self, crossing: Floats, mass: Mass, speed: float) -> Balanced:
         """Change the fluxes in place; what remains of a closed piece is shared by volume.
@@ -161,14 +146,9 @@ class Balance:
         fluxes[coupled] = pairs.total(crossing * between)[coupled - n]
         stored = mesh.volumes * mass.growth
         rest = np.bincount(neighbour, fluxes[:n], cells) - np.bincount(owner, fluxes, cells) - stored
-        volumes = mesh.volumes
-        rest, volumes = (self._put(a[self._cells]) for a in (rest, volumes))
-        self._equations.close(rest, volumes, self._closed)
-        squares = total_of(fluxes[self._faces] ** 2, self._of_all)
-        gained = total_of(stored[self._cells] ** 2, self._of_all)
-        size = math.sqrt(squares / max(self._n_faces, 1) * self._n_cells + gained)
+        self._equations.close(rest, mesh.volumes, self._closed)
+        size = math.sqrt(float((fluxes**2).mean()) * cells + float((stored**2).sum()))
         y, left, iterations = self._equations.solve(rest, BALANCED * size)
-        y = self._get(y)
         given = fluxes.copy()
         fluxes += weight * y[owner]
         fluxes[:n] -= weight[:n] * y[neighbour]
@@ -178,22 +158,18 @@ class Balance:
         given /= density
         fluxes[coupled] = pairs.total(crossing / between)[coupled - n]
         change = math.sqrt(self._mean_square(given - fluxes))
-        self._comm.fill("faces", fluxes)
         # What a change of the density moves, it may move through all of the mesh.
-        rates = total_of((mass.growth / inside)[self._cells] ** 2, self._of_all) / max(self._n_cells, 1)
-        length = total_of(mesh.volumes[self._cells], self._of_all) ** (1.0 / 3.0)
+        rates, length = float(((mass.growth / inside) ** 2).mean()), float(mesh.volumes.sum()) ** (1.0 / 3.0)
         flow = self._mean_square(given) + rates * length**2
         return Balanced(left / max(size, 1e-300), change / max(math.sqrt(flow), speed, 1e-300), iterations)
 
     def _mean_square(self, fluxes: Floats) -> float:
         """Return the mean over the area of the faces of the squared velocity through them."""
-        area, squares = (
-            total_of(values[self._faces], self._of_all) for values in (self._area, fluxes**2 / self._area)
-        )
+        area, squares = float(self._area.sum()), float((fluxes**2 / self._area).sum())
         return squares / max(area, 1e-300)
 
 
-def closed_pieces(mesh: Mesh, pairs: FacePairs, free: Mask, comm: MeshCommunicator = SINGLE_NODE) -> Ints:
+def closed_pieces(mesh: Mesh, pairs: FacePairs, free: Mask) -> Ints:
     """Return a number for all cells (n_cells,) of each piece of a mesh that no flux enters, −1 for others.
 
     Fluxes pass from one piece to the next neither through faces nor through coupled ones. ``free`` are the
@@ -204,25 +180,12 @@ def closed_pieces(mesh: Mesh, pairs: FacePairs, free: Mask, comm: MeshCommunicat
 
     n, outer = mesh.n_internal, mesh.owner[mesh.n_internal :]
 
-    def joined(ends: Any, count: int) -> tuple[int, Ints]:
-        graph = sparse.coo_array((np.ones(len(ends[0]), dtype=np.int8), tuple(ends)), shape=(count, count))
-        number, labels = connected_components(graph, directed=False)
-        return int(number), labels
-
-    ends = (mesh.owner[:n], outer[pairs.faces]), (mesh.neighbour, outer[pairs.others])
-    count, piece = joined([np.concatenate(side) for side in ends], mesh.n_cells)
-    # Cells that several nodes hold join the pieces of these nodes.
-    counts = comm.of_all(count)
-    piece += np.int32(sum(counts[: comm.rank]))
-    of_owner = piece.copy()
-    comm.fill("cells", of_owner)
-    held = np.stack([piece, of_owner])[:, piece != of_owner]
-    links = np.concatenate(comm.of_all(np.unique(held, axis=1)), axis=1)
-    count, number = joined(links, sum(counts))
-    piece = number[piece]
+    sides = (mesh.owner[:n], outer[pairs.faces]), (mesh.neighbour, outer[pairs.others])
+    ends = tuple(np.concatenate(side) for side in sides)
+    links = sparse.coo_array((np.ones(len(ends[0]), dtype=np.int8), ends), shape=2 * (mesh.n_cells,))
+    count, piece = connected_components(links, directed=False)
     is_open = np.zeros(count, dtype=bool)
-    is_open[piece[outer[comm.own_boundary]][free[comm.own_boundary]]] = True
-    is_open = np.any(comm.of_all(is_open), axis=0)
+    is_open[piece[outer[free]]] = True
     return np.where(is_open, -1, np.cumsum(~is_open) - 1).astype(np.int32)[piece]
 
 
@@ -238,34 +201,18 @@ class Equations:
     Parameters
     ----------
     rows
-        Results of :func:`list_rows`. Columns from the number of cells on are those of other nodes.
+        Results of :func:`list_rows`.
     block, n_blocks
-        Block of the preconditioner of each column, and the number of blocks.
+        Block of the preconditioner of each cell, and the number of blocks.
     segments
         The first cell of each segment, and the end of the last.
-    of_all
-        Returns a value of each node.
-    others
-        Returns the values of the columns of other nodes from those of the cells.
-    before
-        Number of these columns that are cells of lower number.
     """
 
-    def __init__(
-        self,
-        rows: tuple[Any, ...],
-        block: Ints,
-        n_blocks: int,
-        segments: Index,
-        of_all: Callable[[Any], list[Any]] = single_node,
-        others: Callable[[Floats], Floats] | None = None,
-        before: int = 0,
-    ) -> None:
+    def __init__(self, rows: tuple[Any, ...], block: Ints, n_blocks: int, segments: Index) -> None:
         from scipy import sparse
         from scipy.sparse.linalg import splu
 
-        self._rows, self._n_blocks, self._of_all, self._others = rows, n_blocks, of_all, others
-        self._n_columns, self._segments = len(block), list(pairwise(segments.tolist()))
+        self._rows, self._n_blocks, self._segments = rows, n_blocks, list(pairwise(segments.tolist()))
         start, diagonal = rows[0], rows[3]
         # The blocks of a segment are numbered: their sums depend on no other segment.
         self._pair, number = np.empty(len(diagonal), dtype=np.int32), np.empty(n_blocks, dtype=np.int32)
@@ -278,13 +225,12 @@ class Equations:
             self._pair[a:b] = number[block[a:b]]
             sums = np.bincount(self._pair[a:b], diagonal[a:b], len(used))
             inside = np.zeros(len(used))
-            count = link(part_weights)(a, b, *rows, block, before, self._pair, inside, *between)
+            count = link(part_weights)(a, b, *rows[:3], block, self._pair, inside, *between)
             faces = between[1][:count], tuple(between[0][:, :count])
             summed = sparse.csr_array(faces, shape=(n_blocks, n_blocks)).tocoo()
             coarse.append((used, sums, inside, summed.row, summed.col, summed.data))
         self._blocks = [used for used, *_ in coarse]
-        whole = [segment for listed in of_all(coarse) for segment in listed]
-        self._all_blocks, *of_cells, at, beside, weights = map(np.concatenate, zip(*whole, strict=True))
+        self._all_blocks, *of_cells, at, beside, weights = map(np.concatenate, zip(*coarse, strict=True))
         total, within = (np.bincount(self._all_blocks, a, n_blocks) for a in of_cells)
         pairs = sparse.csr_array((-weights, (at, beside)), shape=(n_blocks, n_blocks))
         # Blocks that no flux leaves, as a closed flow, are determined but for a constant.
@@ -296,20 +242,9 @@ class Equations:
 
         Without it there is no solution. ``closed`` (n_cells,) is the piece of each cell, −1 for open ones.
         """
-        n = 2 + max(self._of_all(int(closed.max(initial=-1))))
-
-        def totals(values: Floats) -> Floats:
-            sums = [np.bincount(closed[a:b] + 1, values[a:b], n) for a, b in self._segments]
-            rows = [row for listed in self._of_all(sums) for row in listed]
-            return np.array([math.fsum(column) for column in zip(*rows, strict=True)])
-
-        lack = totals(residual) / np.maximum(totals(volumes), 1e-300)
+        lack = np.bincount(closed + 1, residual) / np.maximum(np.bincount(closed + 1, volumes), 1e-300)
         lack[0] = 0.0
         residual -= volumes * lack[closed + 1]
-
-    def _summed(self, found: Sequence[float]) -> float:
-        """Return the sum of values of the segments of all nodes, which is exact but for one rounding."""
-        return math.fsum(value for listed in self._of_all(found) for value in listed)
 
     def solve(self, residual: Floats, enough: float) -> tuple[Floats, float, int]:
         """Solve for potentials of the cells by conjugate gradients until the norm of what is left is enough.
@@ -335,7 +270,7 @@ class Equations:
         n, diagonal, pair = len(residual), self._rows[3], self._pair
         each = partial(self._each, run)
         y, image = np.zeros((2, n))
-        way = np.zeros(self._n_columns)
+        way = np.zeros(n)
         ends = list(pairwise(starts(np.array([len(used) for used in self._blocks], dtype=np.intp)).tolist()))
         of_pairs = np.empty(ends[-1][1] if ends else 0)
         parts = [(of_pairs[a:b],) for a, b in ends]
@@ -343,20 +278,17 @@ class Equations:
         step = part_of_last = before = 0.0
         for iteration in range(MOST_ITERATIONS + 1):
             found = each(go, diagonal, pair, step, way, image, y, residual, rows=parts)
-            everywhere = self._of_all((found, of_pairs))
-            squares, energies = zip(*(pair for listed, _ in everywhere for pair in listed), strict=True)
-            left = math.sqrt(math.fsum(squares))
+            squares, energies = zip(*found, strict=True)
+            left = math.sqrt(sum(squares))
             if left <= enough or iteration == MOST_ITERATIONS:
                 break
-            sums = np.bincount(self._all_blocks, np.concatenate([a for _, a in everywhere]), self._n_blocks)
+            sums = np.bincount(self._all_blocks, of_pairs, self._n_blocks)
             of_blocks = self._solve_blocks(sums)
-            energy = math.fsum([*energies, float(np.einsum("i,i->", sums, of_blocks))])
+            energy = sum(energies) + float(np.einsum("i,i->", sums, of_blocks))
             part_of_last, before = energy / before if before else 0.0, energy
             solved = [(of_blocks[used],) for used in self._blocks]
             each(turn, diagonal, pair, part_of_last, residual, way, rows=solved)
-            if self._others is not None:
-                way[n:] = self._others(way)
-            step = energy / self._summed(each(multiply, *self._rows, way, image))
+            step = energy / sum(each(multiply, *self._rows, way, image))
         return y, left, iteration
 
     def _each(
@@ -378,15 +310,13 @@ def _in_turn(calls: Sequence[Callable[[], Any]]) -> list[Any]:
     return [call() for call in calls]
 
 
-def _blocks(centres: Floats, of_all: Callable[[Any], list[Any]]) -> tuple[Ints, int]:
+def _blocks(centres: Floats) -> tuple[Ints, int]:
     """Return the block of each cell, a box of a regular grid over all centres, and the number of blocks.
 
-    Boxes without a cell are not counted. ``of_all`` returns a value of each node.
+    Boxes without a cell are not counted.
     """
-    highest, lowest = centres.max(axis=0, initial=-np.inf), centres.min(axis=0, initial=np.inf)
-    ends = of_all((len(centres), lowest, highest))
-    n, low = sum(count for count, *_ in ends), np.min([low for _, low, _ in ends], axis=0)
-    extent = np.max([high for *_, high in ends], axis=0) - low
+    n, low = len(centres), centres.min(axis=0)
+    extent = centres.max(axis=0) - low
     wide = extent > 1e-6 * max(extent.max(initial=0.0), 1e-300)
     counts = np.ones(3, dtype=np.int64)
     if wide.any():
@@ -399,7 +329,7 @@ def _blocks(centres: Floats, of_all: Callable[[Any], list[Any]]) -> tuple[Ints, 
         at = (x - low[axis]) / (extent[axis] if wide[axis] else 1.0) * counts[axis]
         number *= counts[axis]
         number += np.minimum(at.astype(np.int32), counts[axis] - 1)
-    used = np.any(of_all(np.bincount(number, minlength=int(counts.prod())) > 0), axis=0)
+    used = np.bincount(number, minlength=int(counts.prod())) > 0
     numbers = np.cumsum(used, dtype=np.int32)
     return numbers[number] - np.int32(1), int(numbers[-1])
 
@@ -458,9 +388,7 @@ def part_weights(
     start: Ints,
     columns: Ints,
     values: Floats,
-    diagonal: Floats,
     block: Ints,
-    before: int,
     pair: Ints,
     inside: Floats,
     blocks: Ints,
@@ -468,16 +396,16 @@ def part_weights(
 ) -> int:
     """Add the weights of faces within a block to ``inside``; list those between two blocks.
 
-    Of the two equations with a face the one of the lower cell counts; see :class:`Equations`.
+    Of the two equations with a face the one of the lower cell counts.
 
     Parameters
     ----------
     begin, end
         The cells.
-    start, columns, values, diagonal
+    start, columns, values
         Results of :func:`list_rows`.
-    block, before, pair
-        See :class:`Equations`; ``pair`` is the index of each cell in ``inside``.
+    block, pair
+        Block of each cell, and its index in ``inside``.
     inside, blocks, weights
         Results; (2, n) the two blocks of a face, and (n,) its weight.
 
@@ -485,11 +413,11 @@ def part_weights(
     -------
     The number of faces that are listed.
     """
-    n, count = diagonal.shape[0], 0
+    count = 0
     for c in range(begin, end):
         for k in range(start[c], start[c + 1]):
             to = columns[k]
-            if to > c and (to < n or to >= n + before):
+            if to > c:
                 if block[to] == block[c]:
                     inside[pair[c]] -= values[k]
                 else:

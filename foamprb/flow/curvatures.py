@@ -9,7 +9,6 @@ from foamprb.compile.link import link
 from foamprb.flow.base import Floats
 from foamprb.flow.images import Images
 from foamprb.flow.mesh.arrays import MeshArrays, frame, no_mesh, nodes_of
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.walk import curvature_in
 
@@ -18,7 +17,7 @@ _PLACES = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
 """Order of second derivatives, and the place of each in it."""
 
 
-def mean_curvatures(mesh: Mesh, l: Floats, comm: MeshCommunicator = SINGLE_NODE) -> NDArray[np.float32]:
+def mean_curvatures(mesh: Mesh, l: Floats) -> NDArray[np.float32]:
     """Return the second derivatives of u at the nodes, (n_nodes, 18), 1/(m s), from ∇u there.
 
     ∇u is linear in each tetrahedron. Its slopes are constant there; their means around a node, weighted by
@@ -36,7 +35,6 @@ def mean_curvatures(mesh: Mesh, l: Floats, comm: MeshCommunicator = SINGLE_NODE)
         images.agree(full)
         for place, (j, k) in enumerate(_DIRECTIONS):
             points[:, 3 * place : 3 * place + 3] = full[:, :, j, k]
-    comm.fill("points", points)
     return slopes.astype(np.float32)
 
 

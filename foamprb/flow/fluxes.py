@@ -29,7 +29,6 @@ from foamprb.flow.balance import BALANCED, CONSTANT, Balance, Mass, closed_piece
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.correction import NodalFlow, area_vector, triangle_flux
 from foamprb.flow.mesh.arrays import arm, point
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.interfaces import face_pairs
 from foamprb.flow.mesh.lists import Mask, share
 from foamprb.flow.mesh.mesh import Mesh
@@ -94,12 +93,10 @@ class Conservation:
     valued
         (n_boundary,) mask of boundary faces whose velocity is given; by default all. The flux through a wall
         without a velocity may change, as that through an open face.
-    comm
-        The nodes that hold the mesh.
     """
 
-    def __init__(self, mesh: Mesh, valued: Mask | None = None, comm: MeshCommunicator = SINGLE_NODE) -> None:
-        self._comm, self.n_faces = comm, len(mesh.owner)
+    def __init__(self, mesh: Mesh, valued: Mask | None = None) -> None:
+        self.n_faces = len(mesh.owner)
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
         self._closed, walls = _of_kind(mesh, PatchKind.MIRROR), _of_kind(mesh, PatchKind.WALL)
         # The flux through an open face may change.
@@ -111,7 +108,7 @@ class Conservation:
         self._coupled = np.concatenate([np.empty(0, dtype=np.intp), *(c.faces for c in mesh.couplings)])
         self._open[self._coupled] = False
         self._pairs = face_pairs(mesh)
-        self._closed_pieces = closed_pieces(mesh, self._pairs, self._open, comm)
+        self._closed_pieces = closed_pieces(mesh, self._pairs, self._open)
 
     def __call__(self, u: Floats, l: Floats, mass: Mass | None = CONSTANT, where: object = "flow") -> Floats:
         """Return the flux out of the owner of each face, (n_faces,), m³/s.
@@ -129,7 +126,7 @@ class Conservation:
         Raises
         ------
         UnbalancedFlowError
-            If no fluxes are found that keep mass, or if they are not those of the flow; on all nodes.
+            If no fluxes are found that keep mass, or if they are not those of the flow.
         """
         mesh = self._mesh
         at = NodalFlow(self._nodes, u, l.reshape(-1, 9), self._free[:, None], 0, 0, 0, 0)
@@ -146,10 +143,8 @@ class Conservation:
         outer[self._coupled] = self._pairs.total(crossing)[self._coupled]
         if mass is not None:
             measures = _measured(mesh, at, sides, fluxes)
-            openings = self._open, self._closed_pieces
-            balance = Balance(mesh, self._pairs, measures, fluxes, *openings, self._comm)
-            speeds = np.linalg.norm(u[self._ends], axis=1)
-            speed = max(self._comm.of_all(float(speeds.max(initial=0.0))))
+            balance = Balance(mesh, self._pairs, measures, fluxes, self._open, self._closed_pieces)
+            speed = float(np.linalg.norm(u[self._ends], axis=1).max(initial=0.0))
             left, change, iterations = balance(crossing, mass, speed)
             if not (left <= 10.0 * BALANCED and change <= _LARGEST_CHANGE):
                 raise UnbalancedFlowError(

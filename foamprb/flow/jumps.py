@@ -18,8 +18,7 @@ NO_JUMPS: NDArray[np.int64] = np.zeros((2, _BINS), dtype=np.int64)
 def count_jumps(l: Floats, first: Ints, second: Ints, at_walls: Mask) -> NDArray[np.int64]:
     """Count faces by the difference of ∇u in their two cells over the mean of its norms, (2, bins).
 
-    The first row has all faces, the second those of a cell at a wall. Bins are logarithmic; counts of parts
-    of a mesh add up to those of the whole.
+    The first row has all faces, the second those of a cell at a wall. Bins are logarithmic.
 
     Parameters
     ----------

@@ -19,8 +19,6 @@ class LoadedFlow(NamedTuple):
     kernels: Mapping[str, Callable[..., Any]]
     arrays: Any
     sampled: Fields | None
-    cells: NDArray[np.int64] | None = None
-    """Numbers of the cells in the whole mesh; None for their indices here."""
 
     @property
     def field_columns(self) -> tuple[FieldColumns, ...]:
@@ -33,10 +31,10 @@ class LoadedFlow(NamedTuple):
         return self.sampled
 
     def cell_of(self, hosts: Ints) -> NDArray[np.int64]:
-        """Return the numbers of the cells (n,) of tetrahedra; any cell for −1."""
+        """Return the cells (n,) of tetrahedra; any cell for −1."""
         mesh = getattr(self.arrays, "mesh", self.arrays)
         cells: NDArray[np.int64] = mesh.tets[hosts, 0].astype(np.int64) - mesh.n_points
-        return cells if self.cells is None else self.cells[cells]
+        return cells
 
     def sample(self, points: Floats, hosts: Ints, t: float | Floats) -> tuple[Floats, Floats]:
         """See :meth:`foamprb.flow.base.Flow.sample`; the times t, s, are one for all or (n,)."""

@@ -17,7 +17,6 @@ from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
 from foamprb.flow.jumps import count_jumps, relative_jumps
 from foamprb.flow.mesh.arrays import FREE, GRADIENT, VELOCITY, MeshArrays, no_mesh
-from foamprb.flow.mesh.communicator import single_node, total_of
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
 from foamprb.flow.mesh.locator import cell_boxes, locate, seek
@@ -27,7 +26,6 @@ from foamprb.flow.nodes import Ends, Function, NodeValues, ends_over, stride_ove
 from foamprb.flow.patches import PatchKind
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with, viscosity_with
-from foamprb.flow.traits import of_pairs, of_rows
 from foamprb.flow.viscosity import viscosity
 from foamprb.flow.walk import (
     cell_volume,
@@ -65,23 +63,14 @@ _FACING = 0.01
 """Fraction of the boundary area that must face along an axis for the flow to end there."""
 
 
-def end_triangles(mesh: Mesh) -> NDArray[np.intp]:
-    """Return the boundary triangles at which the flow ends: walls and openings."""
-    ends = [patch.kind not in _NO_END for patch in mesh.patches]
-    return np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
-
-
-def shortest_extent(corners: Floats, of_all: Callable[[Any], list[Any]] = single_node) -> float:
-    """Return the shortest extent of a flow along axes on which it ends, m.
-
-    ``corners`` (n, 3, 3) are those of the triangles where it ends; ``of_all`` returns a value of each node.
-    """
-    areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-    totals = np.array([total_of(areas[:, axis], of_all) for axis in range(3)])
+def shortest_extent(mesh: Mesh) -> float:
+    """Return the shortest extent of a flow along axes on which it ends, at walls and openings, m."""
+    ends = np.array([patch.kind not in _NO_END for patch in mesh.patches], dtype=bool)
+    corners = mesh.points[mesh.triangles[ends[mesh.triangle_patch]]]
+    areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])).sum(axis=0)
     points = corners.reshape(-1, 3)
-    ends = of_all((points.max(axis=0, initial=-np.inf), points.min(axis=0, initial=np.inf)))
-    extents = np.max([high for high, _ in ends], axis=0) - np.min([low for _, low in ends], axis=0)
-    return float(extents[totals > _FACING * totals.sum()].min(initial=np.inf))
+    extents = points.max(axis=0, initial=-np.inf) - points.min(axis=0, initial=np.inf)
+    return float(extents[areas > _FACING * areas.sum()].min(initial=np.inf))
 
 
 def _folds(mesh: Mesh, nodes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], Ints, Ints]:
@@ -96,7 +85,6 @@ def _folds(mesh: Mesh, nodes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], In
         folds[np.diff(pairs_near(boxes, tree, folded)[0]) > 0] = FOLDED
         corners = mesh.points[mesh.triangles]
         targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
-        targets[mesh.triangle_patch < 0] = np.nan
         where, triangles = pairs_near(boxes, tree, targets)
         counts = np.diff(where)
         rim = triangles[np.repeat(folds == FOLDED, counts)]
@@ -108,22 +96,6 @@ LISTS = ("near", "wall_", "seen")
 """Prefixes of the names of arrays for lists of walls."""
 AT_ONCE = 1 << 20
 """Number of tetrahedra per chunk when volumes are computed."""
-_CELLS_AT_ONCE = 1 << 15
-
-
-class Numbering(NamedTuple):
-    """Numbers, in the whole mesh, of the items of a part."""
-
-    own: NDArray[np.bool_]
-    """(n_cells,) which cells belong to the part alone."""
-    cells: NDArray[np.int64]
-    """(n_cells,)."""
-    nodes: NDArray[np.int64]
-    """(n_nodes,)."""
-    triangles: NDArray[np.intp]
-    """Boundary triangles here, of own cells."""
-    faces: NDArray[Any]
-    """Their faces."""
 
 
 class MeshSizes(NamedTuple):
@@ -210,8 +182,9 @@ class MeshFlow:
                 f"{mesh.inverted} of {len(mesh.tets)} tetrahedra are inverted: the mesh has cells "
                 "far from convex there, and paths through them take longer.",
             )
-        self.bounds, self.width = self._extents(mesh)
-        tree = self._tree(mesh)
+        self.bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
+        self.width = shortest_extent(mesh)
+        tree = build_tree(cell_boxes(mesh))
         nodes = np.empty((mesh.n_points + mesh.n_cells, VELOCITY if u is None or l is None else 16))
         if u is not None and l is not None:
             nodes[:, VELOCITY:GRADIENT], nodes[:, GRADIENT:] = u, l.reshape(-1, 9)
@@ -251,17 +224,7 @@ class MeshFlow:
             face_start=mesh.face_start,
             cell_face_start=mesh.cell_face_start,
             cell_faces=mesh.cell_faces,
-            strayed=np.zeros(1, dtype=np.int32),
         )
-
-    def _tree(self, mesh: Mesh) -> Tree:
-        """Return the tree over the cells."""
-        return build_tree(cell_boxes(mesh))
-
-    def _extents(self, mesh: Mesh) -> tuple[tuple[Floats, Floats], float]:
-        """Return ``bounds`` and ``width``; see :class:`foamprb.flow.base.Flow`."""
-        bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
-        return bounds, shortest_extent(mesh.points[mesh.triangles[end_triangles(mesh)]])
 
     @staticmethod
     def nothing() -> MeshArrays:
@@ -299,11 +262,11 @@ class MeshFlow:
         self, reach: float, touchable: Sequence[int], sight: float, seen: Sequence[int]
     ) -> MeshArrays:
         """Return the arrays with the walls that bodies touch and see, and their images at coupled patches."""
-        names, walls, images = self._walls(
-            [*touchable, *seen], max(reach if touchable else 0.0, sight if seen else 0.0)
-        )
         mesh, arrays = self.mesh, self._arrays
-        if images is not None:
+        names = np.flatnonzero(np.isin(mesh.triangle_patch, [*touchable, *seen])).astype(np.int32)
+        walls = walls_at(mesh, names)
+        if mesh.couplings:
+            images = images_of_walls(mesh, walls, max(reach if touchable else 0.0, sight if seen else 0.0))
             n, nodes, triangles = len(images.patches), len(arrays.nodes), len(arrays.triangles)
             beyond = np.zeros((3 * n, arrays.nodes.shape[1]))
             beyond[:, :3] = images.corners.reshape(-1, 3)
@@ -335,16 +298,6 @@ class MeshFlow:
                 start, found = seen_walls(tree, boxes, sight, own)
                 arrays = arrays._replace(seen_start=start, seen=found)
         return arrays
-
-    def _walls(self, patches: Sequence[int], reach: float) -> tuple[Ints, Walls, Walls | None]:
-        """Return the triangles of some patches, these as walls, and walls to add to the triangles, if any.
-
-        The latter are images of walls within ``reach`` (m) of coupled patches.
-        """
-        mesh = self.mesh
-        names = np.flatnonzero(np.isin(mesh.triangle_patch, patches)).astype(np.int32)
-        walls = walls_at(mesh, names)
-        return names, walls, images_of_walls(mesh, walls, reach) if mesh.couplings else None
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """Replace the constant arrays, without the lists of walls, by the copies that ``place`` returns.
@@ -400,10 +353,8 @@ class MeshFlow:
         walls = np.array([patch.kind is PatchKind.WALL for patch in mesh.patches], dtype=bool)
         at_walls = np.zeros(mesh.n_cells, dtype=bool)
         at_walls[mesh.owner[n:][np.repeat(walls, np.diff(mesh.patch_start))]] = True
-        # A face counts where the cell that owns it does.
-        faces = np.flatnonzero(self._numbering().own[mesh.owner[:n]])
         l = self.values_at_nodes().l[mesh.n_points :]
-        return count_jumps(l, mesh.owner[faces], mesh.neighbour[faces], at_walls)
+        return count_jumps(l, mesh.owner[:n], mesh.neighbour, at_walls)
 
     def with_jumps(self, part: float) -> Self:
         """Return the same flow with ∇u times 1 + part j, where j is the relative jump between cells there."""
@@ -427,63 +378,22 @@ class MeshFlow:
         return fields_on(self._arrays, self.field_table, self.field_columns)
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Return sums over mesh and velocities by name; parts of a mesh add up to those of the whole."""
-        arrays, mesh, whole = self._arrays, self.mesh, self._numbering()
-        tables = {"nodes": arrays.nodes, "turbulence": arrays.turbulence, "viscosity": arrays.viscosity}
-        corners = np.zeros(1, dtype=np.uint64)
-        for cells in self._some_cells():
-            rows, sizes = _lists_of(mesh.cell_point_start, cells)
-            own = np.repeat(whole.own[cells], sizes)
-            points = whole.nodes[mesh.cell_points[rows][own]]
-            corners += of_pairs(np.repeat(whole.cells[cells], sizes)[own], points)
+        """Return the arrays by which a resumed run recognises the flow, by name."""
+        arrays, mesh = self._arrays, self.mesh
         return {
-            "cells": corners,
-            "patches": of_pairs(whole.faces, mesh.triangle_patch[whole.triangles]),
-            **{name: self._node_sums(table) for name, table in tables.items()},
-            "fluxes": self._flux_sums(arrays.phi),
-            **({"sampled": self._node_sums(self._first_table)} if self.field_columns else {}),
+            "cells": mesh.cell_points,
+            "patches": mesh.triangle_patch,
+            "nodes": arrays.nodes,
+            "turbulence": arrays.turbulence,
+            "viscosity": arrays.viscosity,
+            "fluxes": arrays.phi,
+            **({"sampled": self._first_table} if self.field_columns else {}),
         }
 
     @property
     def _first_table(self) -> Floats:
         """Fields that are sampled, at the first time, (n_nodes, columns)."""
         return self.field_table
-
-    def _numbering(self) -> Numbering:
-        """Return the numbers of the mesh's items in the whole mesh."""
-        mesh = self.mesh
-        return Numbering(
-            np.ones(mesh.n_cells, dtype=bool),
-            np.arange(mesh.n_cells),
-            np.arange(mesh.n_points + mesh.n_cells),
-            np.arange(len(mesh.triangle_face)),
-            mesh.n_internal + mesh.triangle_face,
-        )
-
-    def _node_sums(self, table: Floats) -> Floats:
-        """Return :func:`of_rows` of values at nodes, where each own cell counts its points and its centre."""
-        mesh, whole = self.mesh, self._numbering()
-        counts = np.concatenate([np.zeros(mesh.n_points), whole.own])
-        for cells in self._some_cells():
-            rows, sizes = _lists_of(mesh.cell_point_start, cells)
-            np.add.at(counts, mesh.cell_points[rows][np.repeat(whole.own[cells], sizes)], 1.0)
-        return of_rows(table[: len(counts)], whole.nodes, counts)
-
-    def _flux_sums(self, phi: Floats) -> Floats:
-        """Return :func:`of_rows` of the sum of the absolute fluxes through the faces of each own cell."""
-        mesh, whole = self.mesh, self._numbering()
-        total = np.zeros((2, 1))
-        # There are no fluxes for no correction.
-        for cells in self._some_cells() if len(phi) else ():
-            rows, sizes = _lists_of(mesh.cell_face_start, cells)
-            sums = np.add.reduceat(np.abs(phi[mesh.cell_faces[rows]]), np.cumsum(sizes) - sizes)
-            total += of_rows(sums[:, None], whole.cells[cells], whole.own[cells].astype(np.float64))
-        return total
-
-    def _some_cells(self) -> Iterable[slice]:
-        """Yield ranges of cells, whose lists need little memory."""
-        n = self.mesh.n_cells
-        return (slice(begin, min(begin + _CELLS_AT_ONCE, n)) for begin in range(0, n, _CELLS_AT_ONCE))
 
     def locate(self, points: Floats) -> Ints:
         """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""
@@ -571,13 +481,6 @@ class MeshFlow:
         cells = require_cells(name, zones[name], self.mesh.n_cells)
         start, end = self.mesh.cell_start[cells], self.mesh.cell_start[cells + 1]
         return np.concatenate([np.empty(0, dtype=np.int32), *map(np.arange, start, end)]).astype(np.int32)
-
-
-def _lists_of(start: Ints, cells: slice) -> tuple[slice, Ints]:
-    """Return the rows of the lists of a range of cells, and their lengths."""
-    return slice(int(start[cells.start]), int(start[cells.stop])), np.diff(
-        start[cells.start : cells.stop + 1]
-    )
 
 
 # Linking costs as much as locating thousands of points.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -52,12 +52,8 @@ def stride_over(n: int) -> int:
 def ends_over(values: NodeValues, function: Function) -> Ends:
     """Return the ends of some quantities over all nodes; none for no nodes."""
     parts = (values.take(slice(k, k + _AT_ONCE)) for k in range(0, len(values.u), _AT_ONCE))
-    return joined(
+    ends = (
         [(float(a.min(initial=np.inf)), float(a.max(initial=-np.inf))) for a in function(part)]
         for part in parts
     )
-
-
-def joined(ends: Iterable[Ends]) -> Ends:
-    """Return the ends of some quantities over all parts of a flow."""
     return [(min(low for low, _ in own), max(high for _, high in own)) for own in zip(*ends, strict=True)]

@@ -31,7 +31,6 @@ from foamprb.flow.gradient import (
     mean_series,
 )
 from foamprb.flow.images import Images, points_of_faces
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import VALUELESS, PatchKind
@@ -55,12 +54,9 @@ class Reconstruction:
     valued
         (n_boundary,) mask of boundary faces with a value; by default all except of
         :data:`~foamprb.flow.patches.VALUELESS` types.
-    comm
-        The nodes that hold the mesh.
     """
 
-    def __init__(self, mesh: Mesh, valued: Mask | None = None, comm: MeshCommunicator = SINGLE_NODE) -> None:
-        self.comm = comm
+    def __init__(self, mesh: Mesh, valued: Mask | None = None) -> None:
         patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
         if valued is None:
             valued = np.array([p.type not in VALUELESS for p in mesh.patches], dtype=bool)[patch_of_face]
@@ -90,8 +86,7 @@ class Reconstruction:
         # Their neighbours lie evenly around hexahedra; beside a wall the errors of a finite-volume solution
         # exceed those of the first estimate.
         self._settled = np.flatnonzero(regular)
-        unsettled = len(self._settled) < n
-        self._passes = 1 + (_MOST_PASSES if comm.any(unsettled) else 0)
+        self._passes = 1 + (_MOST_PASSES if len(self._settled) < n else 0)
         rows, columns = (part.astype(np.int32) for part in points_of_faces(mesh, faces))
         of_cells = np.repeat(np.arange(n, dtype=np.int32), np.diff(mesh.cell_point_start))
         self._around = grouped(
@@ -123,13 +118,7 @@ class Reconstruction:
         self._impose_walls(at_points[0], boundary, slopes, bends)
         for values, fixed in zip(at_points, (self._on_walls, None), strict=True):
             self._images.agree(values, fixed)
-            self.comm.fill("points", values)
         return u_nodes, l_nodes
-
-    def _norm(self, values: Floats) -> float:
-        """Return the norm of values at the cells."""
-        squares = np.einsum("ci,ci->c", values.reshape(len(values), -1), values.reshape(len(values), -1))
-        return math.sqrt(self.comm.total(squares))
 
     def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
         """Reconstruct three scalars within the range of the values around a node, so that they stay positive.
@@ -149,7 +138,6 @@ class Reconstruction:
         at_sites = np.concatenate([cells, boundary[self._valued], cells[images.cells]])
         slopes_of_cells = np.zeros((n, m, 3))
         self._gradient(at_sites, slopes_of_cells)
-        self.comm.fill("cells", slopes_of_cells)
         values = np.concatenate([self._means(at_sites), cells])
         if len(self._walls):
             rows, columns = points_of_faces(mesh, self._walls)
@@ -164,8 +152,6 @@ class Reconstruction:
             slopes[: mesh.n_points, f] = self._means(np.concatenate([own, own[owner], images.turned(own)]))
             images.agree(slopes[: mesh.n_points, f])
             slopes[mesh.n_points :, f] = own
-        for part in (values, slopes):
-            self.comm.fill("points", part)
         return values, slopes
 
     def scalar(self, cells: Floats, boundary: Floats) -> Floats:
@@ -199,7 +185,6 @@ class Reconstruction:
         flat = values.reshape(len(values), -1)
         found = np.zeros((self.mesh.n_cells, flat.shape[1], 3))
         self._gradient(flat, found)
-        self.comm.fill("cells", found)
         slopes = found.reshape(*cells.shape, 3)
         return values, np.concatenate([slopes, slopes[owner], turned(slopes)])
 
@@ -211,7 +196,6 @@ class Reconstruction:
             three = np.minimum(np.arange(k, k + 3), flat.shape[1] - 1)
             own = None if slopes is None else np.take(slopes.reshape(*flat.shape, 3), three, 1)
             at_points[:, three] = self._means(np.take(flat, three, 1), own)
-        self.comm.fill("points", at_points)
         shape = values.shape[1:]
         return np.concatenate([at_points.reshape(-1, *shape), values[: self.mesh.n_cells]])
 
@@ -251,7 +235,6 @@ class Reconstruction:
         slopes, bends = np.zeros((len(u), 3, 3)), np.zeros((len(u), 3, 6))
         around, nothing = np.empty((n + n_points, 3, 3)), np.empty((n_points, 3))
         self._gradient(u, slopes[:n])
-        self.comm.fill("cells", slopes[:n])
         self._beyond(u, slopes, bends, own)
         for number in range(self._passes):
             if number == 0:
@@ -263,13 +246,11 @@ class Reconstruction:
                 self._inside.average(around.reshape(-1, 9))
                 self._inside.fit.bends(around, bends[:n])
                 bends[self._settled] = kept
-            self.comm.fill("cells", bends[:n])
             before = slopes[:n].copy() if self._passes > 1 else slopes[:0]
             self._gradient(u, slopes[:n], bends=bends[:n])
-            self.comm.fill("cells", slopes[:n])
             self._beyond(u, slopes, bends, own)
             before -= slopes[: len(before)]
-            if len(before) == 0 or self._norm(before) <= _CHANGE * self._norm(slopes[:n]):
+            if len(before) == 0 or _norm(before) <= _CHANGE * _norm(slopes[:n]):
                 break
         return slopes, bends
 
@@ -333,6 +314,11 @@ class Reconstruction:
                 # Nothing flows through walls that meet at a point, though one of them moves.
                 excess = normals[own] @ u_points[on_wall[row]]
                 u_points[on_wall[row]] -= np.linalg.lstsq(normals[own], excess, rcond=0.1)[0]
+
+
+def _norm(values: Floats) -> float:
+    """Return the norm of values (n, 3, 3), which is the same for any number of threads, unlike with BLAS."""
+    return math.sqrt(np.einsum("nij,nij->", values, values))
 
 
 def wall_offsets(mesh: Mesh, faces: Index) -> Floats:

@@ -21,7 +21,6 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with, with_velocity
 from foamprb.flow.series import SeriesFlow
-from foamprb.flow.traits import of_pairs
 from foamprb.flow.viscosity import viscosity as viscosity_mesh
 from foamprb.flow.walk import STEADY, parts
 from foamprb.flow.walk import curvature as curvature_mesh
@@ -133,10 +132,8 @@ class RotatingFlow(MeshFlow):
         return RotatingArrays(mesh, self._zone, self._omega, self._origin)
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """See :meth:`MeshFlow.traits`; with the zones, whose motions are the same in all parts."""
-        whole = self._numbering()
-        zone = of_pairs(whole.cells[whole.own], self._zone[whole.own])
-        return {**super().traits(), "zone": zone, "omega": self._omega, "origin": self._origin}
+        """See :meth:`MeshFlow.traits`; with the zones."""
+        return {**super().traits(), "zone": self._zone, "omega": self._omega, "origin": self._origin}
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """See :meth:`MeshFlow.sample`; relative to the frames of the hosts."""

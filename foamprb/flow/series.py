@@ -27,6 +27,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with, with_velocity
 from foamprb.flow.timeline import Timeline
+from foamprb.flow.traits import of_rows
 from foamprb.flow.viscosity import blend_scalar
 from foamprb.flow.walk import (
     FAILED,
@@ -333,15 +334,11 @@ class SeriesFlow(Timeline, MeshFlow):
         seen: Sequence[int] = (),
     ) -> SeriesArrays:
         """Return the arrays for the kernels at the times loaded last; see :meth:`MeshFlow.arrays`."""
-        return self.loaded()._replace(mesh=super().arrays(reach, touchable, sight, seen))
-
-    def loaded(self) -> SeriesArrays:
-        """Return the arrays at the times loaded last, without a mesh."""
         nodes, tets, faces = self._fields.shape[1], self._corrections.shape[1], self._fluxes.shape[1]
         places = np.array([self._in_memory[self._index(level)] for level in self._levels], dtype=np.int64)
         times = np.array([self._time_of(level) for level in self._levels])
         return SeriesArrays(
-            no_mesh(),
+            super().arrays(reach, touchable, sight, seen),
             times,
             places * nodes,
             self._fields.reshape(-1, self._fields.shape[2]),
@@ -366,12 +363,9 @@ class SeriesFlow(Timeline, MeshFlow):
 
     def turbulence_at_nodes(self) -> Floats:
         """Return k, ε, ∇k and ∇(k²/3ε) (n, 8) at all nodes at the first time; no rows if not read."""
-        return self._velocity_and_turbulence(self._first())[1]
-
-    def _velocity_and_turbulence(self, fields: Floats) -> tuple[Floats, Floats]:
-        """Return these columns of the fields at a time; no rows of turbulence if it was not read."""
-        turbulence = fields[:, _OF_VELOCITY : _OF_VELOCITY + _OF_TURBULENCE]
-        return fields[:, :3], turbulence if self._turbulent else np.empty((0, _OF_TURBULENCE))
+        if not self._turbulent:
+            return np.empty((0, _OF_TURBULENCE))
+        return self._first()[:, _OF_VELOCITY : _OF_VELOCITY + _OF_TURBULENCE]
 
     def viscosity(self, points: Floats, hosts: Ints, t: float) -> Floats:
         """Load time t and sample there; see :meth:`MeshFlow.viscosity` and :meth:`load`."""
@@ -402,7 +396,7 @@ class SeriesFlow(Timeline, MeshFlow):
         )
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Return sums over mesh and the first time with its fields, and all times of a period, by name.
+        """Return the arrays of the mesh, of the first time, and all times of a period, by name.
 
         Later times may be added to a flow without period (:meth:`extend`).
         """
@@ -412,8 +406,8 @@ class SeriesFlow(Timeline, MeshFlow):
             **super().traits(),
             "times": times,
             "period": self.period or 0.0,
-            "fields": self._node_sums(first),
-            "fluxes": self._flux_sums(self._fluxes[self._in_memory[0]]),
+            "fields": first,
+            "fluxes": self._fluxes[self._in_memory[0]],
         }
 
     def sums_around(self, t: float) -> Floats:
@@ -421,7 +415,8 @@ class SeriesFlow(Timeline, MeshFlow):
         self.load(t, t)
         wanted = [self._index(level) for level in self._levels]
         fields = {index: self._fields[self._in_memory[index]] for index in wanted}
-        self._sums = {i: self._sums[i] if i in self._sums else self._node_sums(f) for i, f in fields.items()}
+        numbers = np.arange(self._fields.shape[1])
+        self._sums = {i: self._sums[i] if i in self._sums else of_rows(f, numbers) for i, f in fields.items()}
         return np.array([self._sums[index] for index in wanted])
 
     @property
@@ -442,8 +437,7 @@ class SeriesFlow(Timeline, MeshFlow):
         capacity = max(len(set(wanted)), min(self._keep, len(self.times)))
         if capacity > len(self._fields):
             self._fields = self._grown(self._fields, capacity)
-            empty = sparse_zeros((capacity, *self._corrections.shape[1:]), np.float32)
-            self._corrections = self._placed(empty, self._corrections)
+            self._corrections = sparse_zeros((capacity, *self._corrections.shape[1:]), np.float32)
             self._fluxes = self._grown(self._fluxes, capacity)
             self._curvatures = self._grown(self._curvatures, capacity)
             self.field_table = self._grown(self.field_table, capacity)
@@ -455,16 +449,13 @@ class SeriesFlow(Timeline, MeshFlow):
         """Return a copy of an array with n rows; further ones are not set."""
         grown = np.empty((n, *array.shape[1:]), dtype=array.dtype)
         grown[: len(array)] = array
-        return self._placed(grown, array)
-
-    def _placed(self, array: NDArray[Any], before: NDArray[Any]) -> NDArray[Any]:  # noqa: ARG002
-        """Return an array, or its copy in shared memory, in place of the array before."""
-        return array
+        return grown
 
     def _fetch(self, index: int) -> None:
         if index in self._in_memory:
             return
-        u, l, *more = self._take(index)
+        future, self._prefetched = self._prefetch(index), None
+        u, l, *more = future.result()
         if len(self._in_memory) < len(self._fields):
             place = len(self._in_memory)
         else:
@@ -481,11 +472,6 @@ class SeriesFlow(Timeline, MeshFlow):
         if more:
             self._fields[place, :, _OF_VELOCITY:] = np.concatenate(more, axis=1)
         self._in_memory[index] = place
-
-    def _take(self, index: int) -> tuple[Any, ...]:
-        """Return the fields at a time, which may have been prefetched."""
-        future, self._prefetched = self._prefetch(index), None
-        return future.result()
 
     def _prefetch(self, index: int) -> Future[tuple[Any, ...]]:
         if self._prefetched is None or self._prefetched[0] != index:
@@ -514,7 +500,6 @@ def series_of(
     conservative: bool = False,
     viscous: bool = False,
     sampled: Sequence[FieldColumns] = (),
-    make: Callable[..., SeriesFlow] = SeriesFlow,
     curved: bool = False,
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
@@ -533,8 +518,6 @@ def series_of(
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
     period, notes, zones, turbulent, conservative, viscous, sampled, curved
         See :class:`SeriesFlow`.
-    make
-        Class of the flow.
     """
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
@@ -544,7 +527,7 @@ def series_of(
     keep = _MOST_IN_MEMORY // size if period is not None else 0
     times = [float(name) for name in names]
     try:
-        return make(
+        return SeriesFlow(
             mesh, times, lambda i: read(names[i]), period, [*notes, note], keep=keep, zones=zones,
             turbulent=turbulent, conservative=conservative, viscous=viscous, sampled=sampled, curved=curved,
         )  # fmt: skip

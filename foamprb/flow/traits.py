@@ -1,8 +1,4 @@
-"""Sums over a mesh and its fields that tell flows apart.
-
-They are sums over cells, with weights by numbers in the whole mesh, so that parts of a mesh add up to the
-same sums, but for round-off.
-"""
+"""Sums over the arrays of a run that tell flows and particles apart."""
 
 from __future__ import annotations
 
@@ -11,39 +7,28 @@ from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats
 
-Numbers = NDArray[np.integer]
-
 _CHUNK = 1 << 15
 """Rows at a time, whose arrays stay in the processor's cache."""
 
 
-def of_rows(values: NDArray[np.floating], numbers: Numbers, counts: Floats) -> Floats:
-    """Return Σ c |v| and Σ c w v of each column, (2, k), with w from 0 to 1 by a hash of each number.
+def of_rows(values: NDArray[np.floating], numbers: NDArray[np.integer]) -> Floats:
+    """Return Σ |v| and Σ w v of each column, (2, k), with w from 0 to 1 by a hash of each number.
 
     Parameters
     ----------
     values
         v, (n, k); what is not finite counts as 0.
-    numbers, counts
-        Numbers of the rows in the whole mesh, and c, (n,).
+    numbers
+        Numbers of the rows, (n,).
     """
     total = np.zeros((2, values.shape[1]))
     for start in range(0, len(values), _CHUNK):
         part = slice(start, start + _CHUNK)
-        v, c = np.asarray(values[part], dtype=np.float64), counts[part]
+        v = np.asarray(values[part], dtype=np.float64)
         if not np.isfinite(v).all():
             v = np.nan_to_num(v, posinf=0.0, neginf=0.0)
         w = (_mixed(numbers[part].astype(np.uint64)) >> np.uint64(11)) * 2.0**-53
-        total += c @ np.abs(v), (c * w) @ v
-    return total
-
-
-def of_pairs(first: Numbers, second: Numbers) -> NDArray[np.uint64]:
-    """Return the sum of hashes of pairs of numbers, modulo 2⁶⁴, (1,)."""
-    total = np.zeros(1, dtype=np.uint64)
-    for start in range(0, len(first), _CHUNK):
-        part = slice(start, start + _CHUNK)
-        total += _mixed(_mixed(first[part].astype(np.uint64)) + second[part].astype(np.uint64)).sum()
+        total += np.abs(v).sum(axis=0), w @ v
     return total
 
 

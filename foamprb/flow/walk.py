@@ -485,7 +485,7 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
     """
     neighbours = flow.neighbours
     if not is_sound(flow, host):
-        return uncounted(flow, find_thread(flow, host, x0, x1))
+        return uncounted(find_thread(flow, host, x0, x1))
     for attempt in range(_ATTEMPTS):
         start = x0
         if attempt > 0:
@@ -502,10 +502,7 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
             if other < 0:
                 triangle = -1 - other
                 fraction = min(max(fraction, 0.0), 1.0)
-                patch = flow.triangle_patch[triangle]
-                if patch == FAILED:
-                    flow.strayed[0] = 1
-                return tet, fraction, patch, triangle, entered
+                return tet, fraction, flow.triangle_patch[triangle], triangle, entered
             stalls = 0 if fraction > progress + 1e-12 else stalls + 1
             if stalls > _MOST_STALLS:
                 break
@@ -513,8 +510,8 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
             entered += flow.tets[other, 0] != flow.tets[tet, 0]
             tet, came_from = other, tet
             if not is_sound(flow, tet):
-                return uncounted(flow, find_thread(flow, host, x0, x1))
-    return uncounted(flow, find_thread(flow, host, x0, x1))
+                return uncounted(find_thread(flow, host, x0, x1))
+    return uncounted(find_thread(flow, host, x0, x1))
 
 
 def way_out(flow: MeshArrays, tet: int, came_from: int, x0: Vector, x1: Vector) -> tuple[int, float]:
@@ -545,17 +542,15 @@ def way_out(flow: MeshArrays, tet: int, came_from: int, x0: Vector, x1: Vector) 
     return face, fraction
 
 
-def uncounted(flow: MeshArrays, path: tuple[int, float, int, int]) -> tuple[int, float, int, int, int]:
+def uncounted(path: tuple[int, float, int, int]) -> tuple[int, float, int, int, int]:
     """Return a path of :func:`find_thread` as :func:`follow` does, with an unknown number of cells."""
-    if path[2] == FAILED and path[3] >= 0:
-        flow.strayed[0] = 1
     return path[0], path[1], path[2], path[3], 0
 
 
 def find_thread(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """Run :func:`foamprb.flow.mesh.folds.trace`, and again from another tetrahedron at x0 if it fails."""
     found, fraction, patch, triangle = trace(flow, host, x0, x1)
-    if patch == FAILED and triangle < 0:
+    if patch == FAILED:
         other = seek(flow, x0, minus(x1, x0))
         if other >= 0:
             return trace(flow, other, x0, x1)

@@ -210,7 +210,8 @@ def _sign(job: Job, measured: Measured, *options: object) -> str:
     for name, column in sorted(measured.columns.items()):
         sums.update(name.encode() + column.tobytes())
     for name, values in job.cloud.flow.traits().items():
-        sums.update(name.encode() + np.asarray(values).tobytes())
+        sums.update(name.encode())
+        sums.update(np.ascontiguousarray(values).data)
     return sums.hexdigest()
 
 

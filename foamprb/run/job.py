@@ -24,7 +24,6 @@ from foamprb.cloud.injection.models import (
     START_OF_FLOW,
 )
 from foamprb.cloud.injection.shapes import Sphere
-from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.patches import CYCLIC
 from foamprb.cloud.surroundings.memory import FadingMemory
@@ -179,7 +178,7 @@ def prepare(
         flow = None if flows is None or settings.solution.transient else flows.get(source)
         if flow is None:
             times = FlowTimes(time, settings.solution.transient, settings.solution.period)
-            flow = _open_flow(settings, comm, case, times, source)
+            flow = _open_flow(settings, case, times, source)
         if flows is not None and not settings.solution.transient:
             flows[source] = flow
         _log_notes(flow, settings)
@@ -298,19 +297,12 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
     )
 
 
-def _open_flow(
-    settings: Settings, comm: Communicator, case: Path, times: FlowTimes, source: FlowSource
-) -> Flow:
-    """Return the flow of a case; several nodes may hold it together."""
-
-    def read() -> Flow:
-        flow = _read_flow(settings, case, times, source)
-        if isinstance(flow, MeshFlow):
-            flow.notes += tuple(flow.overlap())
-        return flow
-
-    step = settings.solution.deltaT * stretch_of(settings.solution.stride)
-    return comm.open_flow(read, case, times, source, step)
+def _open_flow(settings: Settings, case: Path, times: FlowTimes, source: FlowSource) -> Flow:
+    """Return the flow of a case, with caveats of cells that overlap."""
+    flow = _read_flow(settings, case, times, source)
+    if isinstance(flow, MeshFlow):
+        flow.notes += tuple(flow.overlap())
+    return flow
 
 
 def _read_flow(settings: Settings, case: Path, times: FlowTimes, source: FlowSource) -> Flow:

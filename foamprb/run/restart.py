@@ -376,7 +376,7 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
 
 def _of_integers(values: NDArray[Any]) -> Sums:
     """Return a fingerprint of an array of integers: their number and a checksum."""
-    return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
+    return [[float(values.size), float(zlib.crc32(np.ascontiguousarray(values).data))]]
 
 
 def _means(totals: NDArray[np.float64], n: int) -> Sums:
@@ -389,7 +389,7 @@ def _means(totals: NDArray[np.float64], n: int) -> Sums:
 
 def _totals(values: NDArray[np.float64], numbers: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return :func:`~foamprb.flow.traits.of_rows` of an array (n, …) whose rows have these numbers."""
-    return of_rows(values.reshape(len(values), math.prod(values.shape[1:])), numbers, np.ones(len(values)))
+    return of_rows(values.reshape(len(values), math.prod(values.shape[1:])), numbers)
 
 
 def _differences(old: Mapping[str, str | Sums], new: Mapping[str, str | Sums]) -> list[str]:

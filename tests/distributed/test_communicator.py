@@ -38,7 +38,7 @@ from foamprb.distributed import worker as worker_module
 from foamprb.distributed.ranks import Ranks
 from foamprb.distributed.worker import Worker
 from foamprb.errors import InputError
-from foamprb.flow.loaded import LoadedFlow, loaded_fields
+from foamprb.flow.loaded import loaded_fields
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.results.checkpoint import Checkpoint, StoredCheckpoint, part_file, write_checkpoint
 from foamprb.run.description import _surveyed
@@ -84,7 +84,7 @@ class Processes(Ranks):
         self.call(Worker.prepare, cloud.tracker, 1)
         cloud.publish()
         cloud.particles = empty(0)
-        self.call(Worker.distribute, [list(range(self.size))])
+        self.call(Worker.distribute)
 
     def see(self, taken: list[Steps], until: float) -> None:
         """Give each process the steps of its particles."""
@@ -226,15 +226,6 @@ def test_passages_are_recorded_by_the_rank_that_has_the_particle(tmp_path):
         (tmp_path / name).mkdir()
     observe_both(period_cloud(), functions, 3, tmp_path, steps=20)
     assert len((tmp_path / "here/plane/crossings.csv").read_text().splitlines()) > 40
-
-
-def test_cells_of_a_part_have_their_numbers_in_the_whole_mesh():
-    cloud = period_cloud()
-    flow, hosts = cloud.flow, cloud.particles.host
-    numbers = np.random.default_rng(1).permutation(flow.mesh.n_cells) + 100
-    loaded = LoadedFlow(flow.kernels, cloud.make_ready(), None)
-    np.testing.assert_array_equal(loaded.cell_of(hosts), flow.cell_of(hosts))
-    np.testing.assert_array_equal(loaded._replace(cells=numbers).cell_of(hosts), numbers[flow.cell_of(hosts)])
 
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 2)), max_size=8), st.booleans())

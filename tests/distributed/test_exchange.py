@@ -17,8 +17,7 @@ from pipe_case import copy_of_pipe, message
 from foamprb.cloud.communicator import Share
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
-from foamprb.distributed.exchange import firsts_of, pack, plan_exchange, unpack, with_others
-from foamprb.distributed.route import Route
+from foamprb.distributed.exchange import Route, firsts_of, pack, plan_exchange, unpack, with_others
 
 
 @given(st.lists(st.integers(0, 40 * LANES), min_size=2, max_size=9))

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -467,34 +466,11 @@ def nearest_walls(
     p: Particles, arrays: Any, flow: Flow, cut_off: float, patch_mask: NDArray[np.int8]
 ) -> Floats:
     """Return distances of particles from the nearest wall, in radii, (n,); infinite beyond ``cut_off``."""
-    # Nodes that share the mesh have its walls.
-    ask = getattr(flow, "wall_distances", partial(wall_distances, flow.kernels, arrays))
-    distances: Floats = ask(p.x, p.host, cut_off * p.R, patch_mask) / p.R
+    nearest = np.full(p.size, np.inf)
+    run = link(_nearest_walls, read_by(_nearest_walls, flow.kernels))
+    run(arrays, p.x, p.host, cut_off * p.R, patch_mask, nearest)
+    distances: Floats = nearest / p.R
     return distances
-
-
-def wall_distances(
-    kernels: Mapping[str, Callable[..., Any]],
-    arrays: Any,
-    x: Floats,
-    hosts: Ints,
-    cuts: Floats,
-    patch_mask: NDArray[np.int8],
-) -> Floats:
-    """Return distances of points from the nearest wall, m, (n,); infinite beyond a cut and without a host.
-
-    Parameters
-    ----------
-    kernels, arrays
-        Kernels of a flow, and their arguments.
-    x, hosts, cuts
-        Points (n, 3), m, their hosts (n,), and the largest distances (n,), m.
-    patch_mask
-        1 for each patch that counts, else 0.
-    """
-    nearest = np.full(len(x), np.inf)
-    link(_nearest_walls, read_by(_nearest_walls, kernels))(arrays, x, hosts, cuts, patch_mask, nearest)
-    return nearest
 
 
 def _nearest_walls(

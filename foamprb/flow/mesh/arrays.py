@@ -97,8 +97,6 @@ class MeshArrays(NamedTuple):
     """(n_cells + 1,) into ``cell_faces``."""
     cell_faces: Ints
     """Faces of each cell, in the order of its tetrahedra."""
-    strayed: Ints
-    """(1,) set to 1 by a path that leaves the cells of a node, through a triangle of the patch −2."""
 
 
 _FLOATS = {

@@ -176,8 +176,7 @@ def is_in_mesh(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
     """Return True if x in a tetrahedron is a point of the mesh from which a walk can go that way."""
     if is_flat(flow, tet):
         return False
-    _, _, patch, triangle = trace(flow, tet, x, plus(x, way))
-    return patch != _FAILED or triangle >= 0
+    return trace(flow, tet, x, plus(x, way))[2] != _FAILED
 
 
 def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:

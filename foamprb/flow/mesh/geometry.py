@@ -20,8 +20,6 @@ from foamprb.flow.mesh.faces import (
 )
 from foamprb.flow.mesh.lists import share, starts
 
-_FACES_AT_ONCE = 1 << 16
-
 
 class HalfFaces(NamedTuple):
     """Faces of each cell, cell by cell; an interior face appears twice."""
@@ -111,25 +109,6 @@ def measured(points: Floats, faces: Faces) -> tuple[Floats, Floats]:
         ),
     )
     return centres, areas
-
-
-def largest_fluxes(points: Floats, faces: Faces, u: Floats, further: Floats) -> Floats:
-    """Return the largest flux through a face of each cell, (n_cells,), m³/s.
-
-    Cells have the velocities u (n_cells, 3), m/s, and further ones in any direction, (n_cells,).
-    """
-    most = np.zeros(len(u))
-    for begin in range(0, len(faces.owner), _FACES_AT_ONCE):
-        # Part by part: the areas of all faces would need the memory of another field.
-        end = begin + _FACES_AT_ONCE
-        owner, neighbour = faces.owner[begin:end], faces.neighbour[begin:end]
-        areas = measured(points, faces._replace(start=faces.start[begin : end + 1], owner=owner))[1]
-        for cells in (owner, neighbour):
-            across = areas[: len(cells)]
-            passed = np.abs(np.einsum("fi,fi->f", across, u[cells]))
-            passed += np.linalg.norm(across, axis=1) * further[cells]
-            np.maximum.at(most, cells, passed)
-    return most
 
 
 def cell_geometry(faces: Faces, centres: Floats, areas: Floats) -> tuple[Floats, Floats, Floats]:

@@ -36,27 +36,6 @@ def ragged(start: Labels, counts: Labels) -> Index:
     return np.arange(begin[-1]) + np.repeat(start - begin[:-1], counts)
 
 
-def even_ends(weights: Labels, n: int) -> list[int]:
-    """Return where n ranges of consecutive items end whose largest sum of weights is the least.
-
-    No range is empty. The first range begins at 0, which comes first, (n + 1).
-    """
-    sums = starts(weights)
-
-    def ends(most: int) -> list[int]:
-        found = [0]
-        for further in reversed(range(n)):
-            end = int(np.searchsorted(sums, sums[found[-1]] + most, side="right")) - 1
-            found.append(min(end, len(weights) - further))
-        return found
-
-    low, high = int(weights.max(initial=0)), int(sums[-1])
-    while low < high:
-        most = (low + high) // 2
-        low, high = (low, most) if ends(most)[-1] == len(weights) else (most + 1, high)
-    return ends(high)
-
-
 def take_lists(start: Labels, lists: Labels, at: Index) -> tuple[Index, Labels]:
     """Return the starts and the entries of the lists ``at``."""
     counts = np.diff(start)[at]

@@ -17,7 +17,6 @@ from foamprb.dictionary.dimensions import RATE, VELOCITY, VOLUME_FLUX, Dimension
 from foamprb.dictionary.values import factor_of, unit_of
 from foamprb.errors import InputError, closest, suggestion
 from foamprb.flow.base import Floats
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import CONSTRAINTS, VALUE_CONDITIONS, VALUELESS, WALL_CONDITIONS, PatchKind
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
@@ -43,16 +42,12 @@ class PatchGeometry(NamedTuple):
 _MAY_BE_WALLS = PatchKind.OPENING, PatchKind.COUPLED
 _ALONG = 1e-4
 """Cosine of the angle between a velocity along a face and its normal."""
-FLOW_RATE = "flowRateInletVelocity"
-"""Condition whose values depend on the area of the whole patch."""
-AREA = "(area)"
-"""Entry with the area of the whole patch, (1, 1), m², where a node holds a part of it; no name of a file."""
 _LENGTH: Dimensions = (0, 1, 0, 0, 0, 0, 0)
 Rule = Callable[[PatchField, PatchGeometry], Floats | None]
 """Returns the values (n, 3), m/s, of a boundary condition; None if it lacks an entry."""
 
 
-def with_walls(whole: CaseMesh, field: FoamField, comm: MeshCommunicator = SINGLE_NODE) -> CaseMesh:
+def with_walls(whole: CaseMesh, field: FoamField) -> CaseMesh:
     """Return the mesh with the patches as walls that are none by their type, but by the velocity on them."""
     patches, names = list(whole.mesh.patches), []
     for index, patch in enumerate(whole.patches[: len(patches)]):
@@ -61,7 +56,7 @@ def with_walls(whole: CaseMesh, field: FoamField, comm: MeshCommunicator = SINGL
             continue
         areas = whole.mesh.boundary_areas[whole.mesh.patch_start[index] :][: patch.faces]
         values = entry.fields.get("value") if entry.type in VALUE_CONDITIONS else None
-        if entry.type in WALL_CONDITIONS or (values is not None and not comm.any(_passes(values, areas))):
+        if entry.type in WALL_CONDITIONS or (values is not None and not _passes(values, areas)):
             patches[index] = patches[index]._replace(type="wall", groups=patch.groups | {"wall"})
             names.append(f"{patch.name} ({patch.type}, {entry.type})")
     if not names:
@@ -222,7 +217,7 @@ def _entry(name: str) -> Rule:
 def _flow_rate(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return the uniform velocity into the domain that carries the volumetric flow rate, m³/s."""
     rate = _constant(entry.words.get("volumetricFlowRate", ""), 1, VOLUME_FLUX)
-    area = entry.fields[AREA][0, 0] if AREA in entry.fields else faces.areas.sum()
+    area = faces.areas.sum()
     return None if rate is None else -rate / area * faces.normals
 
 
@@ -256,7 +251,7 @@ def _constant(text: str, components: int, dimensions: Dimensions = VELOCITY) -> 
 RULES: dict[str, tuple[bool, Rule]] = {
     "fixedGradient": (True, _fixed_gradient),
     "fixedNormalSlip": (True, _fixed_normal_slip),
-    FLOW_RATE: (False, _flow_rate),
+    "flowRateInletVelocity": (False, _flow_rate),
     "freestream": (False, _entry("freestreamValue")),
     "freestreamVelocity": (False, _entry("freestreamValue")),
     "inletOutlet": (False, _entry("inletValue")),

@@ -17,7 +17,6 @@ from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.fluxes import Conservation, UnbalancedFlowError
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
@@ -81,7 +80,6 @@ def caveats_of_case(
     turbulent: bool = False,
     relative: bool = False,
     mixed: bool = False,
-    comm: MeshCommunicator = SINGLE_NODE,
 ) -> list[Caveat]:
     """Return warnings from the dictionaries of a case, and from the fields beside the velocity.
 
@@ -99,12 +97,10 @@ def caveats_of_case(
         True if rotating zones are described in the frames of their rotors, so that they need no warning.
     mixed
         True if particles are in the local mixture of phases, so that these need no warning.
-    comm
-        The nodes that hold the mesh.
     """
     caveats = [*_rotating(case, region, relative), *_porous(case, region)]
     caveats += () if turbulent else _turbulent(folder)
-    caveats += () if mixed else tuple(_phases(folder, read, comm)) or tuple(_compressible(read, comm))
+    caveats += () if mixed else tuple(_phases(folder, read)) or tuple(_compressible(read))
     return [*caveats, *(_moving(case, region, folder) if moving else ())]
 
 
@@ -145,7 +141,6 @@ def caveat_of_flux(
     read: Callable[[str, Kind], FoamField],
     velocity: str,
     unsteady: bool,
-    comm: MeshCommunicator = SINGLE_NODE,
 ) -> list[Caveat]:
     """Return a warning if inflow and outflow differ.
 
@@ -163,22 +158,18 @@ def caveat_of_flux(
         Reads a field at the time.
     velocity, unsteady
         Name of the velocity, whose flux is ``phi`` if it is ``U`` or ``Urel``; True for an unsteady flow.
-    comm
-        The nodes that hold the mesh.
     """
     mesh = whole.mesh
-    of_all = comm.of_all
-    phi = _flux(read, whole.patches, of_all) if velocity in ("U", "Urel") else None
-    compressible = varies(comm.extremes(densities(read))) or (phi is not None and phi[2] == "kg/s")
+    phi = _flux(read, whole.patches) if velocity in ("U", "Urel") else None
+    compressible = varies(densities(read)) or (phi is not None and phi[2] == "kg/s")
     # Without phi the flux of mass is unknown.
     if "." in velocity or (compressible and (unsteady or phi is None)):
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
     flux = phi[0] if phi else np.einsum("ni,ni->n", boundary, mesh.boundary_areas)
     areas, speeds = np.linalg.norm(mesh.boundary_areas, axis=1), np.linalg.norm(cells, axis=1)
-    flux, areas = flux[comm.own_boundary], areas[comm.own_boundary]
-    outflow, inflow = sum(of_all(float(flux[flux > 0.0].sum()))), sum(of_all(float(-flux[flux < 0.0].sum())))
-    round_off = ROUND_OFF * sum(of_all(float(areas.sum()))) * max(of_all(float(speeds.max(initial=0.0))))
+    outflow, inflow = float(flux[flux > 0.0].sum()), float(-flux[flux < 0.0].sum())
+    round_off = ROUND_OFF * float(areas.sum()) * float(speeds.max())
     lost, most = abs(outflow - inflow), max(outflow, inflow)
     if lost <= max(LEAST_LOSS * most, round_off):
         return []
@@ -245,8 +236,9 @@ def is_not_zero(path: Path) -> bool:
     return file is not None and not _ZERO.search(read_bytes(file, _HEAD))
 
 
-def _compressible(read: Callable[[str, Kind], FoamField], comm: MeshCommunicator) -> Iterator[Caveat]:
-    low, high = comm.extremes(densities(read))
+def _compressible(read: Callable[[str, Kind], FoamField]) -> Iterator[Caveat]:
+    rho = densities(read)
+    low, high = rho.min(initial=np.inf), rho.max(initial=-np.inf)
     if high - low > _LEAST_DIFFERENCE * high:
         yield Caveat(
             f"the fluid's density is from {low:.4g} to {high:.4g} kg/m3 (there is rho), but "
@@ -254,10 +246,10 @@ def _compressible(read: Callable[[str, Kind], FoamField], comm: MeshCommunicator
         )
 
 
-def _phases(folder: Path, read: Callable[[str, Kind], FoamField], comm: MeshCommunicator) -> Iterator[Caveat]:
+def _phases(folder: Path, read: Callable[[str, Kind], FoamField]) -> Iterator[Caveat]:
     paths = sorted(path for path in folder.glob("alpha.*") if path.is_file() and ".orig" not in path.name)
     names = [path.name.removesuffix(".gz") for path in paths if _VARIES.search(read_bytes(path, _HEAD))]
-    if any(_LEAST_PHASE < _mean(read(name, FRACTION_FIELD), comm) < 1.0 - _LEAST_PHASE for name in names):
+    if any(_LEAST_PHASE < _mean(read(name, FRACTION_FIELD)) < 1.0 - _LEAST_PHASE for name in names):
         hint = " solution/mixture true takes those of the local mixture." if len(names) <= 2 else ""
         yield Caveat(
             f"the flow has several phases ({', '.join(names)}), but to particles the fluid is one, with "
@@ -265,10 +257,9 @@ def _phases(folder: Path, read: Callable[[str, Kind], FoamField], comm: MeshComm
         )
 
 
-def _mean(field: FoamField, comm: MeshCommunicator) -> float:
+def _mean(field: FoamField) -> float:
     """Return the mean of fractions over the cells."""
-    values = field.cells[:, 0].clip(0.0, 1.0)
-    return comm.total(values) / comm.total(np.ones(len(values)))
+    return float(field.cells[:, 0].clip(0.0, 1.0).mean())
 
 
 def _moving(case: Path, region: str, folder: Path) -> Iterator[Caveat]:
@@ -306,24 +297,21 @@ def _zones(
 
 
 def _flux(
-    read: Callable[[str, Kind], FoamField],
-    patches: Sequence[PatchInfo],
-    of_all: Callable[[bool], list[bool]],
+    read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo]
 ) -> tuple[Floats, str, str] | None:
     """Return the flux out of the boundary faces (n,), its name and its unit; None if ``phi`` is missing."""
     try:
         phi = read("phi", FLUX_FIELD)
     except InputError:
         return None
-    values, missing = [], False
+    values = []
     for patch in patches:
         entry = phi.of(patch)
         values_there = entry.fields.get("value") if entry else None
         if values_there is None or len(values_there) not in (1, patch.faces):
-            missing |= patch.faces > 0 and patch.type not in ("empty", "processor")
+            if patch.faces > 0 and patch.type not in ("empty", "processor"):
+                return None
             values_there = np.zeros((1, 1))
         values.append(np.broadcast_to(values_there, (patch.faces, 1))[:, 0])
-    if any(of_all(missing)):
-        return None
     unit = "kg/s" if phi.dimensions == MASS_FLUX else "m3/s"
     return np.concatenate([np.empty(0), *values]), "phi", unit

@@ -63,7 +63,7 @@ class DecomposedCase(Case):
     @property
     def roots(self) -> Sequence[Path]:
         """The folders of the processors."""
-        return [self.processors.folders[k] for k in self.processors.held]
+        return self.processors.folders
 
     def times(self) -> tuple[str, ...]:
         """Return the names of the times of all processors."""

@@ -13,7 +13,6 @@ from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.balance import CONSTANT, Mass
 from foamprb.flow.base import Floats
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.case import find_dictionary
 from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, FoamField, Kind
@@ -36,7 +35,6 @@ def mass_of(
     reads: Sequence[Read],
     index: int,
     velocity: str = "U",
-    comm: MeshCommunicator = SINGLE_NODE,
 ) -> Mass | None:
     """Return the density of a flow at one of its times; None if it varies, but is not known.
 
@@ -55,8 +53,6 @@ def mass_of(
         Which of them.
     velocity
         Name of the velocity.
-    comm
-        The nodes that hold the mesh.
     """
     if "." in velocity:
         return None
@@ -67,12 +63,11 @@ def mass_of(
     if flux == VOLUME_FLUX:
         return CONSTANT
     near = sorted({max(index - 1, 0), index, min(index + 1, len(reads) - 1)})
-    pairs = {i: _values(reads[i], whole, root, comm) for i in near}
+    pairs = {i: _values(reads[i], whole, root) for i in near}
     values = {i: pair for i, pair in pairs.items() if pair is not None}
     if len(values) < len(near):
         return None
-    every = np.concatenate([array for pair in values.values() for array in pair])
-    if not varies(comm.extremes(every)):
+    if not varies(np.concatenate([array for pair in values.values() for array in pair])):
         return CONSTANT
     if flux is None and root is None:
         return None
@@ -90,10 +85,10 @@ def densities(read: Read) -> Floats:
         return np.empty((0, 1))
 
 
-def varies(ends: tuple[float, float]) -> bool:
-    """Return True if the smallest and the largest value differ by more than round-off."""
-    low, high = ends
-    return high - low > _ROUND_OFF * max(abs(low), abs(high))
+def varies(values: Floats) -> bool:
+    """Return True if the smallest and the largest value differ by more than round-off; False for none."""
+    low, high = values.min(initial=np.inf), values.max(initial=-np.inf)
+    return bool(high - low > _ROUND_OFF * max(abs(low), abs(high)))
 
 
 def _mixture(case: Path, region: str) -> Dictionary | None:
@@ -112,23 +107,15 @@ def _dimensions(read: Read) -> Any:
         return None
 
 
-def _values(
-    read: Read, whole: CaseMesh, root: Dictionary | None, comm: MeshCommunicator
-) -> tuple[Floats, Floats] | None:
+def _values(read: Read, whole: CaseMesh, root: Dictionary | None) -> tuple[Floats, Floats] | None:
     """Return the density at cells (n_cells,) and boundary faces (n_boundary,); None if it is not known."""
-
-    def of(name: str, kind: Kind) -> tuple[Floats, Floats]:
-        # The error of one node is that of all.
-        with comm.united():
-            return values_of(read(name, kind), whole)
-
     try:
-        rho, outside = of("rho", DENSITY_FIELD)
+        rho, outside = values_of(read("rho", DENSITY_FIELD), whole)
     except InputError:
         if root is None:
             return None
         try:
-            p, T = (of(*field) for field in _STATE)
+            p, T = (values_of(read(*field), whole) for field in _STATE)
         except InputError:
             return None
         of_state = density_of_state(root, np.concatenate(p), np.concatenate(T))
@@ -136,4 +123,4 @@ def _values(
             return None
         both = np.broadcast_to(of_state, len(p[0]) + len(p[1]))
         rho, outside = both[: len(p[0])], both[len(p[0]) :]
-    return (rho, outside) if comm.extremes(np.concatenate([rho, outside]))[0] > 0.0 else None
+    return (rho, outside) if min(rho.min(), outside.min(initial=np.inf)) > 0.0 else None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import warnings
-from collections.abc import Container
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -287,44 +286,32 @@ def read_cell_zones(path: Path | FoamFile) -> dict[str, Labels]:
     return zones
 
 
-def read_blocks(path: Path, chosen: Container[int], most: int = -1) -> tuple[list[FoamFile], int]:
+def read_blocks(path: Path, data: bool = True) -> list[FoamFile]:
     """Read a collated file, which holds a file of each processor, of which only the first has a header.
 
-    Parameters
-    ----------
-    path
-        The file; parts that are not chosen are skipped.
-    chosen
-        Indices of the files to read.
-    most
-        Number of bytes to read of each; all by default.
-
-    Returns
-    -------
-    The chosen files, and the number of all.
+    Without ``data`` the files are empty: it is only checked whether the file is complete.
     """
     files: list[FoamFile] = []
-    entries, number = header(path), 0
+    entries = header(path)
     with opened(path) as stream:
         at = FoamFile(path, stream.read(HEADER_BYTES), entries).at
         while True:
             stream.seek(at)
             text = stream.read(HEADER_BYTES)
             if _BLANK.fullmatch(text):
-                return files, number
+                return files
             match = _BLOCK.match(text)
             n, begin = (int(match[1]), at + match.end()) if match else (0, at)
             stream.seek(begin)
-            data = stream.read(n if most < 0 else min(n, most)) if number in chosen else b""
+            block = stream.read(n) if data else b""
             stream.seek(begin + n)
             if match is None or stream.read(1) != b")":
                 raise InputError(
-                    f"{path}: byte {at}: the file of processor {number}, {n} bytes, expected; the file is "
-                    "broken or cut short."
+                    f"{path}: byte {at}: the file of processor {len(files)}, {n} bytes, expected; the file "
+                    "is broken or cut short."
                 )
-            if number in chosen:
-                files.append(FoamFile(path, data, entries))
-            at, number = begin + n + 1, number + 1
+            files.append(FoamFile(path, block, entries))
+            at = begin + n + 1
 
 
 def damage(path: Path) -> str:
@@ -341,7 +328,7 @@ def damage(path: Path) -> str:
             last = stream.read()
         collated = b"decomposedBlockData" in first
         if collated:
-            read_blocks(file, (), 0)
+            read_blocks(file, data=False)
     except InputError:
         return "unreadable"
     if b"FoamFile" not in first:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from functools import partial
+from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,6 @@ from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.fields import FieldColumns
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
@@ -60,13 +59,13 @@ from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_
 from foamprb.flow.read.polymesh import read_poly
 from foamprb.flow.read.prepared import PreparedTimes
 from foamprb.flow.read.sampled import kinds_of, read_sampled
-from foamprb.flow.read.source import FlowSource, FlowTimes
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.times import listed
 from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.viscosity import read_viscosity_field
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
-from foamprb.flow.series import SeriesFlow, series_of
+from foamprb.flow.series import series_of
 from foamprb.memory import trim
 
 _STEADY = 0.01
@@ -88,8 +87,6 @@ class Case:
     """
 
     notes: tuple[str, ...] = ()
-    comm = SINGLE_NODE
-    """The nodes that hold the mesh."""
 
     def __init__(self, root: Path, region: str = "") -> None:
         self.root, self.region = root, region
@@ -160,10 +157,6 @@ class Case:
         """Return the folder of the mesh at a time."""
         return mesh_folder(self.root, time, self.region)
 
-    def make(self, kind: Callable[..., Any], *given: Any, **options: Any) -> Any:
-        """Return a flow of a kind, made of its arguments."""
-        return kind(*given, **options)
-
 
 def read_case(
     case: PathLike[str] | str,
@@ -229,13 +222,6 @@ def read_series(
     return transient_flow(Case(Path(case), region), times, period, source)
 
 
-def flow_of(case: Case, times: FlowTimes, source: FlowSource) -> MeshFlow:
-    """Read the flow of a case; see :func:`steady_flow` and :func:`transient_flow`."""
-    if times.transient:
-        return transient_flow(case, times.several, times.period, source)
-    return steady_flow(case, times.steady, source)
-
-
 def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     """Read the flow of a case at one time; see :func:`read_case` and :class:`FlowSource`."""
     name = case.select_time(time)
@@ -243,19 +229,19 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     rotations = read_rotations(case.root, case.region) if source.relative else ()
     field = case.field(name, source.velocity, VELOCITY_FIELD)
     whole = case.mesh(name)
-    whole = with_walls(whole, field, case.comm)
+    whole = with_walls(whole, field)
     cells, boundary = velocities(field, whole)
     read, unsteady = partial(case.field, name), is_unsteady(case.root, case.region)
-    flux = caveat_of_flux(whole, cells, boundary, read, source.velocity, unsteady, case.comm)
+    flux = caveat_of_flux(whole, cells, boundary, read, source.velocity, unsteady)
     rotating: list[RotatingZone] = []
     if rotations:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
     kinds = kinds_of(source.sampled, case.fields, (name,))
-    operators = _Operators(whole.mesh, case.comm)
+    operators = _Operators(whole.mesh)
     more = _further(case, name, source, whole, operators)
     sampled = read_sampled(read, source.sampled, kinds, whole, operators.reconstruct) if kinds else None
-    mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity, case.comm)
+    mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity)
     notes: list[Any] = [*case.notes, *whole.notes]
     file = (case.folder(name) / source.velocity).relative_to(case.root)
 
@@ -268,7 +254,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
         operators.free()
         return u, l, fluxes
 
-    prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
+    prepared = PreparedTimes(source.cache, whole.mesh)
     u, l, fluxes = prepared.get((cells, boundary, mass), make)
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
@@ -286,9 +272,9 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     ]
     zones, turbulence = partial(case.zones, name), more[0] if source.turbulent else None
     viscosity = more[-1] if source.viscosity else None
-    curvatures = mean_curvatures(whole.mesh, l, case.comm) if source.curved else None
+    curvatures = mean_curvatures(whole.mesh, l) if source.curved else None
     parts = whole.mesh, u, l, notes, zones, name, turbulence, fluxes, viscosity, curvatures
-    flow = RotatingFlow(rotating, *parts) if rotating else case.make(MeshFlow, *parts)
+    flow = RotatingFlow(rotating, *parts) if rotating else MeshFlow(*parts)
     if sampled is not None:
         flow.field_table, flow.field_columns = sampled
     return flow
@@ -308,12 +294,12 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     field = case.field(names[0], source.velocity, VELOCITY_FIELD)
     whole = case.mesh(names[0])
-    whole = with_walls(whole, field, case.comm)
+    whole = with_walls(whole, field)
     first = velocities(field, whole)
     read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
-    flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady, case.comm)
-    operators = _Operators(whole.mesh, case.comm)
-    prepared = PreparedTimes(source.cache, whole.mesh, case.comm)
+    flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
+    operators = _Operators(whole.mesh)
+    prepared = PreparedTimes(source.cache, whole.mesh)
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators.reconstruct)
@@ -324,7 +310,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         reads = [partial(case.field, name) for name in names]
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         index = names.index(name)
-        mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity, case.comm)
+        mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
 
         def make() -> tuple[Floats, Floats, Floats]:
@@ -333,7 +319,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
         u, l, fluxes = prepared.get((*values, mass), make)
         more = _further(case, name, source, whole, operators)
-        curvatures = [mean_curvatures(whole.mesh, l, case.comm)] if source.curved else []
+        curvatures = [mean_curvatures(whole.mesh, l)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
 
     notes = [*notes, *case.notes, *whole.notes]
@@ -343,7 +329,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     return series_of(
         case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
-        make=partial(case.make, SeriesFlow), curved=source.curved,
+        curved=source.curved,
     )  # fmt: skip
 
 
@@ -377,29 +363,23 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
 
 
 class _Operators:
-    """Operators of a mesh, made when they are first used.
+    """Operators of a mesh, made when they are first used."""
 
-    They are no ``cached_property``: that lets one thread at a time make one, and nodes make them together.
-    """
+    def __init__(self, mesh: Mesh) -> None:
+        self._mesh = mesh
 
-    def __init__(self, mesh: Mesh, comm: MeshCommunicator) -> None:
-        self._mesh, self._comm = mesh, comm
-        self._reconstruct: Reconstruction | None = None
-        self._conserve: Conservation | None = None
-
-    @property
+    @cached_property
     def reconstruct(self) -> Reconstruction:
-        self._reconstruct = self._reconstruct or Reconstruction(self._mesh, comm=self._comm)
-        return self._reconstruct
+        return Reconstruction(self._mesh)
 
-    @property
+    @cached_property
     def conserve(self) -> Conservation:
-        self._conserve = self._conserve or Conservation(self._mesh, comm=self._comm)
-        return self._conserve
+        return Conservation(self._mesh)
 
     def free(self) -> None:
         """Free the operators; others are made if they are used again."""
-        self._reconstruct = self._conserve = None
+        for name in ("reconstruct", "conserve"):
+            vars(self).pop(name, None)
 
 
 def _further(case: Case, time: str, source: FlowSource, whole: CaseMesh, operators: _Operators) -> list[Any]:
@@ -416,7 +396,7 @@ def _caveats(case: Case, time: str, source: FlowSource, **options: bool) -> list
     read = partial(case.field, time)
     mixed = source.viscosity is not None and source.viscosity.kind == FRACTION_FIELD
     options |= {"turbulent": source.turbulent, "mixed": mixed}
-    return caveats_of_case(case.root, case.region, case.folder(time), read, comm=case.comm, **options)
+    return caveats_of_case(case.root, case.region, case.folder(time), read, **options)
 
 
 def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) -> list[Caveat]:
@@ -426,8 +406,8 @@ def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) ->
     with suppress(InputError):
         if earlier and case.mesh_folder(earlier[-1]) == case.mesh_folder(name):
             changes = cells - at_cells(case.field(earlier[-1], velocity, VELOCITY_FIELD), mesh)
-            change, speed = (_mean_square(v, case.comm) ** 0.5 for v in (changes, cells))
-            length = max(case.comm.of_all(float(np.linalg.norm(np.ptp(mesh.points, axis=0)))))
+            change, speed = (_mean_square(v) ** 0.5 for v in (changes, cells))
+            length = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
             crossed, change = speed * float(name) > length, change / max(speed, 1e-300)
             if crossed and change * float(name) < _STEADY * (float(name) - float(earlier[-1])):
                 return []
@@ -436,9 +416,9 @@ def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) ->
     return [Caveat(f"{text}, which is right if it is steady by then.")]
 
 
-def _mean_square(vectors: Floats, comm: MeshCommunicator) -> float:
+def _mean_square(vectors: Floats) -> float:
     """Return the mean of the squares of vectors at the cells."""
-    return comm.total(np.einsum("ci,ci->c", vectors, vectors)) / comm.total(np.ones(len(vectors)))
+    return float(np.einsum("ci,ci->c", vectors, vectors).mean())
 
 
 def _refuse_moving(case: Case, time: str) -> None:

@@ -24,7 +24,6 @@ import numpy as np
 from foamprb.compile.link import key_of
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
-from foamprb.flow.mesh.communicator import SINGLE_NODE, MeshCommunicator
 from foamprb.flow.mesh.mesh import Mesh
 
 __all__ = ["PreparedTimes"]
@@ -46,8 +45,6 @@ class PreparedTimes:
         The folder; None to keep nothing.
     mesh
         Mesh of the flow.
-    comm
-        The nodes that hold the mesh; each has files of its own.
 
     Raises
     ------
@@ -55,8 +52,8 @@ class PreparedTimes:
         If the folder cannot be made.
     """
 
-    def __init__(self, folder: Path | None, mesh: Mesh, comm: MeshCommunicator = SINGLE_NODE) -> None:
-        self._folder, self._mesh, self._comm = folder, mesh, comm
+    def __init__(self, folder: Path | None, mesh: Mesh) -> None:
+        self._folder = folder
         if folder is not None:
             try:
                 folder.mkdir(parents=True, exist_ok=True)
@@ -73,13 +70,13 @@ class PreparedTimes:
         values
             All that they depend on beside the mesh: arrays, tuples of arrays, and None.
         make
-            Makes them; all nodes call it together.
+            Makes them.
         """
         if self._folder is None:
             return make()
         file = self._folder / f"{_hash(self._key, *values)}{_SUFFIX}"
         arrays = _loaded(file)
-        if arrays is None or self._comm.any(arrays is None):
+        if arrays is None:
             arrays = make()
             # Where fluxes cannot be balanced each run needs the warning.
             if arrays[-1] is not None and not np.isnan(arrays[-1]).any():

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.dictionary.files import existing, read_bytes
+from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PolyMesh
@@ -24,7 +24,7 @@ from foamprb.flow.read.boundary import PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
 from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.field import FoamField, PatchField
-from foamprb.flow.read.foamfile import HEADER_BYTES, FoamFile, Labels, read_blocks, read_cell_zones
+from foamprb.flow.read.foamfile import FoamFile, Labels, read_blocks, read_cell_zones
 from foamprb.flow.read.polymesh import checked_poly, count_cells
 from foamprb.flow.read.times import listed
 
@@ -64,53 +64,29 @@ class Processors:
             path for _, (_, path) in sorted(several.items())
         ]
         self.n = len(single) or expected
-        self.selected = range(self.n)
-        """The processors whose files are read."""
-        ends = [(k, k) for k in sorted(single)] or [(k, last) for k, (last, _) in sorted(several.items())]
-        self._held = [range(first, last + 1) for first, last in ends]
+        self._sizes = [last - first + 1 for first, (last, _) in sorted(several.items())]
+        """Number of processors of each folder of collated files."""
 
-    @property
-    def held(self) -> list[int]:
-        """Return the folders of the chosen processors, by their indices."""
-        return [k for k, numbers in enumerate(self._held) if any(n in self.selected for n in numbers)]
-
-    def files(self, relative: Path, most: int = -1) -> list[FoamFile] | None:
-        """Return the file of each chosen processor; None if all are missing, InputError if some are.
-
-        ``most`` limits the bytes that are read of each.
-        """
-        held = self.held
-        paths = [existing(self.folders[k] / relative) for k in held]
-        if not any(paths):
-            return None
-        for k, path in zip(held, paths, strict=True):
-            if path is None:
-                raise InputError(f"{self.folders[k] / relative}: no such file.")
+    def files(self, relative: Path) -> list[FoamFile] | None:
+        """Return the file of each processor; None if all are missing, InputError if some are."""
+        paths = [existing(folder / relative) for folder in self.folders]
         found = [path for path in paths if path is not None]
+        if not found:
+            return None
+        for folder, path in zip(self.folders, paths, strict=True):
+            if path is None:
+                raise InputError(f"{folder / relative}: no such file.")
         if not self.collated:
-            return [FoamFile(path, read_bytes(path, most)) for path in found]
+            return [FoamFile(path) for path in found]
         files: list[FoamFile] = []
-        for k, path in zip(held, found, strict=True):
-            numbers = self._held[k]
-            selected = [i for i, number in enumerate(numbers) if number in self.selected]
-            blocks, count = read_blocks(path, selected, most)
-            if count != len(numbers):
+        for size, path in zip(self._sizes, found, strict=True):
+            blocks = read_blocks(path)
+            if len(blocks) != size:
                 raise InputError(
-                    f"{path}: parts of {count} processors, not {len(numbers)}; the file is cut short."
+                    f"{path}: parts of {len(blocks)} processors, not {size}; the file is cut short."
                 )
             files += blocks
         return files
-
-    def cells(self, folder: Path) -> Labels | None:
-        """Return the number of cells of each chosen processor, by its addressing files; None without them.
-
-        Parameters
-        ----------
-        folder
-            The folder of the mesh in that of a processor.
-        """
-        files = self.files(folder / _ADDRESSING[2], HEADER_BYTES)
-        return np.array([file.count() for file in files]) if files else None
 
     def times(self) -> tuple[tuple[str, ...], str]:
         """Return the times that all folders have, and a note on others; InputError if they have none."""

@@ -99,7 +99,8 @@ def read_sampled(
             at_nodes = reconstruct.linear(cells, boundary).reshape(-1, cells[0].size)
         if cells.ndim == 1 and name == field_of(name):
             # Beside a front the extrapolation to a wall would go below zero, or above a fraction of one.
-            at_nodes = at_nodes.clip(*reconstruct.comm.extremes(np.concatenate([cells, boundary])))
+            given = np.concatenate([cells, boundary])
+            at_nodes = at_nodes.clip(given.min(), given.max())
         table = at_nodes[:, _SIX] if kind.inner == "symmTensor" else at_nodes
         tables.append(table)
         columns.append(FieldColumns(name, table.shape[1], unit_text(tuple(dimensions))))
