@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import numpy as np
-from foamprb.distributed.node import MpiTeam
 
 
 class Rows:
@@ -52,10 +50,6 @@ class Comm:
         self._barrier.wait()
         return values
 
-    def end(self) -> None:
-        """End all processes that wait for others."""
-        self._barrier.abort()
-
     def Dup(self) -> Comm:
         return self
 
@@ -81,9 +75,6 @@ class Comm:
             target[place : place + end - start] = array.reshape(-1).view(np.uint8)[start:end]
         self._barrier.wait()
 
-    def sendrecv(self, parcel: Any, to: int, source: int) -> Any:  # noqa: ARG002
-        return self._of_all(parcel)[source]
-
     def send(self, letter: Any, rank: int) -> None:
         self.team[rank].letters.append(letter)
 
@@ -102,13 +93,7 @@ def processes(n: int) -> list[Comm]:
     return team
 
 
-def on_nodes(n: int, work: Callable[[MpiTeam], Any]) -> list[Any]:
-    """Return the results of a function on n nodes; raise the first error."""
-    team = processes(n)
-    return together([partial(work, MpiTeam(comm)) for comm in team], team[0].end)
-
-
-def together(works: list[Callable[[], Any]], fail: Callable[[], None] = lambda: None) -> list[Any]:
+def together(works: list[Callable[[], Any]]) -> list[Any]:
     """Return the results of functions that run at the same time; raise the error of one."""
     results, errors = [None] * len(works), []
 
@@ -117,7 +102,6 @@ def together(works: list[Callable[[], Any]], fail: Callable[[], None] = lambda: 
             results[rank] = works[rank]()
         except Exception as error:
             errors.append(error)
-            fail()
 
     threads = [threading.Thread(target=run, args=(rank,)) for rank in range(len(works))]
     for thread in threads:

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from foam_writer import decompose, header, read_fields
 from paths import ROOT
-from pipe_case import edit, short_case, time_folder, with_eddies
+from pipe_case import edit, short_case, with_eddies
 from transient_case import SCALE, scaled, write_transient_case
 
 from foamprb.cli import main
@@ -98,7 +98,7 @@ def after_hook(folder: Path, hook: str) -> Path:
         "import errno, os, signal, sys\n"
         "from foamprb.cli import main\n"
         "from foamprb.distributed import shared_memory\n"
-        "from foamprb.distributed.ranks import Ranks, _PartedFlow\n"
+        "from foamprb.distributed.ranks import Ranks\n"
         "from foamprb.distributed.worker import Worker\n"
         "rank = int(os.environ['OMPI_COMM_WORLD_RANK'])\n"
         f"{hook}\n"
@@ -140,8 +140,8 @@ def content(file: Path) -> tuple[dict[str, Any], dict[str, bytes]] | bytes:
     if file.suffix != ".npz":
         return file.read_bytes()
     checkpoint = StoredCheckpoint(file, verify=True).read_all()
-    # Sums over parts of a mesh have other round-off.
-    others = "sums", "parts", "fingerprint", "around"
+    # Sums over the particles of several ranks have other round-off.
+    others = "sums", "parts", "fingerprint"
     header = {name: value for name, value in checkpoint.header.items() if name not in others}
     return header, {name: array.tobytes() for name, array in checkpoint.arrays.items()}
 
@@ -165,10 +165,13 @@ def assert_same(case: Path, truth: Path, functions: bool = True) -> None:
             assert found[name].tobytes() == array.tobytes(), (at, name)
 
 
-@pytest.mark.parametrize("n", [2, 3])
-def test_results_are_those_of_one_process(n, case, truth):
+@pytest.mark.parametrize(("n", "nodes"), [(2, 1), (3, 1), (3, 2), (3, 3)])
+def test_results_are_those_of_one_process(n, nodes, case, truth, monkeypatch):
+    """On any number of nodes, of which the second of two has fewer processes."""
+    monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, str(-(-n // nodes)))
     out = finish(n, case)
-    assert f"310 particles among {n} processes" in out
+    computers = "1 computer\n" if nodes == 1 else f"{nodes} computers\n"
+    assert re.search(rf"310 particles among {n} processes of \d+ threads? on {computers}", out)
     assert out.count("Starting time loop") == 1
     assert_same(case, truth)
     first = folder_of(case) / "softCloud_000001"
@@ -201,10 +204,12 @@ def test_walls_and_molecules_do_the_same_on_several_processes(case, pushed, trut
     assert not np.array_equal(last["points"], plain["points"])
 
 
-def test_walls_and_molecules_do_the_same_after_a_kill_with_other_numbers(case, pushed, tmp_path):
+def test_walls_and_molecules_do_the_same_after_a_kill_with_other_numbers(case, pushed, tmp_path, monkeypatch):
     with_surroundings(case)
     kill = after_hook(tmp_path, at_write("os.kill(os.getpid(), signal.SIGKILL)", 1))
-    assert run(2, case, script=kill).returncode != 0
+    with monkeypatch.context() as two_nodes:
+        two_nodes.setitem(ENVIRONMENT, NODE_RANKS, "1")
+        assert run(2, case, script=kill).returncode != 0
     finish(3, case, "-resume")
     assert_same(case, pushed)
 
@@ -338,7 +343,7 @@ def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
 
 @pytest.fixture
 def halves(tmp_path, monkeypatch):
-    """A flow that changes in time in two processor folders, for two nodes."""
+    """A flow that changes in time in two processor folders, and two nodes."""
     monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
     case = write_transient_case(tmp_path / "case")
     mesh = read_fields(case)[0]
@@ -359,7 +364,7 @@ foamprb.add_force("pushByField", push, needs=("U", "grad(U)"))
 """
 
 
-def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(halves, tmp_path, capsys, monkeypatch):
+def test_nodes_have_the_same_flow_that_changes_in_time(halves, tmp_path, capsys, monkeypatch):
     case = halves
     monkeypatch.delitem(FORCES, "pushByField", raising=False)
     functions = """
@@ -373,23 +378,20 @@ def test_nodes_read_their_parts_of_a_flow_that_changes_in_time(halves, tmp_path,
     edit(case, "^cloudFunctions", 'libs ("push.py"); cloudFunctions')
     edit(case, "gravity;", "gravity; wallLift { cutOff 1000; } faxenCorrection; pushByField { rate 100; }")
     edit(case, r'"\.\*" \{ type escape; \}', 'lid { type escape; } "floor|sides" { type stick; }')
-    # The second goes to the other node. The third ends before a time of the flow, and is sampled after it.
+    # The third ends before a time of the flow, and is sampled after it.
     (case / "constant/positions").write_text("((0.5 0.5 0.5) (0.499 0.5 0.55) (0.7 0.7 0.99))")
     alone = Path(shutil.copytree(case, tmp_path / "alone"))
     assert main(["run", "-case", str(alone)]) == 0
     (distances,) = re.findall(r"distance to walls/radius.*", capsys.readouterr().out)
     # However small the mesh is, its arrays are shared.
-    hook = "shared_memory._SMALLEST = 100\n"
-    options = ["-cache", str(tmp_path / "cache")]
-    done = run(2, case, *options, script=after_hook(tmp_path, hook))
-    assert done.returncode == 0, done.stderr
-    assert re.search(r"node 1 +4 cells, and 4 around them", done.stdout)
-    # With the cells around its own each node has the whole mesh.
-    assert len(list((tmp_path / "cache").iterdir())) == 3
-    assert distances in done.stdout
-    assert_same(case, alone)
-    assert run(2, case, *options, "-overwrite", script=after_hook(tmp_path, hook)).returncode == 0
-    assert_same(case, alone)
+    script = after_hook(tmp_path, "shared_memory._SMALLEST = 100")
+    for options in (), ("-overwrite",):
+        done = run(2, case, "-cache", str(tmp_path / "cache"), *options, script=script)
+        assert done.returncode == 0, done.stderr
+        assert "on 2 computers" in done.stdout
+        assert distances in done.stdout
+        assert_same(case, alone)
+        assert len(list((tmp_path / "cache").iterdir())) == 3
 
 
 LANDING = """
@@ -459,7 +461,7 @@ if isinstance(found, Worker):
     sys.exit(found.serve(()))
 job = prepare(sys.argv[1], threads=1, comm=found)
 found.prepare_steps(job.cloud)
-shared = found._way.publisher.move(np.full(1 << 24, 1.5))
+shared = found._publisher.move(np.full(1 << 24, 1.5))
 # The flow's own arrays and those of its mesh are the shared ones.
 flow, windows = job.cloud.flow, found.rank.windows.arrays.values()
 for array in (flow.arrays().nodes, flow.arrays().tets, flow.arrays().neighbours):
@@ -583,67 +585,3 @@ def test_eddies_are_the_same_on_several_processes(tmp_path):
     part.write_bytes(part.read_bytes()[:-1])
     assert "Continuing from the checkpoint at t = 0.001 s" in finish(2, case, "-resume")
     assert_same(case, alone, functions=False)
-
-
-def decomposed(case: Path, parts: int) -> None:
-    """Leave only processor folders of layers of cells along the pipe, dealt to the parts in turn."""
-    mesh = read_fields(case)[0]
-    layer = np.unique(np.round(mesh.centres[:, 0], 6), return_inverse=True)[1] % parts
-    body = f"{len(layer)}\n(\n" + "\n".join(map(str, layer)) + "\n)\n"
-    (case / "constant/layers").write_text(header("labelList", "layers") + body)
-    (case / "system/decomposeParDict").write_text(
-        header("dictionary", "decomposeParDict")
-        + f"numberOfSubdomains {parts};\nmethod manual;\nmanualCoeffs {{ dataFile layers; }}\n"
-    )
-    words = ["decomposePar", "-latestTime", "-case", str(case)]
-    subprocess.run(words, check=True, capture_output=True, timeout=100)
-    shutil.rmtree(time_folder(case))
-
-
-@pytest.mark.openfoam
-@pytest.mark.skipif(shutil.which("decomposePar") is None, reason="decomposePar is not on PATH")
-def test_nodes_share_the_mesh_and_go_on_after_a_kill_in_a_hand_over(case, tmp_path, monkeypatch, capsys):
-    """Bodies go through parts of all nodes; the run begins and ends on one process, and as it does there."""
-    monkeypatch.setitem(ENVIRONMENT, NODE_RANKS, "1")
-    for name, value in (("endTime", 0.015), ("writeInterval", 0.005)):
-        edit(case, rf"{name}\s+\S+;", f"{name} {value};")
-    # decomposePar computes the pressure at the inlet anew, with other round-off.
-    edit(case, r"\(p\)", "(U)")
-    edit(case, r"trackInterval 10;", "trackInterval 100;")
-    alone = tmp_path / "alone"
-    shutil.copytree(case, alone)
-    assert main(["run", "-case", str(alone)]) == 0
-    mesh = read_fields(case)[0]
-    edit(case, r"endTime\s+\S+;", "endTime 0.005;")
-    assert main(["run", "-case", str(case)]) == 0
-    edit(case, r"endTime\s+\S+;", "endTime 0.015;")
-    decomposed(case, 5)
-    kill = after_hook(
-        tmp_path,
-        """
-migrate = Worker.migrate
-def hooked(self):
-    if rank == 1 and max(self.particles.t, default=0.0) > 0.0115:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return migrate(self)
-Worker.migrate = hooked
-""",
-    )
-    killed = run(3, case, "-resume", script=kill)
-    assert killed.returncode != 0
-    assert "Continuing from the checkpoint at t = 0.005 s" in killed.stdout
-    own = re.findall(r"node \d +(\d+) cells, and \d+ around them", killed.stdout)
-    assert (len(own), sum(map(int, own))) == (3, mesh.n_cells)
-    assert not (folder_of(case) / "fates.csv").exists()
-    capsys.readouterr()
-    assert main(["run", "-case", str(case), "-resume"]) == 0
-    assert "Continuing from the checkpoint at t = 0.01 s" in capsys.readouterr().out
-    for file in [*folder_of(alone).rglob("*.csv"), folder_of(alone) / "paths/tracks.vtp"]:
-        name = file.relative_to(folder_of(alone))
-        assert (folder_of(case) / name).read_bytes() == file.read_bytes(), name
-    ends = [
-        StoredCheckpoint(folder_of(c) / "checkpoint/0.015.npz", verify=True).read_all().arrays
-        for c in (case, alone)
-    ]
-    for name, array in ends[1].items():
-        assert ends[0][name].tobytes() == array.tobytes(), name

@@ -1,4 +1,4 @@
-"""Wall time and memory of a default run by cores: as threads, processes that share a flow, and nodes."""
+"""Wall time and memory of a default run by cores: as threads, and as processes that share a flow."""
 
 from __future__ import annotations
 
@@ -8,19 +8,15 @@ import shutil
 import statistics
 import subprocess
 import sys
-from math import prod
 from pathlib import Path
 from typing import NamedTuple
 
 from benchmarks import pipe
 from benchmarks.records import KILO, MEGA, Options, Row
 from benchmarks.tracker import OPENFOAM_STEP, openfoam_environment
-from foamprb.distributed.shared_memory import NODE_RANKS
 
 WALL, SPEED_UP, MEMORY = "wall time by cores", "speed-up by cores", "memory of the largest process by cores"
 PARTICLE = "memory per particle by cores"
-CUTS = (4, 4, 4)
-"""Parts of the decomposed pipe along its axis and across: more than nodes, so that these can choose."""
 _REACH = 2.0
 """Particles are spread over so many thirds of the pipe; none leaves it."""
 _SHORTER = 5
@@ -36,28 +32,6 @@ class Use(NamedTuple):
     """Peak of the resident size of the process with the highest one, shared memory included, bytes."""
 
 
-def _decomposed(case: Path) -> Path:
-    """Return the case in processor folders alone, :data:`CUTS` along each axis."""
-    folder, parts = case.with_name(f"{case.name}_decomposed"), prod(CUTS)
-    if (folder / f"processor{parts - 1}").is_dir():
-        return folder
-    shutil.copytree(case / "system", folder / "system")
-    (folder / "constant").mkdir()
-    (folder / "system" / "decomposeParDict").write_text(
-        "FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }\n"
-        f"numberOfSubdomains {parts}; method hierarchical; "
-        f"hierarchicalCoeffs {{ n ({' '.join(map(str, CUTS))}); delta 0.001; order xyz; }}\n"
-    )
-    for path in (*(case / "constant").iterdir(), case / "0"):
-        (folder / path.relative_to(case)).symlink_to(path)
-    subprocess.run(
-        ["decomposePar"], cwd=folder, env=openfoam_environment(), check=True, stdout=subprocess.DEVNULL
-    )
-    for link in (folder / "constant" / "polyMesh", folder / "0"):
-        link.unlink()
-    return folder
-
-
 def _run(case: Path, settings: Path, cores: int, way: str) -> Use:
     """Run foamprb.
 
@@ -67,19 +41,15 @@ def _run(case: Path, settings: Path, cores: int, way: str) -> Use:
         It failed.
     """
     words = [sys.executable, "-m", "foamprb", "run", "-overwrite", "-dict", str(settings), "-threads"]
-    environment, folder = openfoam_environment(), case
     if way == "threads":
         words += [str(cores)]
     else:
         # Waiting processes yield: their user CPU is that of the work.
         mpirun = ["mpirun", "-np", str(cores), "--oversubscribe", "--bind-to", "none"]
         words = [*mpirun, "--mca", "mpi_yield_when_idle", "1", *words, "1", "-parallel"]
-        folder = _decomposed(case)
-    if way == "nodes":
-        environment[NODE_RANKS] = "1"
-    log = folder / "log"
+    log = case / "log"
     with log.open("w") as file:
-        program = subprocess.Popen(words, cwd=folder, env=environment, stdout=file, stderr=file)
+        program = subprocess.Popen(words, cwd=case, env=openfoam_environment(), stdout=file, stderr=file)
         _, status, used = os.wait4(program.pid, 0)
         program.returncode = os.waitstatus_to_exitcode(status)
     text = log.read_text()
@@ -104,8 +74,8 @@ def measure(options: Options) -> list[Row]:
     case = pipe.case(grid)
     settings = _write_cloud(case, n, steps)
     ways = ["threads"]
-    if shutil.which("mpirun") and shutil.which("decomposePar"):
-        ways += ["processes", "nodes"]
+    if shutil.which("mpirun"):
+        ways += ["processes"]
     runs: dict[tuple[str, int], list[Use]] = {("threads", 1): []}
     ends = {("threads", 1), *((way, 2) for way in ways)}
     cores = 2

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from functools import partial
-from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from mesh_shapes import block, box_patches
 
 from foamprb.flow.mesh import boundary
-from foamprb.flow.mesh.lists import even_ends, ragged, share, starts, take_lists, together
+from foamprb.flow.mesh.lists import ragged, share, starts, take_lists, together
 from foamprb.flow.mesh.mesh import build_mesh
 
 
@@ -23,22 +20,6 @@ def test_lists_begin_where_those_before_them_end():
     start, entries = take_lists(np.array([0, 2, 2, 5]), np.array([7, 8, 1, 2, 3]), np.array([2, 1, 0, 2]))
     assert start.tolist() == [0, 3, 3, 5, 8]
     assert entries.tolist() == [1, 2, 3, 7, 8, 1, 2, 3]
-
-
-@given(st.lists(st.integers(0, 9), min_size=1, max_size=7).flatmap(
-    lambda weights: st.tuples(st.just(weights), st.integers(1, len(weights)))
-))  # fmt: skip
-def test_ranges_have_the_least_possible_largest_weight(drawn):
-    weights, n = drawn
-
-    def largest(ends):
-        return max(sum(weights[low:high]) for low, high in pairwise(ends))
-
-    found = even_ends(np.array(weights), n)
-    assert len(found) == n + 1
-    assert all(low < high for low, high in pairwise(found))
-    divisions = combinations(range(1, len(weights)), n - 1)
-    assert largest(found) == min(largest((0, *inner, len(weights))) for inner in divisions)
 
 
 @pytest.mark.parametrize("n", [0, 9, 10_000, 25_000])
