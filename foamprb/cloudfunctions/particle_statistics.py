@@ -27,7 +27,7 @@ from foamprb.cloudfunctions.cells import no_sums, parts_in_cells, values_of
 from foamprb.compile.link import compiled
 from foamprb.dictionary.constraints import Meaning
 from foamprb.errors import InputError
-from foamprb.flow.meshflow import MeshSizes
+from foamprb.flow.mesh.mesh import Mesh
 from foamprb.results.foam import GENERIC, PatchValues, write_field
 
 Floats = NDArray[np.float64]
@@ -64,7 +64,7 @@ class ParticleStatistics(PathFunction):
         if self.sigmaParticles:
             R, stress = np.max([(1e-30, 1e-30), *cloud.cloud.map_ranks(_largest)], axis=0)
             scale[2], scale[3:] = 4.0 * R**3, 4.0 * R**3 * stress
-        sums = no_sums(_flow(cloud).mesh.n_cells, len(scale))
+        sums = no_sums(_mesh(cloud).n_cells, len(scale))
         return {"D": shapes(cloud.particles)[1], "sums": sums, "scale": dt * scale}
 
     @property
@@ -86,21 +86,20 @@ class ParticleStatistics(PathFunction):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
-        sizes = _flow(cloud).mesh_sizes()
-        n, time = len(sizes.volumes), max(cloud.time - cloud.cloud.start, 1e-300)
-        in_cells = _fields(values_of(memory["sums"], memory["scale"]), sizes.volumes, time)
-        on_faces = {name: values[sizes.owner] for name, values in in_cells.items()}
-        on_faces["deposition"] = _stuck_on_faces(cloud, sizes) / sizes.areas
+        mesh, time = _mesh(cloud), max(cloud.time - cloud.cloud.start, 1e-300)
+        in_cells = _fields(values_of(memory["sums"], memory["scale"]), mesh.volumes, time)
+        on_faces = {name: values[mesh.owner[mesh.n_internal :]] for name, values in in_cells.items()}
+        on_faces["deposition"] = _stuck_on_faces(cloud, mesh) / np.linalg.norm(mesh.boundary_areas, axis=1)
         folder.mkdir(exist_ok=True)
         for name, values in on_faces.items():
             patches = {
-                patch.name: PatchValues("calculated", values[slice(*sizes.patch_start[k : k + 2])])
+                patch.name: PatchValues("calculated", values[slice(*mesh.patch_start[k : k + 2])])
                 if patch.type in GENERIC
                 else PatchValues(patch.type)
                 for k, patch in enumerate(cloud.cloud.flow.patches)
             }
             path = folder / f"{cloud.time:.12g}" / name
-            write_field(path, _DIMENSIONS[name], [in_cells[name]], n, patches)
+            write_field(path, _DIMENSIONS[name], [in_cells[name]], mesh.n_cells, patches)
 
 
 def _fields(sums: Floats, volumes: Floats, time: float) -> dict[str, Floats]:
@@ -120,11 +119,12 @@ def _fields(sums: Floats, volumes: Floats, time: float) -> dict[str, Floats]:
     return fields
 
 
-def _flow(cloud: ObservedCloud) -> Any:
-    """Return the flow, which has cells."""
-    if not hasattr(cloud.cloud.flow, "mesh_sizes"):
+def _mesh(cloud: ObservedCloud) -> Mesh:
+    """Return the mesh of the flow; raise InputError if it has none."""
+    mesh: Mesh | None = getattr(cloud.cloud.flow, "mesh", None)
+    if mesh is None:
         raise InputError("the flow has no mesh for the fields.")
-    return cloud.cloud.flow
+    return mesh
 
 
 def _largest(p: Particles) -> tuple[float, float]:
@@ -167,17 +167,17 @@ def _stress_at_ends(cloud: ObservedCloud, steps: Steps) -> Floats:
     return np.stack(values)
 
 
-def _stuck_on_faces(cloud: ObservedCloud, sizes: MeshSizes) -> Floats:
+def _stuck_on_faces(cloud: ObservedCloud, mesh: Mesh) -> Floats:
     """Count particles on each boundary face: the face of their patch with the nearest centre."""
     from scipy.spatial import cKDTree
 
-    counts = np.zeros(len(sizes.areas))
+    counts = np.zeros(len(mesh.boundary_areas))
     trees: dict[int, cKDTree] = {}
     for x, patch in cloud.map(_stuck):
         for index in np.unique(patch):
-            first, last = sizes.patch_start[index : index + 2].tolist()
+            first, last = mesh.patch_start[index : index + 2].tolist()
             if last > first:
-                tree = trees.setdefault(index, cKDTree(sizes.centres[first:last]))
+                tree = trees.setdefault(index, cKDTree(mesh.boundary_centres[first:last]))
                 nearest = tree.query(x[patch == index])[1]
                 counts[first:last] += np.bincount(nearest, minlength=last - first)
     return counts

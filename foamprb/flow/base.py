@@ -211,7 +211,7 @@ class Flow(Sampled, Protocol):
         """Return the tetrahedra of a zone of cells, or of all cells; InputError if there is no such zone."""
 
     def at_some_nodes(self) -> NodeValues:
-        """Return the values at some nodes, evenly spread over their numbers; the same for any computers."""
+        """Return the values at some nodes, evenly spread over their numbers."""
 
     def ends_at_nodes(self, function: Function) -> Ends:
         """Return the smallest and the largest values at all nodes of the quantities of a function."""

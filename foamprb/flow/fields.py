@@ -67,7 +67,11 @@ class Fields(NamedTuple):
         times = np.broadcast_to(np.asarray(t, dtype=float), len(points))
         values = np.full((len(points), width(self.columns)), np.nan)
         values[known] = self._linear(x, hosts, times[known])
-        return by_name(values, self.columns)
+        ends = np.cumsum([c.components for c in self.columns])
+        return {
+            c.name: FieldValues(values[:, end - c.components : end], c.unit)
+            for c, end in zip(self.columns, ends, strict=True)
+        }
 
     def _linear(self, x: Floats, hosts: Ints, t: Floats) -> Floats:
         if len(self.times) == 1:
@@ -91,15 +95,6 @@ class Fields(NamedTuple):
         found = np.empty((len(x), self.table.shape[1]))
         _blender()(self.mesh, self.table, self.first[level], x, hosts, found)
         return found
-
-
-def by_name(values: Floats, columns: Sequence[FieldColumns]) -> dict[str, FieldValues]:
-    """Return the fields by name, whose values at n points are the columns of a table."""
-    ends = np.cumsum([c.components for c in columns])
-    return {
-        c.name: FieldValues(values[:, end - c.components : end], c.unit)
-        for c, end in zip(columns, ends, strict=True)
-    }
 
 
 def field_of(name: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from functools import cache
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -96,21 +96,6 @@ LISTS = ("near", "wall_", "seen")
 """Prefixes of the names of arrays for lists of walls."""
 AT_ONCE = 1 << 20
 """Number of tetrahedra per chunk when volumes are computed."""
-
-
-class MeshSizes(NamedTuple):
-    """Sizes of cells and boundary faces."""
-
-    volumes: Floats
-    """(n_cells,), m³."""
-    owner: NDArray[np.integer]
-    """(n_boundary,) cell of each boundary face."""
-    areas: Floats
-    """(n_boundary,), m²."""
-    centres: Floats
-    """(n_boundary, 3), m."""
-    patch_start: NDArray[np.integer]
-    """(n_patches + 1,) first boundary face of each patch."""
 
 
 class MeshFlow:
@@ -425,13 +410,6 @@ class MeshFlow:
         """Return the cells (n,) of tetrahedra."""
         cells: Ints = self.mesh.tets[hosts, 0] - np.int32(self.mesh.n_points)
         return cells
-
-    def mesh_sizes(self) -> MeshSizes:
-        """Return the sizes of all cells and boundary faces."""
-        mesh = self.mesh
-        areas = np.linalg.norm(mesh.boundary_areas, axis=1)
-        owner = mesh.owner[mesh.n_internal :]
-        return MeshSizes(mesh.volumes, owner, areas, mesh.boundary_centres, mesh.patch_start)
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Return the cube root of the volume of the hosts' cells, (n,), m."""

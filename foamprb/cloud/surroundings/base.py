@@ -57,8 +57,8 @@ class Survey(NamedTuple):
     dt: float
     """Tracking step, s."""
     arrays: Any = None
-    """Arguments of the flow's kernels before a run; without a mesh, if nodes hold parts of it. None before
-    further steps, for which only ``long_step`` is read."""
+    """Arguments of the flow's kernels before a run. None before further steps, for which only
+    ``long_step`` is read."""
 
 
 class Remarks(NamedTuple):

@@ -61,10 +61,6 @@ def test_the_flow_is_that_of_the_whole_to_the_last_bit(written):
     assert parts.patches == whole.patches
     for name, a, b in zip(whole.arrays()._fields, whole.arrays(0.1), parts.arrays(0.1), strict=True):
         np.testing.assert_array_equal(a, b, err_msg=name)
-    counts = DecomposedCase(written).processors.cells(MESH)
-    assert counts.tolist() == [
-        len(FoamFile(written / f"processor{k}" / MESH / "cellProcAddressing").labels()) for k in range(3)
-    ]
     assert parts.notes == ("The flow was put together from 3 processor folders.", *whole.notes)
 
 
@@ -102,12 +98,11 @@ def test_collated_files_are_read(written, tmp_path):
         assert is_only_decomposed(case)
         np.testing.assert_array_equal(read_parts(case, 0.5).arrays().nodes, whole.arrays().nodes)
         assert main(["info", "-case", str(case)]) == 0
-        processors = DecomposedCase(case).processors
-        assert processors.cells(MESH).tolist() == DecomposedCase(written).processors.cells(MESH).tolist()
-        processors.selected = range(1, 3)
-        for file, k in zip(processors.files(MESH / "owner"), (1, 2), strict=True):
+        files = DecomposedCase(case).processors.files(MESH / "owner")
+        for k, file in enumerate(files):
             path = written / f"processor{k}" / MESH / "owner"
             np.testing.assert_array_equal(file.labels(), FoamFile(path).labels())
+        assert len(files) == 3
     cut = tmp_path / "one/processors3/constant/polyMesh/owner"
     cut.write_bytes(cut.read_bytes()[:-40])
     with pytest.raises(InputError, match=r"owner: byte .* the file of processor 2"):
