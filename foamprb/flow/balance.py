@@ -179,7 +179,6 @@ def closed_pieces(mesh: Mesh, pairs: FacePairs, free: Mask) -> Ints:
     from scipy.sparse.csgraph import connected_components
 
     n, outer = mesh.n_internal, mesh.owner[mesh.n_internal :]
-
     sides = (mesh.owner[:n], outer[pairs.faces]), (mesh.neighbour, outer[pairs.others])
     ends = tuple(np.concatenate(side) for side in sides)
     links = sparse.coo_array((np.ones(len(ends[0]), dtype=np.int8), ends), shape=2 * (mesh.n_cells,))
