@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from foam_writer import decompose, header, read_fields
+from foam_writer import decompose, read_fields
 from paths import ROOT
 from pipe_case import edit, short_case, with_eddies
 from transient_case import SCALE, scaled, write_transient_case
