@@ -318,8 +318,8 @@ def spheres(
     Examples
     --------
     >>> p = spheres([[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0]], d=5e-6, rho=1050.0, mu=[100.0, 200.0])
-    >>> p.size, p.D.tolist()
-    (2, [0.0, 0.0])
+    >>> p.size, p.mu.tolist()
+    (2, [100.0, 200.0])
     """
     p = empty(len(x))
     p.x[:] = p.x0[:] = x
