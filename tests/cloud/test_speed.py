@@ -6,13 +6,13 @@ gets faster, lower the number in COST: the message of a failing test has the fig
 
 from __future__ import annotations
 
-import platform
 import re
 import time
 
 import numpy as np
 import pytest
 from paths import PIPE
+from processor import has_avx2
 
 import foamprb
 from foamprb.cloud.block import Medium
@@ -111,7 +111,7 @@ def caller(*arguments):
     called(*arguments)
 
 
-@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
+@pytest.mark.skipif(not has_avx2(), reason="reads assembly for AVX2")
 @pytest.mark.parametrize("stage", [predict_inertial, lift], ids=["traced", "compiled by numba"])
 def test_stage_is_vectorised(stage, monkeypatch, tmp_path):
     """Beside walls, where stages are longest. A cached function cannot be inspected."""
