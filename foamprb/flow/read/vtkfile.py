@@ -55,10 +55,28 @@ _OTHERS = {
     (".foam", ".openfoam"): "it stands for an OpenFOAM case. Allowed: -case DIR, without -flow.",
     (".cas.h5", ".dat.h5", ".cas", ".cas.gz"): "files of Fluent are not read. Export CGNS or EnSight from "
     "Fluent, or open them in ParaView and save the data as .vtu.",
+    (".plt", ".szplt"): "such files of Tecplot are not read. Export CGNS or EnSight from the solver, or open "
+    "them in ParaView and save the data as .vtu.",
+    (".step", ".stp", ".iges", ".igs", ".brep"): "a CAD geometry has neither cells nor velocities. Compute "
+    "the flow in it, and export the cells with their velocity as CGNS, EnSight or .vtu.",
+    (".stl", ".obj", ".ply", ".vtp"): "a surface has neither cells with volume nor the flow between them. "
+    "Export the cells of the fluid with their velocity as CGNS, EnSight or .vtu.",
 }
 """Hints by the endings of files that are no meshes."""
+_GMSH = {
+    b"$ParametricNodes": "$ParametricNodes is not read. Write the file with Gmsh's option "
+    "Mesh.SaveParametric 0.",
+    b" np.float64(": "its numbers are written as np.float64(…), by meshio with numpy 2, and cannot be read. "
+    "Write it by meshio.write(…, binary=True), or as .vtu.",
+}
+"""Hints by texts of Gmsh's files that are not read."""
 _TABLES = {".csv": 'delimiter=",", skiprows=1', ".tsv": "skiprows=1", ".txt": 'comments="%"'}
 """Options of reading tables by the endings of their names; the last ones are COMSOL's."""
+_EMPTY = "no grid with cells."
+_FLAT = (
+    "only points, lines and surfaces, no cells with volume. Export the cells of the fluid with their "
+    "velocity; 2-D data as one layer of cells."
+)
 _NEAR = 1e-3
 """Distance of faces that lie on each other, as a fraction of their size."""
 
@@ -90,10 +108,10 @@ def _require_mesh(path: Path) -> None:
             f"{path}: a table of points is no mesh. If its columns are x y z u v w and the domain is convex, "
             f"these lines of Python make a mesh of it (docs/tables.md has more):\n\n{lines}\n"
         )
-    if path.suffix == ".msh" and b"$ParametricNodes" in path.read_bytes():
-        raise InputError(
-            f"{path}: $ParametricNodes is not read. Write the file with Gmsh's option Mesh.SaveParametric 0."
-        )
+    if path.suffix == ".msh":
+        for text, hint in _GMSH.items():
+            if text in path.read_bytes():
+                raise InputError(f"{path}: {hint}")
 
 
 def times_of_file(path: Path) -> list[str]:
@@ -302,7 +320,8 @@ def grid_and_surfaces(data: Any, path: Path) -> tuple[Any, list[tuple[str, Any]]
     ]
     grids = [part for _, part in leaves if isinstance(part, pyvista.UnstructuredGrid) and part.n_cells]
     if not grids:
-        raise InputError(f"{path}: no grid with cells.")
+        reason = _FLAT if any(part.n_cells for _, part in leaves if hasattr(part, "n_cells")) else _EMPTY
+        raise InputError(f"{path}: {reason}")
     if len(grids) > 1:
         grids = [pyvista.merge(grids, merge_points=False)]
     surfaces = [(name, part) for name, part in leaves if isinstance(part, pyvista.PolyData) and part.n_faces]
@@ -322,10 +341,12 @@ def solid_cells(grid: Any, path: Path) -> tuple[Any, list[str]]:
     """Return the grid without its points, lines and surfaces, coinciding points merged; and notes."""
     kinds = np.unique(grid.celltypes).tolist()
     _require_lists(grid, path)
+    flat = np.isin(grid.celltypes, [kind for kind in kinds if load_pyvista().CellType(kind).dimension < 3])
+    if flat.all():
+        raise InputError(f"{path}: {_FLAT}")
     if not set(kinds) & {*CELL_KINDS, *CURVED}:
         raise InputError(f"{path}: no cells of the allowed kinds {', '.join(CELL_KINDS.values())}.")
     notes = []
-    flat = np.isin(grid.celltypes, [kind for kind in kinds if load_pyvista().CellType(kind).dimension < 3])
     if flat.any():
         notes.append(f"{flat.sum()} points, lines and surfaces among the cells are left out.")
         grid = grid.extract_cells(np.flatnonzero(~flat))

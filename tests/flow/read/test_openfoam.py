@@ -515,7 +515,7 @@ def test_a_surface_is_no_mesh(tmp_path):
     pipe(2).extract_surface(algorithm="dataset_surface").cast_to_unstructured_grid().save(
         tmp_path / "surface.vtu"
     )
-    with pytest.raises(InputError, match="no cells of the allowed kinds"):
+    with pytest.raises(InputError, match="no cells with volume"):
         read_mesh_file(tmp_path / "surface.vtu")
 
 

@@ -10,6 +10,7 @@ import h5py
 import meshio
 import numpy as np
 import pytest
+import pyvista
 from mesh_shapes import block, pipe
 
 from foamprb.errors import InputError
@@ -127,12 +128,42 @@ def test_a_series_of_xdmf_is_a_transient_flow(grid_first, tmp_path, monkeypatch)
         ("case.foam", "", "stands for an OpenFOAM case. Allowed: -case DIR, without -flow"),
         ("flow.cas.h5", "", "files of Fluent are not read. Export CGNS or EnSight"),
         ("flow.msh", "$ParametricNodes", "ParametricNodes is not read. .* Mesh.SaveParametric 0"),
+        ("flow.plt", "#!TDV112", "such files of Tecplot are not read. Export CGNS or EnSight"),
+        ("part.STEP", "ISO-10303-21;", "a CAD geometry has neither cells nor velocities. .* as CGNS"),
+        ("wall.stl", "solid wall", "a surface has neither cells with volume .* as CGNS"),
     ],
 )
 def test_files_that_are_not_read_say_what_to_do(name, content, message, tmp_path):
     (tmp_path / name).write_text(content)
     with pytest.raises(InputError, match=message):
         read_mesh_file(tmp_path / name)
+
+
+@pytest.mark.parametrize("where", ["point_data", "cell_data"])
+def test_text_of_gmsh_with_data_says_what_to_do(where, tmp_path):
+    """Of meshio its numbers are not readable; those of Gmsh are, and binary ones."""
+    shape = block(1, 0.0)
+    U = np.arange(24.0).reshape(8, 3) if where == "point_data" else [np.array([[1.0, 2.0, 3.0]])]
+    mesh = meshio.Mesh(np.asarray(shape.points), [("hexahedron", shape.cells[None, 1:])], **{where: {"U": U}})
+    meshio.write(tmp_path / "text.msh", mesh, file_format="gmsh22", binary=False)
+    text = (tmp_path / "text.msh").read_text()
+    if "np.float64(" in text:
+        with pytest.raises(InputError, match=r"np\.float64.*by meshio\.write\(…, binary=True\)"):
+            read_mesh_file(tmp_path / "text.msh")
+    (tmp_path / "plain.msh").write_text(re.sub(r"np\.float64\((\S+)\)", r"\1", text))
+    meshio.write(tmp_path / "binary.msh", mesh, file_format="gmsh22", binary=True)
+    plain, binary = (read_mesh_file(tmp_path / f"{name}.msh").at_nodes()[1] for name in ("plain", "binary"))
+    assert plain == pytest.approx(binary)
+    assert plain[-1] == pytest.approx([10.5, 11.5, 12.5] if where == "point_data" else [1.0, 2.0, 3.0])
+
+
+def test_files_of_surfaces_say_what_to_export(tmp_path):
+    surface = block(1, 0.0).extract_surface(algorithm="dataset_surface")
+    image = pyvista.ImageData(dimensions=(3, 3, 1))
+    for data in (surface, surface.cast_to_unstructured_grid(), image):
+        pyvista.MultiBlock({"internal": data}).save(tmp_path / "flow.vtm")
+        with pytest.raises(InputError, match=r"no cells with volume\. Export the cells of the fluid"):
+            read_mesh_file(tmp_path / "flow.vtm")
 
 
 def test_a_time_that_is_there_twice_is_refused(tmp_path):

@@ -139,8 +139,10 @@ def test_of_several_parts_one_is_a_grid_and_the_others_surfaces(tmp_path):
     assert grid.n_cells == 1
     assert [name for name, _ in surfaces] == ["wall"]
     assert grid_and_surfaces(cube, path)[1] == []
-    with pytest.raises(InputError, match="no grid with cells"):
+    with pytest.raises(InputError, match="no cells with volume"):
         grid_and_surfaces(inner, path)
+    with pytest.raises(InputError, match="no grid with cells"):
+        grid_and_surfaces(pyvista.MultiBlock({"nothing": None}), path)
     assert grid_and_surfaces(pyvista.MultiBlock([cube, block(2, 0.0)]), path)[0].n_cells == 9
     twice = pyvista.MultiBlock({"mesh": cube, "a": pyvista.MultiBlock({"w": sphere}),
                                 "b": pyvista.MultiBlock({"w": sphere})})  # fmt: skip
@@ -158,11 +160,13 @@ def test_points_lines_and_surfaces_of_a_grid_are_left_out(tmp_path):
     assert sorted(found.celltypes) == [10, 12]
     whole = block(1, 0.0)
     assert solid_cells(whole, path) == (whole, [])
-    flat = pyvista.UnstructuredGrid([4, 0, 1, 3, 2], [9], points)
+    with pytest.raises(InputError, match=r"no cells with volume\. Export .*; 2-D data as one layer of cells"):
+        solid_cells(pyvista.UnstructuredGrid([4, 0, 1, 3, 2], [9], points), path)
+    hull = pyvista.UnstructuredGrid([8, *range(8)], [pyvista.CellType.CONVEX_POINT_SET], points)
     with pytest.raises(
         InputError, match="no cells of the allowed kinds tetrahedron, voxel, hexahedron, prism"
     ):
-        solid_cells(flat, path)
+        solid_cells(hull, path)
 
 
 @pytest.mark.parametrize(
