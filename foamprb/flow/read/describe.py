@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,6 +15,9 @@ from foamprb.flow.read.fluid import describe_viscosity
 from foamprb.flow.read.openfoam import Case
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import listed
+
+_ALIKE = 4
+"""Number of times with the same fields from which one line stands for them."""
 
 
 class TimeInfo(NamedTuple):
@@ -57,11 +61,19 @@ class CaseInfo:
                 * bool(self.viscosity)
             ),
             "Times and fields",
-            *(
-                f"    {time.name:20s} " + ", ".join(f"{name} ({kind})" for name, kind in time.fields.items())
-                for time in self.times
-            ),
+            *self._lines_of_times(),
         ]
+
+    def _lines_of_times(self) -> list[str]:
+        """Return a line for each time; one for many successive times with the same fields."""
+        lines = []
+        for fields, group in groupby(self.times, key=lambda time: time.fields):
+            names = [time.name for time in group]
+            if len(names) >= _ALIKE:
+                names = [f"{names[0]} to {names[-1]} ({len(names)} times)"]
+            text = ", ".join(f"{name} ({kind})" for name, kind in fields.items())
+            lines += [f"    {name:20s} {text}" for name in names]
+        return lines
 
 
 def describe(case: Case) -> CaseInfo:

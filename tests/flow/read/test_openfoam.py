@@ -175,6 +175,15 @@ def test_description(case):
     assert np.array_equal(info.bounds, [[0.0] * 3, [1.0] * 3])
 
 
+def test_many_times_with_the_same_fields_have_one_line(case):
+    for k in range(100):
+        shutil.copytree(case / "0.5", case / f"{20 + k}")
+    (case / "50/T").write_text((case / "0.5/p").read_text().replace("object p", "object T"))
+    lines = describe(Case(case)).lines()
+    times = [line.split("  ")[2] for line in lines[lines.index("Times and fields") + 1 :]]
+    assert times == ["0 to 49 (33 times)", "50", "51 to 119 (69 times)"]
+
+
 def test_a_mesh_that_moves_is_described_as_it_is_at_the_last_time(case):
     """Of a box in the unit cube, one corner moves from 0 to −1."""
     for time, x in (("0.5", -7), ("1e1", -1)):
