@@ -8,7 +8,15 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from foamprb.cli.options import add_browser, add_cache, add_flow, show_page, source_of
+from foamprb.cli.options import (
+    add_browser,
+    add_cache,
+    add_dictionary,
+    add_flow,
+    dictionary_of,
+    show_page,
+    source_of,
+)
 from foamprb.errors import InputError, RunInterrupted
 
 if TYPE_CHECKING:
@@ -45,7 +53,7 @@ def add_device(parser: argparse.ArgumentParser) -> None:
     add("--plane", metavar="PLANE", help='where bodies are seen: x=0.01, or "(0.01 0 0) (1 0 0)"')
     add("--view", metavar="AXIS", help="direction of the camera: x, y, z or a vector")
     add("--time", metavar="TIME", help="time of the flow [latest]")
-    add("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
+    add_dictionary(parser)
     add("--threads", type=int, metavar="N", help="threads [all processors]")
     add("--outsideLibs", action="store_true", help="run also Python files of libs outside the case")
 
@@ -57,7 +65,7 @@ def read_device(arguments: argparse.Namespace, output: Path | None = None) -> Jo
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
     return prepare(
-        arguments.case, arguments.time, arguments.dict, arguments.threads, source_of(arguments),
+        arguments.case, arguments.time, dictionary_of(arguments), arguments.threads, source_of(arguments),
         precompile=True, outside_libs=arguments.outsideLibs, output=output,
     )  # fmt: skip
 

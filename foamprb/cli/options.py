@@ -57,6 +57,34 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
     add("--scale", type=float, metavar="S", help="lengths in a mesh file times S are m [1]")
 
 
+def add_dictionary(parser: argparse.ArgumentParser) -> None:
+    """Add the option ``-dict``."""
+    parser.add_argument(
+        "--dict",
+        type=Path,
+        metavar="FILE",
+        help="settings, here or in the case [constant/softCloudProperties]",
+    )
+
+
+def dictionary_of(arguments: argparse.Namespace) -> Path | None:
+    """Return the file of ``-dict``: relative to the working folder, or to the case if it is only there.
+
+    Raises
+    ------
+    InputError
+        If there is no such file.
+    """
+    file: Path | None = arguments.dict
+    if file is None:
+        return None
+    if file.is_file():
+        return file.absolute()
+    if (arguments.case / file).is_file():
+        return file
+    raise InputError(f"-dict {file}: no such file, neither here nor in the case {arguments.case}.")
+
+
 def add_cache(parser: argparse.ArgumentParser) -> None:
     """Add the option ``-cache``."""
     parser.add_argument(

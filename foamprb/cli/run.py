@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from foamprb.cli.options import add_cache, add_flow, source_of
+from foamprb.cli.options import add_cache, add_dictionary, add_flow, dictionary_of, source_of
 from foamprb.errors import InputError, UsageError
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     when.add_argument(
         "--latestTime", action="store_true", help="latest time of the flow (default for steady flow)"
     )
-    parser.add_argument("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
+    add_dictionary(parser)
     start = parser.add_mutually_exclusive_group()
     start.add_argument("--resume", action="store_true", help="continue from the last checkpoint, if any")
     start.add_argument(
@@ -67,7 +67,7 @@ def execute(arguments: argparse.Namespace) -> int:
     job = prepare(
         arguments.case,
         "latestTime" if arguments.latestTime else arguments.time,
-        arguments.dict,
+        dictionary_of(arguments),
         arguments.threads or comm.threads,
         source_of(arguments),
         precompile=comm.size == 1 and not arguments.dry_run,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import os
 import re
@@ -11,6 +12,7 @@ import subprocess
 import sys
 import time
 from itertools import product
+from pathlib import Path
 
 import pytest
 from paths import PIPE, ROOT
@@ -19,6 +21,8 @@ from pipe_case import copy_of_pipe, edit
 from foamprb.cli import main
 from foamprb.cli.main import COMMANDS as ALL
 from foamprb.cli.main import GROUPS, _parser
+from foamprb.cli.options import dictionary_of
+from foamprb.errors import InputError
 
 COMMANDS = ("run", "info", "compile")
 # As on a user's computer, where Python buffers what it writes into a pipe.
@@ -53,6 +57,28 @@ def test_help_has_groups_and_examples_that_can_be_read(capsys):
         out = capsys.readouterr().out
         assert f"example: foamprb {command.EXAMPLE}" in " ".join(out.split())
         assert "--" not in out
+
+
+def test_settings_are_relative_to_the_user_or_else_to_the_case(tmp_path, monkeypatch):
+    case, here = tmp_path / "case", tmp_path / "here"
+    for folder, names in ((case, "ab"), (here, "bc")):
+        folder.mkdir()
+        for name in names:
+            (folder / name).touch()
+    monkeypatch.chdir(here)
+    options = argparse.Namespace(case=Path("../case"), dict=None)
+    assert dictionary_of(options) is None
+    for name, expected in (
+        ("a", case / "a"),
+        ("b", here / "b"),
+        ("c", here / "c"),
+        ("../here/c", here / "c"),
+    ):
+        options.dict = Path(name)
+        assert (options.case / dictionary_of(options)).resolve() == expected
+    options.dict = Path("d")
+    with pytest.raises(InputError, match=r"-dict d: no such file, neither here nor in the case \.\./case\."):
+        dictionary_of(options)
 
 
 def test_without_a_command_the_help_is_a_mistake(capsys):

@@ -76,7 +76,8 @@ def write_box(folder):
 
 
 def test_settings_of_a_case_that_cannot_be_written(case, tmp_path, capsys, monkeypatch):
-    file = tmp_path / "mine" / "settings"
+    monkeypatch.chdir(tmp_path)
+    file = Path("mine/settings")
     with monkeypatch.context() as patch:
         patch.setattr(
             Path, "open", lambda *_, **__: (_ for _ in ()).throw(OSError(30, "Read-only file system"))
@@ -86,7 +87,7 @@ def test_settings_of_a_case_that_cannot_be_written(case, tmp_path, capsys, monke
         with pytest.raises(InputError, match=r"Read-only file system\. The option -output FILE writes"):
             write_template(case)
     assert main(["init", "-case", str(case), "-output", str(file)]) == 0
-    assert f"foamprb run -case {case} -dict {file} -dry-run" in capsys.readouterr().out
+    assert f"foamprb run -case {case} -dict {tmp_path / file} -dry-run" in capsys.readouterr().out
     assert not (case / "constant/softCloudProperties").exists()
     assert main(["run", "-dry-run", "-case", str(case), "-dict", str(file)]) == 0
 

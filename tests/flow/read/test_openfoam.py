@@ -180,7 +180,7 @@ def test_many_times_with_the_same_fields_have_one_line(case):
         shutil.copytree(case / "0.5", case / f"{20 + k}")
     (case / "50/T").write_text((case / "0.5/p").read_text().replace("object p", "object T"))
     lines = describe(Case(case)).lines()
-    times = [line.split("  ")[2] for line in lines[lines.index("Times and fields") + 1 :]]
+    times = [line[4:24].strip() for line in lines[lines.index("Times and fields") + 1 :]]
     assert times == ["0 to 49 (33 times)", "50", "51 to 119 (69 times)"]
 
 
