@@ -16,6 +16,9 @@ EXAMPLE = "lut -diameters 6e-6 16e-6 -moduli 200 5000 -plane x=1e-3"
 
 log = logging.getLogger("foamprb")
 
+_LARGE = 1e-3
+"""Diameter, m, from which a number is probably one of another unit."""
+
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command."""
@@ -41,6 +44,12 @@ def execute(arguments: argparse.Namespace) -> int:
         low, high = getattr(arguments, name)
         if not 0.0 < low < high < math.inf:
             raise InputError(f"-{name} {low:g} {high:g}: two numbers > 0 are needed, the smaller one first.")
+    low, high = arguments.diameters
+    if high >= _LARGE:
+        raise InputError(
+            f"-diameters {low:g} {high:g}: are metres meant? Bodies in a cytometer are smaller than "
+            f"{_LARGE:g} m: diameters of {low:g} to {high:g} um are -diameters {low:g}e-6 {high:g}e-6."
+        )
     for name in ("channelWidth", "flowRate"):
         value = getattr(arguments, name)
         if value is not None and not 0.0 < value < math.inf:

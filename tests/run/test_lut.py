@@ -126,6 +126,14 @@ def test_command_takes_width_and_flow_rate_from_the_case(tmp_path, capsys):
     assert "-moduli 10000 1000: two numbers > 0 are needed, the smaller one first." in capsys.readouterr().err
 
 
+def test_diameters_in_micrometres_are_questioned(tmp_path, capsys):
+    options = ["-case", str(tmp_path), "-diameters", "6", "14", "-moduli", "200", "5000"]
+    assert main(["lut", *options]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("--> foamprb Error : -diameters 6 14: are metres meant? ")
+    assert said.endswith(" smaller than 0.001 m: diameters of 6 to 14 um are -diameters 6e-6 14e-6.\n")
+
+
 def test_moduli_of_the_table_of_dclab_are_met(cytometer):
     """Every fifth of the points of docs/moduli.md, with deformations from 0.006 to 0.05."""
     emodulus = pytest.importorskip("dclab.features.emodulus")
