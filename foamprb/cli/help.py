@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 
+from foamprb.errors import InputError
+
 PURPOSE = "explain an entry, a dictionary or a type of the settings"
 EXAMPLE = "help shearModulus"
 
@@ -17,5 +19,15 @@ def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.settings.help import explain
 
-    print("\n".join(explain(arguments.entry)))
+    word = arguments.entry
+    lines = []
+    if word in arguments.purposes:
+        lines = [f"foamprb {word}: {arguments.purposes[word]}. Options: foamprb {word} -help"]
+    try:
+        explained = explain(word)
+    except InputError:
+        if not lines:
+            raise
+        explained = []
+    print("\n".join([*lines, *explained]))
     return 0

@@ -255,7 +255,9 @@ def _do(words: Sequence[str], typed: Sequence[str], comm: Communicator | None) -
     if words and not words[0].startswith("-") and words[0] not in COMMANDS:
         raise UsageError(f"unknown command '{words[0]}'. {suggestion(words[0], COMMANDS)}")
     try:
-        parsed, unknown = _parser().parse_known_args(words, argparse.Namespace(comm=comm))
+        purposes = {name: command.PURPOSE for name, command in COMMANDS.items()}
+        given = argparse.Namespace(comm=comm, purposes=purposes)
+        parsed, unknown = _parser().parse_known_args(words, given)
     except UsageError as error:
         raise UsageError(_as_typed(str(error), words, typed)) from None
     if unknown:

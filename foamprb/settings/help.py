@@ -17,6 +17,8 @@ from typing import NamedTuple
 from foamprb.errors import InputError, suggestion
 
 FILE = Path(__file__).with_name("entries.json")
+_SHORTEST, _MOST_RELATED = 3, 12
+"""Shortest word that is searched for in names and texts, and most lines about related entries."""
 
 
 class EntryText(NamedTuple):
@@ -95,10 +97,12 @@ def meaning(section: str, entry: str, model: str = "") -> EntryText:
 def explain(word: str | None) -> list[str]:
     """Return the documentation of an entry, a dictionary, a type or a value; without a word, a list of all.
 
+    Of an unknown name it is a list of entries that have the word in their names or texts.
+
     Raises
     ------
     InputError
-        If the name is unknown; with the most similar name.
+        If there are none; with the most similar name.
     """
     if word is None:
         return _overview()
@@ -126,6 +130,8 @@ def explain(word: str | None) -> list[str]:
         lines = [line for text in within for line in _entry_lines(text)]
     if lines:
         return lines[:-1]
+    if related := _related(wanted):
+        return [f"No entry is named '{word}'. Related ones; foamprb help NAME has details:", *related]
     paths = [text.full_name for text in everything if not text.why_idle]
     names = {part for path in paths for part in path.split("/") if not part.startswith("(")}
     names |= {value for text in everything for value in text.values}
@@ -133,6 +139,28 @@ def explain(word: str | None) -> list[str]:
     close = suggestion(word, names)
     question = close.partition(" Allowed:")[0] if close.startswith("Did") else "foamprb help lists all names."
     raise InputError(f"no entry, dictionary, type or value '{word}'. {question}")
+
+
+def _related(word: str) -> list[str]:
+    """Return lines about entries, types and values whose name contains a word, or whose text has it."""
+    if len(word) < _SHORTEST:
+        return []
+    in_text = re.compile(rf"\b{re.escape(word)}s?\b", re.IGNORECASE)
+    named, described = {}, {}
+    for text in _texts().entries:
+        if text.why_idle:
+            continue
+        if word.lower() in text.name.rpartition("/")[2].lower():
+            named[text.path] = text.meaning
+        elif in_text.search(plain(text.meaning)):
+            described[text.path] = text.meaning
+        named |= {f"{text.full_name} {value}": s for value, s in text.values.items() if in_text.search(s)}
+    for section in _texts().sections.values():
+        models = section.models.items()
+        named |= {f"{section.path}: type {model}": s for model, s in models if in_text.search(plain(s))}
+    lines = [f"    {name}: {plain(said)}" for name, said in (named or described).items()]
+    more = [f"    … and {len(lines) - _MOST_RELATED} more"] if len(lines) > _MOST_RELATED else []
+    return [*lines[:_MOST_RELATED], *more]
 
 
 def _overview() -> list[str]:

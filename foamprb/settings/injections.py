@@ -73,7 +73,7 @@ class Solid:
             "",
             "required",
             {
-                "neoHooke": "rubber-like solid with a constant shear modulus, the usual choice",
+                "neoHooke": "rubber-like solid of constant shear modulus, as a microgel; the usual choice",
                 "mooneyRivlin": "rubber-like solid whose energy also depends on the second invariant",
                 "gent": "solid that stiffens towards a largest stretch, as chains of a gel do",
                 "saintVenantKirchhoff": "linear law of large rotations, for small strains",

@@ -59,6 +59,15 @@ def test_help_has_groups_and_examples_that_can_be_read(capsys):
         assert "--" not in out
 
 
+def test_help_leads_to_commands(capsys):
+    """Also of a name that is an entry too."""
+    for name in ("fit", "view"):
+        assert main(["help", name]) == 0
+        first, *others = capsys.readouterr().out.splitlines()
+        assert first == f"foamprb {name}: {ALL[name].PURPOSE}. Options: foamprb {name} -help"
+        assert bool(others) == (name == "view")
+
+
 def test_settings_are_relative_to_the_user_or_else_to_the_case(tmp_path, monkeypatch):
     case, here = tmp_path / "case", tmp_path / "here"
     for folder, names in ((case, "ab"), (here, "bc")):

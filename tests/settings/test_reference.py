@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 
@@ -120,6 +121,20 @@ def test_help_explains_every_value_of_an_entry():
     assert "stochasticDispersionRASCoeffs/seed" in "\n".join(explain("stochasticDispersionRAS"))
     with pytest.raises(InputError, match=r"Did you mean 'capsule'\?"):
         explain("capsul")
+
+
+def test_help_leads_from_other_words_to_entries():
+    first, *others = explain("modulus")
+    assert first == "No entry is named 'modulus'. Related ones; foamprb help NAME has details:"
+    assert any(line.startswith("    constantProperties/solid/shearModulus: shear modulus") for line in others)
+    assert any(
+        line.startswith("    constantProperties/solid/type neoHooke: ") for line in explain("microgel")
+    )
+    lines = explain("ion")
+    assert len(lines) == 14
+    assert re.fullmatch(r"    … and \d+ more", lines[-1])
+    with pytest.raises(InputError, match="foamprb help lists all names"):
+        explain("xyzzy")
 
 
 def test_materials_and_models_have_a_sentence_each():
