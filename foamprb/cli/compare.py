@@ -6,7 +6,7 @@ import argparse
 import logging
 from pathlib import Path
 
-from foamprb.cli.options import add_browser, show_page
+from foamprb.cli.options import add_browser, output_path, show_page
 
 PURPOSE = "write a page about several runs: fates, deposition, times, deformation"
 EXAMPLE = "compare 'study/*'"
@@ -18,7 +18,13 @@ def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command."""
     add = parser.add_argument
     add("runs", nargs="+", help="cases, or folders of results, such as study/*")
-    add("--output", type=Path, default=Path("comparison.html"), metavar="FILE", help="page [comparison.html]")
+    add(
+        "--output",
+        type=output_path,
+        default=Path("comparison.html"),
+        metavar="FILE",
+        help="page [comparison.html]",
+    )
     add_browser(parser)
 
 

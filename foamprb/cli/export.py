@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import argparse
 import logging
-from pathlib import Path
 
-from foamprb.cli.options import add_cloud, add_flow, fraction, source_of
+from foamprb.cli.options import add_cloud, add_flow, fraction, output_path, source_of
 
 PURPOSE = "write the results for OpenFOAM, or as one VTKHDF file"
 EXAMPLE = "export vtkhdf -case myCase -output bodies.vtkhdf"
@@ -24,7 +23,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
         choices=("openfoam", "vtkhdf", "stress"),
         help="format of the files, or their stress for a solver",
     )
-    add("--output", type=Path, metavar="PATH", help="file or folder [postProcessing/CLOUD/...]")
+    add("--output", type=output_path, metavar="PATH", help="file or folder [postProcessing/CLOUD/...]")
     add(
         "--volumeFraction",
         type=fraction,

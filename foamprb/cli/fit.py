@@ -14,6 +14,7 @@ from foamprb.cli.options import (
     add_dictionary,
     add_flow,
     dictionary_of,
+    output_path,
     show_page,
     source_of,
 )
@@ -42,7 +43,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
     )
     add("--unknown", default="shearModulus", metavar="NAMES", help='"shearModulus viscosity" [shearModulus]')
     add_device(parser)
-    add("--output", type=Path, metavar="DIR", help="folder of the results [postProcessing in the case]")
+    add(
+        "--output", type=output_path, metavar="DIR", help="folder of the results [postProcessing in the case]"
+    )
     add("--overwrite", action="store_true", help="start over [continue a fit that was stopped]")
     add_browser(parser)
 

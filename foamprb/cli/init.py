@@ -6,7 +6,7 @@ import argparse
 import shlex
 from pathlib import Path
 
-from foamprb.cli.options import add_flow, source_of
+from foamprb.cli.options import add_flow, output_path, source_of
 
 PURPOSE = "write an initial constant/softCloudProperties for this case"
 EXAMPLE = "init -case myCase"
@@ -16,7 +16,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command."""
     add_flow(parser)
     parser.add_argument(
-        "--output", type=Path, metavar="FILE", help="the settings [constant/softCloudProperties]"
+        "--output", type=output_path, metavar="FILE", help="the settings [constant/softCloudProperties]"
     )
 
 

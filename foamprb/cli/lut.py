@@ -8,7 +8,7 @@ import math
 from pathlib import Path
 
 from foamprb.cli.fit import add_device, read_device
-from foamprb.cli.options import add_cache, add_flow
+from foamprb.cli.options import add_cache, add_flow, output_path
 from foamprb.errors import InputError
 
 PURPOSE = "write a table of moduli over area and deformation, for dclab"
@@ -33,7 +33,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--channelWidth", type=float, metavar="W", help="m [the smallest width of the flow]")
     add("--flowRate", type=float, metavar="Q", help="m3/s [through the openings]")
     add("--identifier", metavar="NAME", help="name of the table in dclab [foamprb-CLOUD]")
-    add("--output", type=Path, default=Path("lut.txt"), metavar="FILE", help="the table [lut.txt]")
+    add("--output", type=output_path, default=Path("lut.txt"), metavar="FILE", help="the table [lut.txt]")
 
 
 def execute(arguments: argparse.Namespace) -> int:

@@ -106,6 +106,17 @@ def show_page(arguments: argparse.Namespace, page: Path) -> int:
     return 0
 
 
+def output_path(text: str) -> Path:
+    """Return a file or folder of results, which may be absent; a device or a pipe would be replaced."""
+    path = Path(text)
+    if not text:
+        raise argparse.ArgumentTypeError("the name is empty; that of a file or folder is needed")
+    streams = path.parent.absolute() in (Path("/dev"), Path("/dev/fd"), Path("/proc/self/fd"))
+    if streams or (path.exists() and not path.is_file() and not path.is_dir()):
+        raise argparse.ArgumentTypeError(f"{text} is a device or a pipe; a file or folder is needed")
+    return path
+
+
 def fraction(text: str) -> float:
     """Return a number above 0 and below 1."""
     value = float(text)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
-from foamprb.cli.options import add_browser, add_cloud, add_flow, show_page, source_of
+from foamprb.cli.options import add_browser, add_cloud, add_flow, output_path, show_page, source_of
 from foamprb.errors import InputError
 
 PURPOSE = "write a page about a run and its results"
@@ -17,7 +16,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add_flow(parser)
     add_cloud(parser)
     add = parser.add_argument
-    add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/report.html]")
+    add("--output", type=output_path, metavar="FILE", help="the page [postProcessing/CLOUD/report.html]")
     add("--paths", metavar="IDS", help="particles whose D is plotted over time, 3,17,20 [a selection]")
     add_browser(parser)
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from foamprb.cli.options import add_cache, add_dictionary, add_flow, dictionary_of, source_of
+from foamprb.cli.options import add_cache, add_dictionary, add_flow, dictionary_of, output_path, source_of
 from foamprb.errors import InputError, UsageError
 
 if TYPE_CHECKING:
@@ -39,7 +38,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
         "--outsideLibs", action="store_true", help="run also Python files of libs outside the case"
     )
     parser.add_argument(
-        "--output", type=Path, metavar="DIR", help="folder of the results [postProcessing in the case]"
+        "--output", type=output_path, metavar="DIR", help="folder of the results [postProcessing in the case]"
     )
     parser.add_argument(
         "--estimateErrors",

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 import re
 from importlib.metadata import version
-from pathlib import Path
 
-from foamprb.cli.options import add_browser, add_cloud, add_flow, show_page, source_of
+from foamprb.cli.options import add_browser, add_cloud, add_flow, output_path, show_page, source_of
 from foamprb.errors import InputError
 
 PURPOSE = "show the bodies of a run: a page for any browser"
@@ -19,11 +18,13 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add_flow(parser)
     add_cloud(parser)
     add = parser.add_argument
-    add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/CLOUD.html]")
+    add("--output", type=output_path, metavar="FILE", help="the page [postProcessing/CLOUD/CLOUD.html]")
     add_browser(parser)
     kind = parser.add_mutually_exclusive_group()
-    kind.add_argument("--png", type=Path, metavar="FILE", help="write a picture, not the page")
-    kind.add_argument("--film", type=Path, metavar="FILE", help="write a film, .mp4 or .gif, not the page")
+    kind.add_argument("--png", type=output_path, metavar="FILE", help="write a picture, not the page")
+    kind.add_argument(
+        "--film", type=output_path, metavar="FILE", help="write a film, .mp4 or .gif, not the page"
+    )
     add("--time", type=float, metavar="TIME", help="first time shown [the last, or that with most bodies]")
     add("--colour", "--color", default="taylorDeformation", metavar="ARRAY",
         help="array, or array:component, to colour by [taylorDeformation]")  # fmt: skip

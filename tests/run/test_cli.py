@@ -68,6 +68,20 @@ def test_help_leads_to_commands(capsys):
         assert bool(others) == (name == "view")
 
 
+@pytest.mark.parametrize("name", ["/dev/null", "/dev/stdout", "pipe", ""])
+@pytest.mark.parametrize(
+    "command",
+    ["run", "view", "report", "export", "init", "fit -measured m", "lut -diameters 1 2 -moduli 1 2"],
+)
+def test_devices_and_pipes_are_not_replaced(name, command, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    os.mkfifo("pipe")
+    assert main([*command.split(), "-output", name]) == 2
+    said = "-output: the name is empty;" if not name else f"-output: {name} is a device or a pipe;"
+    assert capsys.readouterr().err.startswith(f"--> foamprb Error : {said} ")
+    assert Path("pipe").is_fifo()
+
+
 def test_settings_are_relative_to_the_user_or_else_to_the_case(tmp_path, monkeypatch):
     case, here = tmp_path / "case", tmp_path / "here"
     for folder, names in ((case, "ab"), (here, "bc")):
