@@ -110,7 +110,9 @@ NonNegative = Bounds(0.0, math.inf, False, True, "a number >= 0")
 AtLeastOne = Bounds(1.0, math.inf, False, True, "an integer >= 1")
 Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
 Angle = Bounds(0.0, 180.0, False, False, "an angle from 0 to 180 degrees")
-PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")
+PoissonsRatio = Bounds(
+    -1.0, 0.5, True, True, "a number > -1 and < 0.5, such as 0.4999 for a solid that keeps its volume"
+)
 Positive3 = Each(Positive)
 Seed = Annotated[
     int,

@@ -18,6 +18,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.cloud.viscosity import medium_at, viscosity_at_nodes
 from foamprb.flow.base import Flow
 from foamprb.flow.nodes import NodeValues
+from foamprb.settings.settings import Settings
 from foamprb.settings.solution import Solution
 
 _MOST_NODES, _SMALL_SHARE = 20_000, 0.01
@@ -31,6 +32,10 @@ _SHORT_STEPS, _SMALL_TOLERANCE, _OFTEN = (1, 2), 1e-6, 20
 ``tools/benchmark -only observed``."""
 _MANY_STEPS = 1e7
 """Least number of steps of a particle above which the user is warned."""
+_LIGHT = 20.0
+"""Density below which a fluid is a gas, and a solid is unlikely, kg/m³."""
+_OF_GASES = (4e-6, 2e-4)
+"""Range of the viscosities of gases, Pa s."""
 SMALL_REYNOLDS = 0.1
 """Largest particle Reynolds number without a warning; the model assumes Stokes flow around the particle."""
 
@@ -150,6 +155,50 @@ def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> f
         growing = np.stack(np.broadcast_arrays(*growth), axis=-1).reshape(-1, 3, 3)
         return float(np.mean(np.linalg.eigvals(growing).real.max(axis=1) > limit))
     return float(np.mean(np.sqrt(3.0) * extension * times > STEADY_CAPILLARY))
+
+
+def doubtful_densities(settings: Settings) -> list[str]:
+    """Return a sentence for each density that is probably in g/cm³."""
+    fluid, sentences = settings.fluid, []
+    low, high = _OF_GASES
+    if fluid.nu is not None and fluid.rho < _LIGHT and not low <= fluid.rho * fluid.nu <= high:
+        sentences.append(
+            f"the density of the fluid is {fluid.rho:g} kg/m3 and its viscosity {fluid.rho * fluid.nu:.3g} "
+            f"Pa s, which no gas has. {_in_grams(fluid.rho)}"
+        )
+    for injection in settings.injections:
+        rho = injection.rho0 if isinstance(injection.rho0, float | int) else injection.rho0.limits[1]
+        if rho < _LIGHT and not MATERIALS[injection.solid.type].liquid:
+            sentences.append(
+                f"injection model {injection.name}: rho0 is {rho:g} kg/m3, less than solids have. "
+                f"{_in_grams(rho)}"
+            )
+    return sentences
+
+
+def _in_grams(rho: float) -> str:
+    return f"If {rho:g} g/cm3 are meant: {1000.0 * rho:g} kg/m3."
+
+
+def late_releases(settings: Settings, cloud: Cloud, injector: int, n: int) -> list[str]:
+    """Return a sentence if some of the n particles of an injection model are due after the end of the run."""
+    end, injection = settings.solution.endTime, settings.injections[injector]
+    late = sum(cloud.map_ranks(_count_late, injector, end))
+    if not late:
+        return []
+    which = f"{late} of {n} particles are" if late < n else f"none of {n} particles is"
+    when = "due at or after" if late < n else "released before"
+    duration = getattr(injection.model, "duration", 0.0)
+    lasting = f" and lasts {duration:g} s" if duration else ""
+    start = max(injection.model.SOI, cloud.start)
+    return [
+        f"injection model {injection.name}: {which} {when} endTime, {end:g} s: injection begins at "
+        f"{start:g} s{lasting}."
+    ]
+
+
+def _count_late(p: Particles, injector: int, end: float) -> int:
+    return int(np.count_nonzero((p.injector == injector) & (p.t0 >= end)))
 
 
 def costly_settings(solution: Solution, cloud: Cloud, steps: int) -> list[str]:

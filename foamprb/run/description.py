@@ -26,7 +26,14 @@ from foamprb.flow.jumps import medians
 from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
 from foamprb.results.record import RECORD_FORMAT
-from foamprb.run.checks import costly_settings, dimensionless_groups, extension_rates, validity_warnings
+from foamprb.run.checks import (
+    costly_settings,
+    dimensionless_groups,
+    doubtful_densities,
+    extension_rates,
+    late_releases,
+    validity_warnings,
+)
 from foamprb.settings.settings import Settings
 
 _PACKAGES = ("foamprb", "numpy", "numba", "vtk")
@@ -61,12 +68,14 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         if g.n:
             liquid = MATERIALS[models.material].liquid
             warnings += validity_warnings(g, models.integrator, f"injection model {injection.name}", liquid)
+            warnings += late_releases(settings, cloud, index, g.n)
     p = _surveyed(cloud)
     medium = medium_at(cloud.medium, flow, p, cloud.time) if models.surroundings else cloud.medium
     survey = Survey(p, flow, medium, cloud.dt, cloud.make_ready())
     remarks = [model.remarks(survey) for model in models.surroundings]
     notes = [line for remark in remarks for line in remark.notes]
     warnings += [line for remark in remarks for line in remark.warnings]
+    warnings += doubtful_densities(settings)
     warnings += costly_settings(settings.solution, cloud, steps)
     if cloud.size == 0:
         warnings.append("there is no particle: no injection model releases any.")

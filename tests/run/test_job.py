@@ -297,6 +297,27 @@ def test_doubtful_numbers_are_warned_of_with_their_size(case, capsys):
     assert "particle Reynolds number is" in out
 
 
+def test_releases_after_the_end_and_densities_in_grams_are_warned_of(case, capsys):
+    """Half of the injection through the inlet, and all of a point, are due too late."""
+    edit(case, r"endTime\s+1;", "endTime 0.05;")
+    edit(case, r"SOI\s+0;\s+U0", "SOI 2; U0")
+    edit(case, r"rho0\s+2560;", "rho0 2.56;")
+    edit(case, r"rhoInf\s+1.208;", "rhoInf 0.998; nu 1e-6;")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    out = capsys.readouterr().out
+    for text in (
+        "Ca1: none of 1 particles is released before endTime, 0.05 s: injection begins at 2 s.",
+        "inlet: 150 of 300 particles are due at or after endTime, 0.05 s: injection begins at 0 s and lasts "
+        "0.1 s.",
+        "inlet: rho0 is 2.56 kg/m3, less than solids have. If 2.56 g/cm3 are meant: 2560 kg/m3.",
+    ):
+        assert f"Warning : injection model {text}\n" in out
+    fluid = (
+        "Warning : the density of the fluid is 0.998 kg/m3 and its viscosity 9.98e-07 Pa s, which no gas has."
+    )
+    assert f"{fluid} If 0.998 g/cm3 are meant: 998 kg/m3.\n" in out
+
+
 def test_settings_that_cost_more_than_the_run_are_warned_of(case, capsys):
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
     assert "solution: " not in capsys.readouterr().out
