@@ -118,8 +118,8 @@ MISTAKES = [
     (
         "poissonsRatio 0.4",
         "poissonsRatio 0.5",
-        "solid/poissonsRatio is '0.5'. Allowed: a number > -1 and < 0.5, such as 0.4999 for a solid that keeps "
-        "its volume.",
+        "solid/poissonsRatio is '0.5'. Allowed: a number > -1 and < 0.5, such as 0.4999 for a solid that "
+        "keeps its volume.",
     ),
     (
         "poissonsRatio 0.4; shearModulus",
