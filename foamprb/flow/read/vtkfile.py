@@ -109,8 +109,9 @@ def _require_mesh(path: Path) -> None:
             f"these lines of Python make a mesh of it (docs/tables.md has more):\n\n{lines}\n"
         )
     if path.suffix == ".msh":
+        data = path.read_bytes()
         for text, hint in _GMSH.items():
-            if text in path.read_bytes():
+            if text in data:
                 raise InputError(f"{path}: {hint}")
 
 
