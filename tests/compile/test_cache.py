@@ -419,8 +419,10 @@ class TestProcessors:
         assert is_compiled(link(small_program.outer, separate=(small_program.middle,)))
         assert compiled() == 1
 
-    def test_numba_may_be_told_which_processor_it_is(self, tmp_path):
+    def test_numba_may_be_told_which_processor_it_is(self, tmp_path, monkeypatch):
         """Both what numba asks of the processor and what its user says are in the key."""
+        for name in ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"):
+            monkeypatch.delenv(name, raising=False)
         assert said(start(tmp_path)) == [NOT_FOUND]
         assert said(start(tmp_path, NUMBA_CPU_NAME="generic")) == [NOT_FOUND]
         assert said(start(tmp_path, NUMBA_CPU_FEATURES="")) == [NOT_FOUND]
