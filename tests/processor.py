@@ -12,3 +12,8 @@ def has_avx2() -> bool:
     if override is not None:
         return "+avx2" in override.split(",")
     return bool(binding.get_host_cpu_features().get("avx2"))
+
+
+def is_host() -> bool:
+    """Return True if numba compiles for the processor of this machine, as numpy does."""
+    return numba.config.CPU_NAME is None and numba.config.CPU_FEATURES is None
