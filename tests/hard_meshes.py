@@ -15,7 +15,7 @@ from mesh_shapes import HEXAHEDRON_FACES, corners, grid, polyhedra
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.meshflow import LONG, MeshFlow
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.walk import FAILED, REACHED, walk
 
 N = 4
@@ -213,7 +213,7 @@ def try_walks(shape, n, each, seed, every=25):
         steps = random.normal(size=(len(x), 3))
         steps *= np.exp(random.uniform(np.log(0.02), np.log(2.0), (len(x), 1))) * extent
         steps /= np.sqrt(3.0)
-        link(wander, separate=LONG)(arrays, triangles, extent, x, hosts, steps, counts)
+        link(wander)(arrays, triangles, extent, x, hosts, steps, counts)
         if k % every == every - 1:
             inside, apart_by = seen(triangles, x / extent)
             outside += (~inside & (apart_by > FLUSH)).sum()

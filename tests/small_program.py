@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from foamprb.body.tensor import select
-from foamprb.compile.link import link, traced
+from foamprb.compile.link import link, separate, traced
 
 LANES = 10
 
@@ -32,6 +32,7 @@ def swapped(pair):
     return pair[1], inner(pair[0], pair[1])
 
 
+@separate
 def middle(numbers, i):
     """Separate function."""
     a, b = swapped((numbers.values[i], numbers.scale))
@@ -76,8 +77,9 @@ def formed(values):
         values[i] = formula(values[i]) + 1.0
 
 
+@separate
 def calling(values):
-    """Caller of a stage."""
+    """Separate caller of a stage."""
     formed(values)
 
 
@@ -102,4 +104,4 @@ def twice(values):
 
 
 def linked():
-    return link(outer, separate=(middle, stage))
+    return link(outer)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
+from foamprb.flow.analytic import AnalyticFlow, gap_free
 
 NOTHING = (0.0, 0.0, 0.0, 0.0)
 
@@ -32,9 +32,6 @@ def changing_flow(omega, along, across, drift_x=NOTHING, drift_z=NOTHING, centre
     """∂u_x/∂y and ∂u_y/∂x, and u_x and u_z where x = y = ``centre``, by the terms of :func:`changing`."""
     kernels = {
         "sample": sample_changing,
-        "walk": walk_free,
         "gap": gap_free,
-        "normal": normal_free,
-        "recover": recover_free,
     }
     return AnalyticFlow((float(omega), centre, along, across, drift_x, drift_z), kernels)

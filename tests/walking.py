@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from foamprb.compile.link import link
-from foamprb.flow.meshflow import LONG
 from foamprb.flow.walk import walk
 
 
@@ -20,5 +19,5 @@ def follow(flow, hosts, start, end, ends, fractions):
 def walked(flow, hosts, start, end):
     """Return hosts, fractions of the way, patches and triangles at the ends, each (n,)."""
     ends, fractions = np.empty((len(start), 3), dtype=np.int32), np.empty(len(start))
-    link(follow, separate=LONG)(flow.arrays(), hosts, start, end, ends, fractions)
+    link(follow)(flow.arrays(), hosts, start, end, ends, fractions)
     return ends[:, 0], fractions, ends[:, 1], ends[:, 2]

@@ -33,7 +33,7 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.patches import STICK
 from foamprb.cloud.surroundings.base import Surrounding, Traits
-from foamprb.flow.analytic import sample_linear as sample
+from foamprb.flow.kernels import sample
 
 _KIND = np.uint64(5)
 """Second word of the key of these random numbers; the seed is the first."""

@@ -23,10 +23,10 @@ from foamprb.body.tensor import (
     select,
     stretches_in_frame,
 )
-from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets
+from foamprb.cloud.layout import IDENTITY, LANES, Layout, Row, end, load_rows, offsets, save_rows
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.state import Particles, Reason
-from foamprb.compile.link import traced
+from foamprb.compile.link import packed, traced
 from foamprb.compile.record import record
 
 (
@@ -70,6 +70,9 @@ class Rows(NamedTuple):
         int, Row(1, "m/kg", "5/(ρ_s R²), the inverse inertia of the shape per volume", 5.0, lasting=True)
     ]
     tension: Annotated[int, Row(1, "Pa", "surface tension over the radius, γ/R", lasting=True)]
+    fading: Annotated[
+        int, Row(1, "1/s", "fastest rate at which the memory of the solid fades; 0 without", lasting=True)
+    ]
     F0: Annotated[int, Row(9, "1", "F at rest, from that sphere", of="F0", saved="mirrored")]
     M: Annotated[int, Row(9, "1", "shape at rest, (F₀ F₀)⁻¹", IDENTITY, lasting=True)]
     mirrored: Annotated[int, Row(1, "", "1 where F0 has changed, else 0", lasting=True)]
@@ -99,7 +102,6 @@ class Rows(NamedTuple):
 at = offsets(Rows)
 """Index of the first row of each quantity."""
 ROWS = end(at)
-idle, load_rows, save_rows = layout(at)[1:4]
 
 # Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; stored frames may be a little more skew.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
@@ -109,6 +111,7 @@ _LINE = 8
 """Doubles on a cache line, and in the widest register."""
 
 
+@record
 class Medium(NamedTuple):
     """Fluid around the particles, and gravity."""
 
@@ -118,10 +121,10 @@ class Medium(NamedTuple):
     """kg/m³, a number; at each of some particles, (n,), where it varies."""
     gravity: Vector = (0.0, 0.0, 0.0)
     """m/s²."""
-    coefficients: Any = ()
-    """Of the forces on the barycentre; a cloud takes them from its models."""
-    surroundings: Any = ()
-    """Coefficients of the models of the surroundings, likewise."""
+    forces: Any = ()
+    """Coefficients of the forces on the barycentre, (n,); a cloud takes them from its models."""
+    numbers: Any = ()
+    """Coefficients of the models of the surroundings, (n,), likewise."""
 
 
 def viscosity_at(_block: Any, _i: int, medium: Medium) -> Scalar:
@@ -129,9 +132,18 @@ def viscosity_at(_block: Any, _i: int, medium: Medium) -> Scalar:
     return medium.mu
 
 
-def local_fluid(_block: Any, _i: int, medium: Medium) -> Medium:
+class LocalMedium(NamedTuple):
+    """The same at a particle, as forces read it."""
+
+    mu: Any
+    rho: Any
+    gravity: Vector = (0.0, 0.0, 0.0)
+    forces: Any = ()
+
+
+def local_medium(_block: Any, _i: int, medium: Medium) -> LocalMedium:
     """Return the medium with the density at lane i, a constant; see :func:`viscosity_at`."""
-    return medium
+    return LocalMedium(medium.mu, medium.rho, medium.gravity, medium.forces)
 
 
 REBOUND_NUMBERS = 21
@@ -177,6 +189,19 @@ def no_instants() -> Instants:
     begun, crossed = np.zeros(1, dtype=np.int64), np.zeros((LANES, 8))
     table = np.empty((0, LANES))
     return Instants(np.empty(0), state, marks, table, begun, crossed, rows, rows, rows, 0.0, 0, -1, -1)
+
+
+class Switches(NamedTuple):
+    """What the loop does for the integrator and the models; 0 for no."""
+
+    bouncing: int = 0
+    """How a body with inertia bounces, see :mod:`foamprb.cloud.motion`."""
+    reflects_steps: int = 0
+    """1 if a step into a wall on which a body would slide is reflected, as for random motion."""
+    draws: int = 0
+    """1 if models draw random numbers."""
+    updates_end: int = 0
+    """1 if rates, or models, are updated at the ends of calls."""
 
 
 @record
@@ -241,8 +266,12 @@ class Scratch(NamedTuple):
     """1 for each particle of the cloud whose steps are recorded, else 0; empty for all."""
     instants: Any
     """:class:`Instants` at which states are stored."""
-    fields: Any = ()
-    """Arrays of the fields of the case that forces need, see :func:`foamprb.flow.fields.blend_fields`."""
+    initial: Any
+    """As in :class:`~foamprb.cloud.layout.Layout`."""
+    switches: Switches
+    fields: Any
+    """Packed arrays of the fields of the case that forces need, see
+    :func:`foamprb.flow.fields.blend_fields`."""
 
 
 SHELF, LABELS, COUNTS = 10 * LANES, 8, 5
@@ -250,29 +279,26 @@ SHELF, LABELS, COUNTS = 10 * LANES, 8, 5
 
 
 def new_scratch(
-    rows: int,
+    layout: Layout,
     stop: Any = None,
     bounds: LoopLimits = LoopLimits(),  # noqa: B008
     room: int = 0,
-    lasting: tuple[NDArray[np.int64], NDArray[np.float64]] = (np.empty(0, dtype=np.int64), np.empty(0)),
+    switches: Switches = Switches(),  # noqa: B008
 ) -> Scratch:
-    """Return working memory for a block of ``rows`` rows.
+    """Return working memory for a block of a layout.
 
     Parameters
     ----------
-    stop, bounds
+    stop, bounds, switches
         As in :class:`Scratch`.
     room
         Length of the buffer for rebounds.
-    lasting
-        ``lasting`` and ``fresh`` of the layout, if particles are set aside.
     """
-    lasting_rows, fresh = lasting
     # One array, so that no other thread writes to the same lines of memory.
     lanes = iter(np.zeros((11, LANES), dtype=np.int64))
 
     return Scratch(
-        block=new_block(rows),
+        block=new_block(layout.rows),
         status=next(lanes),
         reason=next(lanes),
         patch=next(lanes),
@@ -288,9 +314,9 @@ def new_scratch(
         bounds=bounds,
         member=next(lanes),
         mended=next(lanes),
-        lasting=lasting_rows,
-        fresh=fresh,
-        shelf=np.empty((SHELF, len(lasting_rows))),
+        lasting=layout.lasting,
+        fresh=layout.fresh,
+        shelf=np.empty((SHELF, len(layout.lasting))),
         labels=np.empty((SHELF, LABELS), dtype=np.int64),
         counts=np.zeros(COUNTS, dtype=np.int64),
         stride=next(lanes),
@@ -301,6 +327,9 @@ def new_scratch(
         ends=np.empty((0, 2), dtype=np.int64),
         watched=np.empty(0, dtype=np.bool_),
         instants=no_instants(),
+        initial=layout.initial,
+        switches=switches,
+        fields=packed(()),
     )
 
 
@@ -548,6 +577,7 @@ def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     load_rows(p, k, s.block, i)
     s.block[at.inertia * LANES + i] = 5.0 / (p.rho[k] * p.R[k] * p.R[k])
     s.block[at.tension * LANES + i] = p.gamma[k] / p.R[k]
+    s.block[at.fading * LANES + i] = p.memoryRates[k, 0] if p.memoryRates.shape[1] > 0 else 0.0
     store9(s.block, at.M, i, metric_at_rest(load9(s.block, at.F0, i)))
     s.block[at.clearance * LANES + i] = np.inf
     s.block[at.taken * LANES + i] = 0.0
@@ -565,14 +595,10 @@ def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     save_rows(p, k, s.block, i)
 
 
-def idle_lanes(block: Any, dt: float) -> None:
-    """Fill every lane with a sphere at rest and steps of Δt."""
-    idle(block)
+def idle_lanes(block: Any, initial: Any, dt: float) -> None:
+    """Fill every lane with the initial values, a sphere at rest, and steps of Δt."""
+    for row in range(len(initial)):
+        for i in range(LANES):
+            block[row * LANES + i] = initial[row]
     for i in range(LANES):
         block[at.dt * LANES + i] = dt
-
-
-BLOCK_STAGES = (
-    frame_stage, stretch_stage, straighten_stage, compact_stage, elongated_stage, accept_stage
-)  # fmt: skip
-"""Stages of every integrator."""

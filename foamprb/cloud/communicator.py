@@ -227,7 +227,6 @@ class Communicator:
         return []
 
 
-
 def applied(rank: Rank, function: Callable[..., Value], of: str | None, *arguments: Any) -> Value:
     """Apply a function to the particles of a rank; see :meth:`Share.apply`."""
     return rank.share.apply(function, of, *arguments)

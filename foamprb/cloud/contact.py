@@ -1,24 +1,28 @@
 """Contacts with patches: when they happen, records of rebounds and passages, and normals of walls.
 
-The names ``gap``, ``walk`` and ``normal`` are bound to the flow when a loop is compiled, ``mode_of`` to the
-quadratic mode.
+In the functions behind :func:`gap_of_lane` and :func:`gap_of_particle` the name ``gap`` is bound to that of
+the flow (:class:`foamprb.flow.base.Flow`), ``mode_in`` and ``mode_of`` to the quadratic mode.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Collection, Iterator, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.block import REBOUND_NUMBERS, Scratch, at, load3, load9
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
+from foamprb.compile.link import bound, kernel, separate
 from foamprb.flow.analytic import gap_free as gap
-from foamprb.flow.analytic import normal_free as normal
-from foamprb.flow.analytic import walk_free as walk
+from foamprb.flow.kernels import normal, walk
+
+Contact: TypeAlias = tuple[float, int, int]
+"""Gap, m, patch and triangle; infinite, −1 and −1 for none."""
 
 CROWDED = 2
 """Value of :attr:`~foamprb.cloud.block.Scratch.outgrown`: the buffer of rebounds is full."""
@@ -66,7 +70,41 @@ def no_mode(_source: Any, _k: int, _F: Tensor) -> tuple[()]:
     return ()
 
 
-mode_of = no_mode
+mode_in = mode_of = no_mode
+
+
+@kernel
+def gap_of_lane(_flow: Any, _block: Any, _i: int, _host: int, _x: Vector, _F: Tensor, _t: float) -> Contact:
+    """Return gap, patch and triangle of the wall nearest to the body in lane i, at x in a host with F."""
+    return math.inf, -1, -1
+
+
+@kernel
+def gap_of_particle(
+    _flow: Any, _p: Particles, _k: int, _host: int, _x: Vector, _F: Tensor, _t: float
+) -> Contact:
+    """Return the same of particle k."""
+    return math.inf, -1, -1
+
+
+def _gap_of_lane(flow: Any, block: Any, i: int, host: int, x: Vector, F: Tensor, _t: float) -> Contact:
+    clearance, patch, triangle = gap(flow, host, x, F, block[at.R * LANES + i], mode_in(block, i, F))
+    return clearance, int(patch), int(triangle)
+
+
+def _gap_of_particle(flow: Any, p: Particles, k: int, host: int, x: Vector, F: Tensor, _t: float) -> Contact:
+    clearance, patch, triangle = gap(flow, host, x, F, p.R[k], mode_of(p, k, F))
+    return clearance, int(patch), int(triangle)
+
+
+def gaps(
+    gap: Callable[..., Any], mode_in: Callable[..., Any] = no_mode, mode_of: Callable[..., Any] = no_mode
+) -> dict[Callable[..., Any], Callable[..., Any]]:
+    """Return the functions behind both slots for the gap of a flow and the mode of lanes and particles."""
+    return {
+        gap_of_lane: bound(_gap_of_lane, gap=gap, mode_in=mode_in),
+        gap_of_particle: bound(_gap_of_particle, gap=gap, mode_of=mode_of),
+    }
 
 
 class Rebounds(NamedTuple):
@@ -91,6 +129,7 @@ class Rebounds(NamedTuple):
     """Deformation gradients, (n, 9); of integrator ``paper`` at the end of the step."""
 
 
+@separate
 def record_contact(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None:
     """Record the state of the particle in lane i at a patch; no-op without a buffer.
 
@@ -158,15 +197,15 @@ def contact_normals(flow: Any, p: Particles, rows: NDArray[Any], normals: NDArra
         x: Vector = (p.x[k, 0], p.x[k, 1], p.x[k, 2])
         f = p.F[k]
         F: Tensor = (f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8])
-        R = p.R[k]
-        _, patch, triangle = gap(flow, p.host[k], x, F, R, mode_of(p, k, F))
+        R, t = p.R[k], p.t[k]
+        _, patch, triangle = gap_of_particle(flow, p, k, p.host[k], x, F, t)
         if patch != p.patch[k]:
             vx, vy, vz = p.v[k, 0], p.v[k, 1], p.v[k, 2]
             c = R / (math.sqrt(vx * vx + vy * vy + vz * vz) + 1e-300)
             ahead = (x[0] + c * vx, x[1] + c * vy, x[2] + c * vz)
-            _, _, patch, triangle = walk(flow, p.host[k], x, ahead)
+            _, _, patch, triangle = walk(flow, p.host[k], x, t, ahead, t)
         if patch == p.patch[k] and patch >= 0:
-            n = normal(flow, triangle, x)
+            n = normal(flow, triangle, x, t)
             normals[i, 0], normals[i, 1], normals[i, 2] = n[0], n[1], n[2]
         else:
             normals[i, 0] = normals[i, 1] = normals[i, 2] = math.nan

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields, make_dataclass
 from inspect import signature
 from itertools import pairwise
@@ -17,6 +17,7 @@ from types import FunctionType
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, get_type_hints
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.drag import reduced_gravity
 from foamprb.body.lift import (
@@ -31,9 +32,9 @@ from foamprb.body.lift import (
     rectangles,
 )
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, plus, scale_vector
-from foamprb.cloud.block import Medium, at, choose3, load3, local_fluid
-from foamprb.cloud.layout import LANES
-from foamprb.compile.link import bound
+from foamprb.cloud.block import LocalMedium, Medium, at, choose3, load3, local_medium
+from foamprb.cloud.layout import LANES, compose_function, text_of
+from foamprb.compile.link import bound, kernel
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
@@ -65,7 +66,7 @@ class Inputs(NamedTuple):
     """Density of the undeformed solid, kg/m³; that of the deformed one is ρ_s/J."""
     Du_Dt: Vector
     """Acceleration of the fluid at the barycentre, ∂u/∂t + l·u, m/s²."""
-    medium: Medium
+    medium: LocalMedium
     """Fluid and gravity: ``mu``, Pa s, if it is constant; ``rho``, kg/m³; ``gravity``, m/s²."""
     x: Vector = (0.0, 0.0, 0.0)
     """Position of the barycentre, m."""
@@ -305,7 +306,7 @@ def _restored(name: str, values: Mapping[str, float]) -> Force:
 
 
 SAMPLE = Inputs(
-    1.0, 1e3, (0.1, 0.2, 0.3), Medium(1e-3, 1e3, (0.0, 0.0, -9.81)), (1e-3, 2e-3, 3e-3), 1e-6, 0.5
+    1.0, 1e3, (0.1, 0.2, 0.3), LocalMedium(1e-3, 1e3, (0.0, 0.0, -9.81)), (1e-3, 2e-3, 3e-3), 1e-6, 0.5
 )
 """Arguments with which a user's force is tried."""
 
@@ -417,7 +418,7 @@ def acceleration(block: Any, i: int, medium: Medium, J: Scalar) -> tuple[Vector,
 
     m (1 + Σ C) dv/dt = Σ f + f_D with the forces f and the inertia m C that each adds.
     """
-    f, inertia = sum_of_forces(block, i, _inputs_of(block, i, medium, J), medium.coefficients)
+    f, inertia = sum_of_forces(block, i, _inputs_of(block, i, medium, J))
     return scale_vector(1.0 / inertia, f), inertia
 
 
@@ -428,9 +429,9 @@ def forces_on(block: Any, i: int, medium: Medium, J: Scalar, Du_Dt: Vector) -> t
     """
     inputs = _inputs_of(block, i, medium, J)
     where = inputs.medium, inputs.x, inputs.R, inputs.t
-    f, inertia = sum_of_forces(block, i, Inputs(inputs.J, inputs.rho, Du_Dt, *where), medium.coefficients)
+    f, inertia = sum_of_forces(block, i, Inputs(inputs.J, inputs.rho, Du_Dt, *where))
     still = Inputs(inputs.J, inputs.rho, scale_vector(0.0, inputs.Du_Dt), *where)
-    steady, _ = sum_of_forces(block, i, still, medium.coefficients)
+    steady, _ = sum_of_forces(block, i, still)
     return steady, f, inertia
 
 
@@ -442,23 +443,27 @@ def compose(
     ``reader_of`` returns a function that reads what a force needs, see :mod:`foamprb.cloud.needs`.
     """
     total: Callable[..., Any] = no_force
-    for force in forces:
+    for force, text in zip(forces, _placed(forces)[0], strict=True):
         read = reader_of(force) if reader_of else no_values
-        total = bound(_add_force, others=total, force=type(force).evaluate, read=read)
+        numbers = compose_function("entries", f"def entries(numbers):\n    return {text}\n", {})
+        total = bound(_add_force, others=total, force=type(force).evaluate, read=read, entries=numbers)
     return {"sum_of_forces": total}
 
 
-def coefficients(forces: Sequence[Force]) -> tuple[Any, ...]:
-    """Return the coefficients of these forces, nested as by :func:`nested`."""
-    return nested(force.coefficients for force in forces)
+def coefficients(forces: Sequence[Force]) -> NDArray[np.float64]:
+    """Return the coefficients of these forces, one after the other, (n,)."""
+    return _placed(forces)[1]
 
 
-def nested(coefficients: Iterable[Any]) -> tuple[Any, ...]:
-    """Return coefficients of models as their composed functions read them: ((…, 1st), 2nd)."""
-    pairs: tuple[Any, ...] = ()
-    for each in coefficients:
-        pairs = pairs, each
-    return pairs
+def _placed(forces: Sequence[Force]) -> tuple[list[str], NDArray[np.float64]]:
+    """Return the text of the coefficients of each force, and all numbers."""
+    numbers: list[float] = []
+    texts = []
+    for force in forces:
+        own: list[float] = []
+        texts.append(text_of(force.coefficients, len(numbers), own, []))
+        numbers += own
+    return texts, np.array(numbers)
 
 
 def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
@@ -466,14 +471,19 @@ def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
     x = choose3(gone > 0.0, load3(block, at.new_x, i), load3(block, at.x, i))
     t = block[at.t * LANES + i] + gone * block[at.dt * LANES + i]
     R, rho = block[at.R * LANES + i], block[at.rho * LANES + i]
-    return Inputs(J, rho, load3(block, at.DuDt, i), local_fluid(block, i, medium), x, R, t)
+    return Inputs(J, rho, load3(block, at.DuDt, i), local_medium(block, i, medium), x, R, t)
 
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on its loads: without these,
 # last bits of the shape would depend on whether one of the forces reads them.
-def no_force(_block: Any, _i: int, inputs: Inputs, _coefficients: Any) -> tuple[Vector, Scalar]:
+def no_force(_block: Any, _i: int, inputs: Inputs) -> tuple[Vector, Scalar]:
     """Return a force of zero, and the inertia of the particle alone."""
     return scale_vector(0.0, inputs.Du_Dt), 1.0 + 0.0 * displaced(inputs)
+
+
+@kernel
+def store_fields(_fields: Any, _block: Any, _i: int, _row: int, _host: int, _x: Vector, _t: float) -> None:
+    """No-op: no force reads a field."""
 
 
 def no_values(_block: Any, _i: int, _medium: Medium) -> tuple[()]:
@@ -481,16 +491,22 @@ def no_values(_block: Any, _i: int, _medium: Medium) -> tuple[()]:
     return ()
 
 
-def _add_force(block: Any, i: int, inputs: Inputs, coefficients: Any) -> tuple[Vector, Scalar]:
-    a, m = others(block, i, inputs, coefficients[0])
-    b, n = force(inputs, *read(block, i, inputs.medium), *coefficients[1])
+def no_entries(_numbers: Any) -> tuple[()]:
+    """Return no numbers: a force has no entries."""
+    return ()
+
+
+def _add_force(block: Any, i: int, inputs: Inputs) -> tuple[Vector, Scalar]:
+    a, m = others(block, i, inputs)
+    b, n = force(inputs, *read(block, i, inputs.medium), *entries(inputs.medium.forces))
     return plus(a, b), m + n
 
 
 others: Any = no_force
 force: Any = no_force
 read: Any = no_values
+entries: Any = no_entries
 
 DEFAULT: tuple[Force, ...] = (Gravity(),)
 """The forces of a cloud for which none are chosen, and of the uncompiled functions."""
-sum_of_forces: Callable[[Any, int, Inputs, Any], tuple[Vector, Scalar]] = compose(DEFAULT)["sum_of_forces"]
+sum_of_forces: Callable[[Any, int, Inputs], tuple[Vector, Scalar]] = compose(DEFAULT)["sum_of_forces"]

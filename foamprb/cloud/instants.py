@@ -34,9 +34,8 @@ from foamprb.cloud.paths import (
     way_at_start,
 )
 from foamprb.cloud.state import VARIABLES, Particles, Status
-from foamprb.compile.link import link
-from foamprb.flow.analytic import recover_free as recover
-from foamprb.flow.analytic import walk_free as walk
+from foamprb.compile.link import separate
+from foamprb.flow.kernels import linked_with, recover, walk
 
 Floats = NDArray[np.float64]
 
@@ -148,6 +147,7 @@ def instants_of(
     )
 
 
+@separate
 def record_before(s: Scratch) -> None:
     """Record the starts of the steps of all lanes if one may lead past an instant."""
     c = s.instants
@@ -167,6 +167,7 @@ def record_before(s: Scratch) -> None:
             c.crossed[i, 0] = math.inf
 
 
+@separate
 def capture(s: Scratch) -> None:
     """Store the states at the instants within the steps of all lanes, see :func:`record_before`."""
     c = s.instants
@@ -316,18 +317,18 @@ def hosts_at(kernels: Mapping[str, Any], flow: Any, p: Particles, x: Floats) -> 
         The points, (n, 3), m.
     """
     hosts = np.empty(p.size, dtype=np.int64)
-    bindings = {name: kernels[name] for name in ("walk", "recover")}
-    link(_walk_all, bindings)(flow, p.host, p.x, x, hosts)
+    walk_all, packed_flow = linked_with(kernels, flow, _walk_all)
+    walk_all(packed_flow, p.host, p.x, p.t, x, hosts)
     return hosts
 
 
 def _walk_all(
-    flow: Any, hosts: NDArray[np.int64], x0: Floats, x1: Floats, reached: NDArray[np.int64]
+    flow: Any, hosts: NDArray[np.int64], x0: Floats, t: Floats, x1: Floats, reached: NDArray[np.int64]
 ) -> None:
     for k in range(len(hosts)):
         start, goal = (x0[k, 0], x0[k, 1], x0[k, 2]), (x1[k, 0], x1[k, 1], x1[k, 2])
         if hosts[k] < 0 or start == goal:
             reached[k] = hosts[k]
         else:
-            host, _, patch, _ = walk(flow, hosts[k], start, goal)
-            reached[k] = host if patch == -1 else recover(flow, goal)
+            host, _, patch, _ = walk(flow, hosts[k], start, t[k], goal, t[k])
+            reached[k] = host if patch == -1 else recover(flow, goal, t[k])

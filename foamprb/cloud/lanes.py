@@ -31,6 +31,7 @@ from foamprb.cloud.motion import (
     release,
 )
 from foamprb.cloud.state import Particles
+from foamprb.compile.link import separate, slot
 
 READY, ENDED, _NEXT, _RELOCATED, PAUSED = 0, 1, 2, 3, 4
 """Indices in :attr:`~foamprb.cloud.block.Scratch.counts`: particles set aside that may continue, and that
@@ -44,10 +45,8 @@ _PLACES = SHELF // 2
 """Places for each of the two kinds. As a new particle is loaded only if none is ready, at most those in the
 lanes and LANES that ended are set aside."""
 
-updates_end = 0
-"""Bound to 1 by an integrator with an ``end_slope``."""
 
-
+@slot
 def hold(
     _flow: Any, _patches: PatchTable, _s: Scratch, _i: int, _last: int, _dt: float, _start: float
 ) -> None:
@@ -59,7 +58,7 @@ def begin_lanes(s: Scratch, dt: float) -> None:
     if s.counts[PAUSED]:
         s.counts[PAUSED] = 0
         return
-    idle_lanes(s.block, dt)
+    idle_lanes(s.block, s.initial, dt)
     for i in range(LANES):
         s.member[i] = -1
     for n in range(len(s.counts)):
@@ -117,6 +116,7 @@ def must_move(s: Scratch, i: int, last: int) -> bool:
     return bool(s.member[i] >= 0 and s.status[i] == ACTIVE and s.step[i] < last)
 
 
+@separate
 def fill_lanes(
     flow: Any,
     patches: PatchTable,
@@ -183,7 +183,7 @@ def finish(p: Particles, s: Scratch, i: int, n: int) -> None:
 
     A particle that needs the rates at its end stays unless one of n particles could take its lane.
     """
-    if not updates_end or s.status[i] != ACTIVE:
+    if s.switches.updates_end == 0 or s.status[i] != ACTIVE:
         leave(p, s, i)
     elif s.counts[ENDED] < LANES and others(s, n):
         set_aside(s, i, ENDED)

@@ -2,7 +2,9 @@
 
 A declaration is a NamedTuple class whose fields are Annotated with a :class:`Row`. An instance of it holds
 the first row of each quantity (:func:`offsets`), so that a line of a kernel reads
-``load9(block, at.F, i)``. :func:`layout` generates the functions that load and save particles.
+``load9(block, at.F, i)``. The rows of a model have the same place in every block, used or not, so that its
+machine code does not depend on other models. :func:`layout` generates the functions that load and save
+particles.
 """
 
 from __future__ import annotations
@@ -15,6 +17,8 @@ from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
+
+from foamprb.compile.link import separate, slot
 
 LANES = 16
 """Number of particles of a block, side by side: so few that its rows stay in the first level of the cache."""
@@ -43,13 +47,41 @@ class Row(NamedTuple):
     """True if its array has columns even where the quantity has one component."""
 
 
+_ROOMS: tuple[tuple[int, tuple[str, ...]], ...] = (
+    (160, ("Rows",)),
+    (80, ("StepRows",)),
+    (180, ("RelaxationRows", "StiffnessRows")),
+    (12, ("LargestRows",)),
+    (8, ("ViscosityRows", "FieldRows", "MixtureRows")),
+    (40, ("QuadraticRows",)),
+    (20, ("SecondRows",)),
+    (40, ("FaxenRows",)),
+    (100, ("WallRows",)),
+    (28, ("BrownianRows",)),
+    (8, ("SwimmerRows",)),
+    (12, ("EddyRows",)),
+    (8, ("FrameRows",)),
+    (8, ("FateRows",)),
+    (4, ("BondRows",)),
+)
+"""Numbers of rows that are reserved, in this order, for declarations by name; one room for alternatives."""
+_FIRST: dict[str, tuple[int, int]] = {
+    name: (first, size)
+    for first, (size, names) in zip(accumulate((size for size, _ in _ROOMS), initial=0), _ROOMS, strict=False)
+    for name in names
+}
+"""First row and size of the room of a declaration."""
+FURTHER = sum(size for size, _ in _ROOMS)
+"""First row behind all rooms: of declarations whose size depends on the settings, and of users' models."""
+
+
 class Layout(NamedTuple):
     """Generated functions and sizes of a block."""
 
     rows: int
     """Number of rows."""
-    idle: Callable[[Any], None]
-    """``idle(block)`` fills every lane with the initial values."""
+    initial: NDArray[np.float64]
+    """(rows,) initial values."""
     load: Callable[[Any, int, Any, int], None]
     """``load(p, k, block, i)`` copies particle k of the cloud into lane i."""
     save: Callable[[Any, int, Any, int], None]
@@ -72,7 +104,7 @@ def rows_of(declaration: type[tuple[int, ...]]) -> Mapping[str, Row]:
     return MappingProxyType({name: hint.__metadata__[0] for name, hint in hints.items()})
 
 
-def offsets(declaration: type[Declared], first: int = 0) -> Declared:
+def offsets(declaration: type[Declared], first: int | None = None) -> Declared:
     """Return the index of the first row of each quantity.
 
     Parameters
@@ -80,9 +112,18 @@ def offsets(declaration: type[Declared], first: int = 0) -> Declared:
     declaration
         NamedTuple class with a :class:`Row` in the annotation of each field.
     first
-        Index of the first row: the :func:`end` of the rows before these.
+        Index of the first row; None for the place that is reserved for the declaration.
+
+    Raises
+    ------
+    ValueError
+        If it has more rows than are reserved.
     """
     components = [row.components for row in rows_of(declaration).values()]
+    if first is None:
+        first, size = _FIRST[declaration.__name__] if is_reserved(declaration) else (0, sum(components))
+        if sum(components) > size:
+            raise ValueError(f"{declaration.__name__} has {sum(components)} rows, and room for {size}")
     make: Any = declaration
     rows: Declared = make(*accumulate(components[:-1], initial=first))
     return rows
@@ -114,15 +155,16 @@ def layout(*parts: tuple[int, ...]) -> Layout:
             if name in rows:
                 raise ValueError(f"the row {name} is declared twice")
             rows[name] = first, row
-    scope: dict[str, Any] = {"__name__": __name__, "LANES": LANES}
-    exec("\n".join([*_idle(rows), *_load(rows), *_save(rows)]), scope)
+    initial = np.zeros(max(end(at) for at in parts))
+    for first, row in rows.values():
+        initial[first : first + row.components] = row.initial
     loaded = _numbers(placed for placed in rows.values() if placed[1].of)
     unloaded = _numbers(placed for placed in rows.values() if placed[1].lasting and not placed[1].of)
     loaded_only = Layout(
-        rows=end(parts[-1]),
-        idle=scope["idle"],
-        load=scope["load_rows"],
-        save=scope["save_rows"],
+        rows=len(initial),
+        initial=initial,
+        load=sequence("load_rows", "p, k, block, i", [_copier("load", type(at), at[0]) for at in parts]),
+        save=sequence("save_rows", "p, k, block, i", [_copier("save", type(at), at[0]) for at in parts]),
         parts=parts,
         lasting=np.array(loaded, dtype=np.int64),
         fresh=np.empty(0),
@@ -130,14 +172,22 @@ def layout(*parts: tuple[int, ...]) -> Layout:
     return keep(loaded_only, unloaded)
 
 
+@slot
+def load_rows(_p: Any, _k: int, _block: Any, _i: int) -> None:
+    """See :attr:`Layout.load`."""
+
+
+@slot
+def save_rows(_p: Any, _k: int, _block: Any, _i: int) -> None:
+    """See :attr:`Layout.save`."""
+
+
 def keep(base: Layout, rows: Sequence[int]) -> Layout:
     """Return a layout that keeps these rows too, which are not loaded."""
-    block = np.empty(base.rows * LANES)
-    base.idle(block)
     numbers = np.array(rows, dtype=np.int64)
-    values = block[numbers * LANES]
     return base._replace(
-        lasting=np.concatenate([base.lasting, numbers]), fresh=np.concatenate([base.fresh, values])
+        lasting=np.concatenate([base.lasting, numbers]),
+        fresh=np.concatenate([base.fresh, base.initial[numbers]]),
     )
 
 
@@ -150,28 +200,87 @@ def _numbers(placed: Iterable[tuple[int, Row]]) -> list[int]:
     return [first + c for first, row in placed for c in range(row.components)]
 
 
-def _idle(rows: Placed) -> Iterator[str]:
-    yield "def idle(block):"
-    yield "    for k in range(len(block)):"
-    yield "        block[k] = 0.0"
-    yield "    for i in range(LANES):"
-    yield "        pass"
-    for first, row in rows.values():
-        values = row.initial if isinstance(row.initial, tuple) else (row.initial,) * row.components
-        for c, value in enumerate(values):
-            if value != 0.0:
-                yield f"        block[{first + c} * LANES + i] = {value!r}"
+def is_reserved(declaration: type[tuple[int, ...]]) -> bool:
+    """Return True if a place is reserved for the rows of a declaration, which is one of this package."""
+    return declaration.__name__ in _FIRST and declaration.__module__.startswith("foamprb.")
+
+
+def sequence(
+    name: str, parameters: str, functions: Sequence[Callable[..., Any]], least: str = ""
+) -> Callable[..., Any]:
+    """Return a function with these parameters that calls others, in their order, with all of them.
+
+    It returns their smallest result; ``least`` without functions, if that is given.
+    """
+    return _sequence(name, parameters, tuple(functions), least)
+
+
+@cache
+def _sequence(
+    name: str, parameters: str, functions: tuple[Callable[..., Any], ...], least: str
+) -> Callable[..., Any]:
+    if len(functions) == 1:
+        return functions[0]
+    calls = [f"f{n}({parameters})" for n in range(len(functions))]
+    lines = calls or ["pass"]
+    if least:
+        lines = [f"return min({', '.join(calls)})" if calls else f"return {least}"]
+    text = f"def {name}({parameters}):\n" + "".join(f"    {line}\n" for line in lines)
+    return compose_function(name, text, {f"f{n}": function for n, function in enumerate(functions)})
+
+
+def compose_function(name: str, text: str, scope: Mapping[str, Any]) -> Callable[..., Any]:
+    """Return the function of a name in a text, which reads other names in a scope."""
+    names: dict[str, Any] = {"__name__": __name__, "LANES": LANES, "np": np, **scope}
+    exec(text, names)
+    made: Callable[..., Any] = names[name]
+    return made
+
+
+def text_of(values: Any, first: int, numbers: list[float], tail: list[float]) -> str:
+    """Return an expression for numbers, tuples of them and arrays that reads them from an array ``numbers``.
+
+    Parameters
+    ----------
+    values
+        The numbers. A seed is a numpy integer.
+    first
+        Index of the first number in the array.
+    numbers
+        Takes the numbers that begin there.
+    tail
+        Takes the arrays, at its end. It becomes the array ``numbers``.
+    """
+    if isinstance(values, tuple):
+        items = "".join(f"{text_of(value, first, numbers, tail)}, " for value in values)
+        return f"({items})"
+    if isinstance(values, np.ndarray):
+        # The code does not depend on the place and the length.
+        begin, end = (f"int(numbers[{first + len(numbers) + k}])" for k in range(2))
+        numbers += [float(len(tail)), float(len(tail) + len(values))]
+        tail.extend(map(float, values))
+        return f"numbers[{begin}:{end}]"
+    numbers.append(float(values))
+    number = f"numbers[{first + len(numbers) - 1}]"
+    return f"np.uint64({number})" if isinstance(values, np.uint64) else number
+
+
+@cache
+def _copier(kind: str, declaration: type[tuple[int, ...]], first: int) -> Callable[..., Any]:
+    """Return the function that loads or saves the rows of one declaration."""
+    at = offsets(declaration, first)
+    rows = {name: (row, each) for row, (name, each) in zip(at, rows_of(declaration).items(), strict=True)}
+    name = f"{kind}_{declaration.__name__}"
+    lines = _load(rows) if kind == "load" else _save(rows)
+    text = "\n".join([f"def {name}(p, k, block, i):", "    pass", *lines, ""])
+    return separate(compose_function(name, text, {}))
 
 
 def _load(rows: Placed) -> Iterator[str]:
-    yield "def load_rows(p, k, block, i):"
-    yield "    pass"
     yield from _copies((placed for placed in rows.values() if placed[1].of), "{lane} = {array}")
 
 
 def _save(rows: Placed) -> Iterator[str]:
-    yield "def save_rows(p, k, block, i):"
-    yield "    pass"
     kinds = dict.fromkeys(row.saved for _, row in rows.values() if row.saved)
     for saved in kinds:
         if isinstance(saved, str):

@@ -49,8 +49,6 @@ from foamprb.cloud.block import (
     ROWS,
     Medium,
     at,
-    compact_stage,
-    elongated_stage,
     load3,
     load9,
     load_integrals,
@@ -59,8 +57,6 @@ from foamprb.cloud.block import (
     resume_frames,
     store3,
     store9,
-    straighten_stage,
-    stretch_stage,
 )
 from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.state import Particles, Status
@@ -348,12 +344,6 @@ def measure_block(
             for i in range(m):
                 for c in range(values.shape[1]):
                     values[start + i, c] = block[(first + c) * LANES + i]
-
-
-_STAGES = (
-    stretch_stage, straighten_stage, compact_stage, elongated_stage, sort_stage, report_stage, drop_stage
-)  # fmt: skip
-"""Stages that are compiled separately; the particle loop has most of them too."""
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -664,7 +654,7 @@ def _computed(p: Particles, l: Floats, mu: Floats) -> tuple[Floats, dict[str, Fl
 
 @cache
 def _kernel() -> Any:
-    return link(measure_block, separate=_STAGES)
+    return link(measure_block)
 
 
 def as_slice(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:

@@ -1,15 +1,12 @@
 """Motion of particles through the mesh, contact with patches, and the end of particles.
 
-The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross``, ``recover`` and ``cell_volume`` are bound to
-those of the flow that was chosen when the loop is compiled, and ``walk_on`` where it has its own;
-``turn_along``, ``bounce_along``, ``form_bond``, ``mode_in`` and ``reflects_steps`` are bound to models of the
-surroundings, ``bouncing`` and ``rewind`` to the integrator.
+What models add is behind the slots :func:`turn_along`, :func:`bounce_along`, :func:`form_bond` and
+:func:`mirror_memory`; :func:`rewind` is that of the integrator.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -44,20 +41,14 @@ from foamprb.cloud.block import (
     store3,
     store9,
 )
-from foamprb.cloud.contact import first_contact, on_cubic, record_contact, slope_on_cubic
-from foamprb.cloud.contact import no_mode as mode_in
+from foamprb.cloud.contact import first_contact, gap_of_lane, on_cubic, record_contact, slope_on_cubic
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Reason, Status
+from foamprb.compile.link import separate, slot
 from foamprb.compile.record import record
-from foamprb.flow.analytic import cell_volume_free as cell_volume
-from foamprb.flow.analytic import cross_free as cross
-from foamprb.flow.analytic import gap_free as gap
-from foamprb.flow.analytic import normal_free as normal
-from foamprb.flow.analytic import recover_free as recover
-from foamprb.flow.analytic import sample_linear as sample
-from foamprb.flow.analytic import walk_free as walk
 from foamprb.flow.base import NEAR
+from foamprb.flow.kernels import cell_volume, cross, normal, recover, sample, walk, walk_on
 
 PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status if status <= Status.FAILED)
 
@@ -79,11 +70,8 @@ _TOUCH = 1e-6
 _OTHER_WALL = 0.1
 """Distance of a wall before a step, in radii beyond the gap, from which on another wall was nearest."""
 STOPS_AT_CONTACT, GOES_ON = 2, 1
-"""Values of ``bouncing``."""
-bouncing = 0
-"""How a body with inertia bounces: its step ends at the contact, or goes on from there; 0 without inertia."""
-reflects_steps = 0
-"""1 if a step into a wall on which a body would slide is reflected, as for random motion."""
+"""Values of :attr:`~foamprb.cloud.block.Switches.bouncing`: the step of a body with inertia ends at the
+contact, or goes on from there; 0 without inertia."""
 _MAX_BOUNCES = 10
 # A particle near the axis of a wedge goes through it many times in a step.
 _MAX_PATCHES = 1000
@@ -106,6 +94,7 @@ class PatchTable(NamedTuple):
     """k_on, −1 without bonds; k_off, 1/s; μ_f x_b/(k_B T); the critical shear rate, 1/s; the seed."""
 
 
+@separate
 def fail(s: Scratch, i: int, reason: int) -> None:
     """Let the particle in lane i fail for a reason."""
     s.status[i] = FAILED
@@ -143,20 +132,24 @@ def fail_small_step(s: Scratch, i: int) -> None:
     fail(s, i, STEP_TOO_SMALL if s.block[at.error * LANES + i] < math.inf else NOT_FINITE)
 
 
+@slot
 def turn_along(_block: Any, _i: int, _turn: Tensor) -> None:
     """No-op: no further quantity of lane i turns with the particle."""
 
 
+@slot
 def bounce_along(_block: Any, _i: int, _n: Vector) -> None:
     """No-op: no further quantity of lane i is reflected by a wall of normal n."""
 
 
+@slot
 def form_bond(
     _flow: Any, _patches: PatchTable, _s: Scratch, _i: int, _patch: int, _t: float, _h: float
 ) -> None:
     """No-op: bodies in contact with a wall form no bonds."""
 
 
+@slot
 def rewind(_block: Any, _i: int, _f: float) -> None:
     """No-op: the shape in lane i stays that at the end of the step, not after the fraction f of it."""
 
@@ -203,40 +196,75 @@ def reach_end(
 ) -> int:
     """Move the particle in lane i to its goal, due at t_end after a step h, with contact of walls.
 
-    A step of a body that bounces may end earlier; see ``bouncing``. ``ahead`` is the host that probably holds
-    the goal, ``held`` True if it certainly does.
+    A step of a body that bounces ends at the contact if ``bouncing`` says so. ``ahead`` is the host that
+    probably holds the goal, ``held`` True if it certainly does.
 
     Returns
     -------
     The number of walks that needed the tree.
     """
-    block, recovered = s.block, 0
-    spent, remaining = 0.0, h
+    fraction, spent, walks = _go(flow, patches, s, i, goal, ahead, held, t_end - h, h)
+    if s.switches.bouncing == STOPS_AT_CONTACT and fraction < 1.0 and s.status[i] == ACTIVE:
+        reaches_end = h - spent < SHORTEST_STEP * h
+        s.block[at.t * LANES + i] = t_end if reaches_end else t_end - h + spent
+        return walks
+    _arrive(flow, s, i, t_end, h - spent)
+    return walks
+
+
+def bounce_to_end(
+    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, t_end: float, h: float
+) -> int:
+    """Do as :func:`reach_end`, where a body that bounces goes on from the contact to the end of the step."""
+    block, recovered, spent = s.block, 0, 0.0
     for _ in range(_MAX_BOUNCES):
-        origin = load3(block, at.x, i)
-        end, start, goal, time, patch, triangle, walks = move_centre(
-            flow, patches, s, i, goal, ahead, held, remaining
-        )
+        fraction, gone, walks = _go(flow, patches, s, i, goal, s.host[i], False, t_end - h + spent, h - spent)
         recovered += walks
-        store3(block, at.x, i, end)
-        fraction = 1.0
-        if s.status[i] == ACTIVE or s.status[i] == STUCK:
-            way, met, turned = (start, goal), (patch, triangle), start != origin
-            fraction = touch(flow, patches, s, i, way, turned, met, t_end - h + spent, time)
-        spent += fraction * time
-        if bouncing == 0 or fraction == 1.0 or s.status[i] != ACTIVE:
+        spent += gone
+        if fraction == 1.0 or s.status[i] != ACTIVE:
             break
-        reaches_end = bouncing == STOPS_AT_CONTACT and h - spent < SHORTEST_STEP * h
-        block[at.t * LANES + i] = t_end if reaches_end else t_end - h + spent
-        if bouncing == STOPS_AT_CONTACT:
-            return recovered
-        goal, ahead, held, remaining = load3(block, at.new_x, i), s.host[i], False, h - spent
-    if s.bounds.maxCells < math.inf and s.status[i] == ACTIVE:
-        fail_in_small_cell(flow, s, i)
-    block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
+        block[at.t * LANES + i] = t_end - h + spent
+        goal = load3(block, at.new_x, i)
+    _arrive(flow, s, i, t_end, h - spent)
     return recovered
 
 
+def _go(
+    flow: Any,
+    patches: PatchTable,
+    s: Scratch,
+    i: int,
+    goal: Vector,
+    ahead: int,
+    held: bool,
+    t: float,
+    h: float,
+) -> tuple[float, float, int]:
+    """Move the particle in lane i towards its goal, from t on in the time h, to its first contact.
+
+    Returns
+    -------
+    The fraction of its way after which it stopped or bounced, the time that it took, s, and the number of
+    walks that needed the tree.
+    """
+    origin = load3(s.block, at.x, i)
+    end, start, goal, time, patch, triangle, walks = move_centre(flow, patches, s, i, goal, ahead, held, h)
+    store3(s.block, at.x, i, end)
+    fraction = 1.0
+    if s.status[i] == ACTIVE or s.status[i] == STUCK:
+        way, met, turned = (start, goal), (patch, triangle), start != origin
+        fraction = touch(flow, patches, s, i, way, turned, met, t, time)
+    return fraction, fraction * time, walks
+
+
+def _arrive(flow: Any, s: Scratch, i: int, t_end: float, missed: float) -> None:
+    """End the step of lane i, of which a particle that is not active any more has missed a time."""
+    if s.bounds.maxCells < math.inf and s.status[i] == ACTIVE:
+        fail_in_small_cell(flow, s, i)
+    s.block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - missed
+
+
+@separate
 def fail_in_small_cell(flow: Any, s: Scratch, i: int) -> None:
     """Let the particle in lane i fail if its longest semi-axis exceeds the limit in cell sizes."""
     longest = s.block[at.length * LANES + i]
@@ -250,6 +278,7 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
     s.patch[i] = patch
 
 
+@separate
 def share_before_contact(
     flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool
 ) -> float:
@@ -259,20 +288,21 @@ def share_before_contact(
     patch, and close to a wall, with a gap below :data:`CLOSE` radii, not too much closer than it was.
     """
     block, x = s.block, load3(s.block, at.x, i)
+    t = block[at.t * LANES + i]
+    t_end = t + block[at.dt * LANES + i]
     if not held:
-        reached, fraction, patch, _ = walk_on(flow, s.host[i], ahead, x, goal)
+        reached, fraction, patch, _ = walk_on(flow, s.host[i], ahead, x, t, goal, t_end)
         if patch == -2:
             return 0.0
         if patch >= 0 and patches.code[patch] not in (MIRROR, CYCLIC):
             return _APPROACH * fraction
         ahead = reached
     R, F, before = block[at.R * LANES + i], load9(block, at.new_F, i), block[at.clearance * LANES + i]
-    mode = mode_in(block, i, F)
-    after, _, _ = gap(flow, ahead, goal, F, R, mode)
+    after, _, _ = gap_of_lane(flow, block, i, ahead, goal, F, t_end)
     if min(before, after) >= CLOSE * R:
         return 1.0
     before = min(before, NEAR * R)
-    least, soft = min(before, LEAST_OF_GAP * before), 0.0 if bouncing > 0 else _SOFT * R
+    least, soft = min(before, LEAST_OF_GAP * before), 0.0 if s.switches.bouncing > 0 else _SOFT * R
     if after < least - soft:
         return float(_APPROACH * max(before, soft) / (before - after))
     way = minus(goal, x)
@@ -280,16 +310,18 @@ def share_before_contact(
         return 1.0
     middle, v0, v1 = between(x, goal, 0.5), load3(block, at.v, i), load3(block, at.new_v, i)
     middle = plus_scaled(middle, 0.125 * block[at.dt * LANES + i], minus(v0, v1))
-    host, _, patch, _ = walk(flow, s.host[i], x, middle)
+    host, _, patch, _ = walk(flow, s.host[i], x, t, middle, 0.5 * (t + t_end))
     if patch == -2:
         return 0.0
-    between_both, _, _ = gap(flow, host, middle, F, R, mode)
+    between_both, _, _ = gap_of_lane(flow, block, i, host, middle, F, 0.5 * (t + t_end))
     return 1.0 if between_both >= min(least, LEAST_OF_GAP * after) - _SOFT * R else 0.5 * _APPROACH
 
 
 def would_stick(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int) -> bool:
     """Return True if the centre in lane i would meet a patch to which it sticks on its way to the goal."""
-    _, _, patch, _ = walk_on(flow, s.host[i], ahead, load3(s.block, at.x, i), goal)
+    t = s.block[at.t * LANES + i]
+    t_end = t + s.block[at.dt * LANES + i]
+    _, _, patch, _ = walk_on(flow, s.host[i], ahead, load3(s.block, at.x, i), t, goal, t_end)
     return bool(patch >= 0 and patches.code[patch] == STICK)
 
 
@@ -306,12 +338,14 @@ def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
             s.outgrown[0] = UNLISTED
         else:
             fail(s, i, WALLS_TOO_MANY)
-    clearance, patch, triangle = gap(flow, s.host[i], load3(block, at.x, i), F, R, mode_in(block, i, F))
+    x, t = load3(block, at.x, i), block[at.t * LANES + i]
+    clearance, patch, triangle = gap_of_lane(flow, block, i, s.host[i], x, F, t)
     if clearance >= NEAR * R and s.bounds.reach < math.inf:
         return math.inf, -1, -1
     return clearance, patch, triangle
 
 
+@separate
 def cross_patch(
     flow: Any, s: Scratch, i: int, patch: int, code: int, triangle: int, t: float, x0: Vector, x1: Vector
 ) -> tuple[Vector, Vector, Tensor, Vector]:
@@ -328,11 +362,11 @@ def cross_patch(
     block = s.block
     v = load3(block, at.v, i)
     if code == MIRROR:
-        y0, turn = x0, mirror_body(block, i, normal(flow, triangle, x0))
+        y0, turn = x0, mirror_body(block, i, normal(flow, triangle, x0, t))
     else:
         s.passed[i] = 1
         record_contact(s, i, patch, t, x0, _NO_NORMAL)
-        host, y0, turn = cross(flow, triangle, x0)
+        host, y0, turn = cross(flow, triangle, x0, t)
         s.host[i] = host
         turn_body(block, i, turn, load9(block, at.F, i), load9(block, at.A, i))
         store9(block, at.frame, i, dot(load9(block, at.frame, i), transpose(turn)))
@@ -357,6 +391,7 @@ def note_passage(crossed: Any, i: int, t: float, x: Vector, y: Vector) -> None:
     crossed[i, 5], crossed[i, 6], crossed[i, 7] = y[0], y[1], y[2]
 
 
+@slot
 def mirror_memory(_block: Any, _i: int, _turn: Tensor) -> None:
     """No-op: the solid has no memory."""
 
@@ -391,25 +426,24 @@ def moved(turn: Tensor, shift: Vector, x: Vector) -> Vector:
     return plus(dot_vector(turn, x), shift)
 
 
-def last_inside(flow: Any, x0: Vector, x1: Vector) -> tuple[int, float]:
-    """Return the host of the last point from x0 to x1 that the tree finds, −1 for none, and its fraction."""
-    host = recover(flow, x1)
+@separate
+def last_inside(flow: Any, x0: Vector, x1: Vector, t: float) -> tuple[int, float]:
+    """Return the host of the last point from x0 to x1 that the tree finds, −1 for none, and its fraction.
+
+    ``t`` is the time of the mesh, s.
+    """
+    host = recover(flow, x1, t)
     if host >= 0:
         return host, 1.0
-    host, low, high = recover(flow, x0), 0.0, 1.0
+    host, low, high = recover(flow, x0, t), 0.0, 1.0
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        inside = recover(flow, between(x0, x1, middle))
+        inside = recover(flow, between(x0, x1, middle), t)
         if inside >= 0:
             host, low = inside, middle
         else:
             high = middle
     return host, low
-
-
-def walk_on(flow: Any, host: int, _ahead: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """Walk from x0 in its host to x1; a flow with its own function uses the probable host of x1."""
-    return walk(flow, host, x0, x1)
 
 
 def move_centre(
@@ -427,7 +461,7 @@ def move_centre(
     """
     block = s.block
     recovered, bounces = 0, 0
-    spent = 0.0
+    t, spent = block[at.t * LANES + i], 0.0
     x0, x1 = load3(block, at.x, i), goal
     start = x0
     if held:
@@ -435,10 +469,10 @@ def move_centre(
         return x1, start, x1, dt, -1, -1, recovered
     for _ in range(_MAX_PATCHES):
         remaining = dt - spent
-        host, fraction, patch, triangle = walk_on(flow, s.host[i], ahead, x0, x1)
+        host, fraction, patch, triangle = walk_on(flow, s.host[i], ahead, x0, t + spent, x1, t + dt)
         if patch == -2:
             recovered += 1
-            host, done = last_inside(flow, x0, x1)
+            host, done = last_inside(flow, x0, x1, t + dt)
             if host < 0:
                 fail(s, i, LOST)
                 return x1, start, x1, dt, -1, -1, recovered
@@ -448,7 +482,7 @@ def move_centre(
             x0 = between(x0, x1, done)
             spent += done * remaining
             remaining = dt - spent
-            host, fraction, patch, triangle = walk(flow, s.host[i], x0, x1)
+            host, fraction, patch, triangle = walk(flow, s.host[i], x0, t + spent, x1, t + dt)
             if patch == -2:
                 return x0, start, x0, dt, -1, -1, recovered
         s.host[i] = host
@@ -465,12 +499,12 @@ def move_centre(
         bounces += code != CYCLIC
         if bounces > _MAX_BOUNCES:
             break
-        t = block[at.t * LANES + i] + spent
-        x0, x1, turn, shift = cross_patch(flow, s, i, patch, code, triangle, t, x0, x1)
+        x0, x1, turn, shift = cross_patch(flow, s, i, patch, code, triangle, t + spent, x0, x1)
         start, ahead = moved(turn, shift, start), s.host[i]
     return x0, start, x0, dt, -1, -1, recovered
 
 
+@separate
 def move_back(
     flow: Any, patches: PatchTable, s: Scratch, i: int, t: float, x0: Vector, x1: Vector
 ) -> tuple[Vector, bool]:
@@ -480,7 +514,7 @@ def move_back(
     the centre went there.
     """
     for _ in range(_MAX_BOUNCES):
-        host, fraction, patch, triangle = walk(flow, s.host[i], x0, x1)
+        host, fraction, patch, triangle = walk(flow, s.host[i], x0, t, x1, t)
         if patch == -2:
             return x0, False
         s.host[i] = host
@@ -553,6 +587,7 @@ def touch(
     return f
 
 
+@separate
 def meet_wall(
     flow: Any,
     patches: PatchTable,
@@ -583,12 +618,13 @@ def meet_wall(
     """
     block, (start, goal), (patch, triangle) = s.block, way, met
     x, R = load3(block, at.x, i), block[at.R * LANES + i]
-    n = normal(flow, triangle, x)
+    bouncing = s.switches.bouncing
+    n = normal(flow, triangle, x, t + h)
     fall = inner(minus(goal, start), n)
-    reflected = reflects_steps > 0
+    reflected = s.switches.reflects_steps > 0
     if after == -math.inf:
         F = load9(block, at.F, i)
-        room, _, _ = gap(flow, s.host[i], x, F, R, mode_in(block, i, F))
+        room, _, _ = gap_of_lane(flow, block, i, s.host[i], x, F, t + h)
         # Infinite for a body that is a point to walls.
         reflected = reflected or room == math.inf
         after = min(0.0, (room if room < math.inf else 0.0) + inner(minus(goal, x), n))
@@ -630,7 +666,7 @@ def bounce(
     the velocity there, and ``new_v`` that after the contact.
     """
     block, (start, goal), (patch, _) = s.block, way, met
-    d = minus(goal, start)
+    d, bouncing = minus(goal, start), s.switches.bouncing
     v0, v1 = load3(block, at.new_v, i), load3(block, at.v, i)
     # Euler's steps lie on parabolas, whose slopes exceed the velocities by o.
     p, q = (0.5, 1.0 / h) if bouncing == GOES_ON else (0.0, 0.0)
@@ -706,16 +742,3 @@ def longest_of(p: Particles) -> float:
     for k in range(len(p.status)):
         longest = max(longest, longest_now(p, k))
     return longest
-
-
-RARE: tuple[Callable[..., Any], ...] = (
-    fail,
-    fail_in_small_cell,
-    cross_patch,
-    record_contact,
-    last_inside,
-    move_back,
-    share_before_contact,
-    meet_wall,
-)
-"""Long functions that few steps call, compiled as separate functions to keep the loops short."""

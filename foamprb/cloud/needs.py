@@ -13,13 +13,13 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, between, scale
 from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, viscosity_at
-from foamprb.cloud.forces import SAMPLE, STATE, Force, no_values
+from foamprb.cloud.forces import SAMPLE, STATE, Force, no_values, store_fields
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.layout import LANES, Row
 from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.compile.link import bound
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.fields import FieldColumns, blend_fields, width
+from foamprb.flow.fields import FieldArrays, FieldColumns, blend_fields, width
 from foamprb.flow.walk import blend
 
 _FIRST = {"u": (0, 3), "grad(u)": (3, 9)}
@@ -62,23 +62,18 @@ def _store(s: Scratch, i: int, row: int, host: int, x: Vector, t: float, u: Vect
         block[(row + c) * LANES + i] = u[c]
     for c in range(9):
         block[(row + 3 + c) * LANES + i] = l[c]
-    store_fields(s, i, row + _FLUID_ROWS, host, x, t)
+    store_fields(s.fields, block, i, row + _FLUID_ROWS, host, x, t)
 
 
-def no_fields(_s: Scratch, _i: int, _row: int, _host: int, _x: Vector, _t: float) -> None:
-    """No-op: no force reads a field."""
-
-
-def store_case_fields(s: Scratch, i: int, row: int, host: int, x: Vector, t: float) -> None:
+def store_case_fields(
+    fields: FieldArrays, block: Any, i: int, row: int, host: int, x: Vector, t: float
+) -> None:
     """Store the fields of the case at x and t."""
-    before, after, w, share = blend_fields(s.fields, host, x, t)
-    table = s.fields[1]
+    before, after, w, share = blend_fields(fields, host, x, t)
+    table = fields[1]
     for c in range(table.shape[1]):
         a, b = blend(table, c, before, w), blend(table, c, after, w)
-        s.block[(row + c) * LANES + i] = a + share * (b - a)
-
-
-store_fields: Callable[..., None] = no_fields
+        block[(row + c) * LANES + i] = a + share * (b - a)
 
 
 # ---------------------------------------------------------------------------------------------------------

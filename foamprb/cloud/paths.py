@@ -30,7 +30,7 @@ from foamprb.cloud.block import Scratch, at
 from foamprb.cloud.contact import passages
 from foamprb.cloud.layout import LANES, Row, end, offsets, rows_of
 from foamprb.cloud.state import Status
-from foamprb.compile.link import compiled
+from foamprb.compile.link import compiled, separate
 
 Floats = NDArray[np.float64]
 
@@ -65,7 +65,7 @@ class StepRows(NamedTuple):
     fluid_spin0: Annotated[int, Row(3, "1/s", "angular velocity of the fluid there")]
 
 
-step = offsets(StepRows)
+step = offsets(StepRows, 0)
 COLUMNS = end(step)
 MODE = frozenset(("B0", "growth0", "recovery0", "fluid_spin0"))
 """Rows of the quadratic mode."""
@@ -128,6 +128,7 @@ def is_full(s: Scratch) -> bool:
     return bool(room > 0 and s.recorded[0] == room)
 
 
+@separate
 def record_starts(s: Scratch) -> None:
     """Record the starts of the steps of all lanes; no-op without a table."""
     if s.paths.shape[0] == 0:
@@ -139,6 +140,7 @@ def record_starts(s: Scratch) -> None:
         steps[step.host0, i] = s.host[i]
 
 
+@separate
 def record_ends(s: Scratch) -> None:
     """Record the ends of the same steps; those of lanes that have not moved take no time."""
     if s.paths.shape[0] == 0 or not has_watched(s):

@@ -27,17 +27,16 @@ from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adhesion import Adhesion
 from foamprb.cloud.block import Medium, Scratch, new_scratch
-from foamprb.cloud.contact import CROWDED, contact_normals, in_order
+from foamprb.cloud.contact import CROWDED, contact_normals, gaps, in_order, no_mode
 from foamprb.cloud.drops import DROP_BINDINGS
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.instants import Moments, instants_of
-from foamprb.cloud.integrators.adaptive import stretch_of
-from foamprb.cloud.integrators.base import track_share
+from foamprb.cloud.integrators.adaptive import sampling, stretch_of
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.lanes import PAUSED
-from foamprb.cloud.layout import LANES, rows_of
+from foamprb.cloud.layout import LANES, load_rows, rows_of, save_rows
 from foamprb.cloud.limits import LoopLimits
-from foamprb.cloud.motion import RARE, SHORTEST_STEP, UNLISTED, PatchTable, interrupted
+from foamprb.cloud.motion import SHORTEST_STEP, UNLISTED, PatchTable, interrupted
 from foamprb.cloud.needs import needed_by, reader_of
 from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, Adhere, Interaction, Rebound
 from foamprb.cloud.paths import COLUMNS, COLUMNS_OF_ELLIPSOIDS, MODE, ROOM, Steps, steps_of
@@ -49,13 +48,13 @@ from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticRows, QuadraticSolid
 from foamprb.cloud.viscosity import model_of
-from foamprb.compile.link import is_compiled, link, linked, read_by
+from foamprb.compile.link import is_compiled, link, linked, packed, read_by
 from foamprb.errors import InputError, closest
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
 from foamprb.flow.fields import FieldColumns, Fields, fields_on, width
+from foamprb.flow.kernels import behind
 from foamprb.flow.mesh.arrays import no_mesh
-from foamprb.flow.meshflow import LONG
 
 
 def never() -> bool:
@@ -179,9 +178,7 @@ class Tracker:
         end: float = np.inf,
     ) -> None:
         self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches, columns, end
-        bindings: dict[str, Any] = dict(kernels)
-        if models.touching == "centre":
-            bindings["gap"] = gap_free
+        bindings: dict[str, Any] = {}
         bindings["traction"] = TRACTIONS[models.traction]
         bindings["drag"] = DRAGS[models.drag]
         material = MATERIALS[models.material]
@@ -217,23 +214,21 @@ class Tracker:
         others = (*models.surroundings, *((Adhesion(),) if adheres else ()))
         around = (*model_of(medium.mu), *needed, largest, *others)
         self.layout = layout = surroundings.with_rows(integrator.layout, around)
-        required: dict[str, Any] = {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
-        required |= integrator.bindings
-        required |= compose(models.forces, partial(reader_of, columns=columns, inertia=integrator.inertia))
-        bindings |= required
-        bindings |= surroundings.compose(integrator.layout, around, integrator.inertia)
-        # The flow and the models offer more than every loop reads.
-        read = read_by(track_share, {**bindings, "track": integrator.track})
+        composed = surroundings.compose(around, patches, integrator.inertia)
+        bindings |= integrator.bindings
+        bindings |= compose(models.forces, partial(reader_of, columns=columns, inertia=integrator.inertia))
+        bindings |= composed.bindings
+        gap = gap_free if models.touching == "centre" else kernels["gap"]
+        mode_in, mode_of = bindings.pop("mode_in", no_mode), bindings.pop("mode_of", no_mode)
+        self.slots = {
+            load_rows: layout.load, save_rows: layout.save, **behind(kernels), **gaps(gap, mode_in, mode_of),
+            **sampling(kernels), **integrator.slots, **composed.slots,
+        }  # fmt: skip
+        # The models offer more than every loop reads.
+        self.bindings = read_by(integrator.track, bindings, self.slots)
+        self._of_normals = read_by(contact_normals, bindings, self.slots)
         self.kernels = kernels
-        self._of_normals = read_by(contact_normals, bindings)
-        self.bindings = {name: bindings[name] for name in bindings if name in read or name in required}
-        self.separate: tuple[Callable[..., Any], ...] = (
-            *integrator.stages,
-            *surroundings.stages(around, integrator.inertia),
-            *integrator.rare,
-            *RARE,
-            *LONG,
-        )
+        self.switches = integrator.switches._replace(**composed.switches)
         self.table = _patch_table(interactions, medium.mu)
         breaks = any(isinstance(interaction, Adhere) and interaction.breaks for interaction in interactions)
         self.movable = (Status.PENDING, Status.ACTIVE, *((Status.STUCK,) if breaks else ()))
@@ -244,8 +239,8 @@ class Tracker:
             mu=np.nan if model_of(medium.mu) else float(medium.mu),
             rho=float(medium.rho),
             gravity=(g1, g2, g3),
-            coefficients=coefficients(models.forces),
-            surroundings=surroundings.coefficients(around, patches),
+            forces=coefficients(models.forces),
+            numbers=surroundings.numbers_of(around, patches),
         )
         self.dt, self.start, self.end = dt, start, end
         # Surroundings may change, or draw random numbers, in each tracking step.
@@ -256,7 +251,8 @@ class Tracker:
         """Multiple of steps at which a run may be cut into calls without any change of its results."""
         self.rebounds: list[NDArray[np.float64]] = []
         self._room = _ROOM if models.rebounds else 0
-        self._track = link(track_share, {**self.bindings, "track": integrator.track}, self.separate)
+        self._loop: Any = None
+        self._layouts: dict[str, Any] = {}
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Compiled code is not sent; the other process loads it from the cache.
@@ -278,31 +274,50 @@ class Tracker:
         mirrors = MIRROR in self.table.code or any(m.traits.mirrors for m in self._made_of[0].surroundings)
         return frozenset(saved if mirrors else saved - {"F0"})
 
+    def linked(self, flow: Any, fields: Any) -> Any:
+        """Return the loop for packed arrays of a flow and of fields of the case."""
+        layouts = {"flow": getattr(flow, "layout", None), "fields": getattr(fields, "layout", None)}
+        # Linking costs as much as some thousands of steps.
+        if self._loop is None or layouts != self._layouts:
+            self._layouts = layouts
+            self._loop = link(self.integrator.track, self.bindings, self.slots, **layouts)
+        return self._loop
+
     @property
     def compiled(self) -> bool:
-        """Whether the loop is compiled, or in the cache."""
-        return is_compiled(self._track)
+        """Whether the loop of the last steps is compiled, or in the cache."""
+        return self._loop is not None and is_compiled(self._loop)
+
+    def is_compiled(self, flow: Any) -> bool:
+        """Return True if the loop for the arguments of a flow's kernels is compiled, or in the cache."""
+        return is_compiled(self.linked(packed(flow), self._sampled(self._no_fields)))
 
     def compile(self, flow: Any) -> None:
         """Compile the loop for the arguments of a flow's kernels."""
-        nothing = np.empty(0, dtype=np.int64)
-        fields = fields_on(no_mesh(), np.empty((0, width(self._columns))), self._columns)
-        scratch = self._scratch(fields=fields)
-        self._track(
+        nothing, flow = np.empty(0, dtype=np.int64), packed(flow)
+        scratch = self._scratch(fields=self._sampled(self._no_fields))
+        self.linked(flow, scratch.fields)(
             flow, self.table, self.medium, empty(0), nothing, 0, 0, self.dt, self.start, scratch,
-            self.options,
+            *self.options,
         )  # fmt: skip
+
+    @property
+    def _no_fields(self) -> Fields:
+        return fields_on(no_mesh(), np.empty((0, width(self._columns))), self._columns)
+
+    def _sampled(self, fields: Fields | None) -> Any:
+        """Return the packed arrays of fields of the case that forces need."""
+        return packed(fields.arrays if self._columns and fields is not None else ())
 
     def _scratch(
         self,
         stop: Any = None,
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
-        fields: Fields | None = None,
+        fields: Any = None,
         observers: Observers | None = None,
         stored: Stored | None = None,
     ) -> Scratch:
-        lasting = self.layout.lasting, self.layout.fresh
-        scratch = new_scratch(self.layout.rows, stop, bounds, self._room, lasting)
+        scratch = new_scratch(self.layout, stop, bounds, self._room, self.switches)
         recorded = self.integrator.recorded
         parts = [part for part in self.layout.parts if isinstance(part, QuadraticRows)]
         mode = {name: row for part in parts for name, row in part._asdict().items()}
@@ -317,7 +332,7 @@ class Tracker:
             slack = 2.0 * SHORTEST_STEP * self.dt
             at_instants = instants_of(*stored, recorded, self.layout, mode, slack)
             scratch = scratch._replace(instants=at_instants)
-        return scratch._replace(fields=fields.arrays) if self._columns and fields is not None else scratch
+        return scratch if fields is None else scratch._replace(fields=fields)
 
     def advance(
         self,
@@ -392,16 +407,16 @@ class Tracker:
     ) -> Outcome:
         """Advance the particles of some rows from a step by a number of steps."""
         halt = np.zeros(1, dtype=np.int64)
+        flow, sampled = packed(flow), self._sampled(fields)
+        track = self.linked(flow, sampled)
 
         def work(task: Task) -> Outcome:
-            scratch = self._scratch(halt, bounds, fields, observers, stored)
+            scratch = self._scratch(halt, bounds, sampled, observers, stored)
             mended = 0
             for part in task.parts(self.integrator.adaptive or observers is None):
                 going_on = 1
                 while going_on:
-                    mended += self._track(
-                        flow, self.table, self.medium, p, *part, *times, scratch, self.options
-                    )
+                    mended += track(flow, self.table, self.medium, p, *part, *times, scratch, *self.options)
                     going_on = scratch.counts[PAUSED]
                     if observers is not None:
                         observers.observe(self._steps(scratch, p, finished=not interrupted(scratch)))
@@ -438,7 +453,9 @@ class Tracker:
     def contact_normals(self, flow: Any, p: Particles, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""
         normals = np.empty((len(rows), 3))
-        link(contact_normals, self._of_normals, self.separate)(flow, p, rows, normals)
+        flow = packed(flow)
+        layout = getattr(flow, "layout", None)
+        link(contact_normals, self._of_normals, self.slots, flow=layout)(flow, p, rows, normals)
         return normals
 
     def take_rebounds(self) -> NDArray[np.float64]:
@@ -586,11 +603,12 @@ def _check_names(model: Surrounding) -> None:
     """Raise NameError if a model binds a name that no loop reads, and whose function no loop would call."""
     bound, names_read = set[str](), set[str]()
     for integrator in INTEGRATORS.values():
-        around = surroundings.compose(integrator.layout, [model], integrator.inertia)
-        functions = linked(track_share, {**integrator.bindings, **around, "track": integrator.track})
-        bound.update(model.bindings(integrator.inertia).keys() - {"prepare"})
+        composed = surroundings.compose([model], (), integrator.inertia)
+        slots = {**integrator.slots, **composed.slots}
+        functions = linked(integrator.track, {**integrator.bindings, **composed.bindings}, slots)
+        bound.update(composed.bindings.keys() - model.rows.keys())
         names_read.update(*(function.__globals__ for function in functions))
-    for name in sorted(bound - names_read):
+    for name in sorted(bound - names_read - {"mode_in", "mode_of"}):
         meant = closest(name, names_read)
         question = f". Did you mean {meant}?" if meant else ""
         raise NameError(f"{type(model).__name__} binds {name}, a name that no loop reads{question}")

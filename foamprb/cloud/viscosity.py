@@ -24,13 +24,13 @@ from foamprb.body.tensor import (
     select,
 )
 from foamprb.body.viscosity import shear_rate
-from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
+from foamprb.cloud.block import LocalMedium, Medium, Scratch, at, load3, load9, store3
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.compile.link import traced
-from foamprb.flow.analytic import viscosity_unknown as viscosity
 from foamprb.flow.base import Patch, Sampled
+from foamprb.flow.kernels import viscosity
 from foamprb.flow.nodes import NodeValues
 
 Floats: TypeAlias = NDArray[np.float64]
@@ -59,8 +59,10 @@ class MixtureRows(NamedTuple):
     fraction_slope: Annotated[int, Row(3, "1/m", "its gradient")]
 
 
-fluid: Any = offsets(FieldRows)
+fluid = offsets(FieldRows)
 """Offsets of the rows; all declarations begin with the same row."""
+mixture = offsets(MixtureRows)
+"""The same of a mixture."""
 
 
 def felt_viscosity(block: Any, i: int, _medium: Medium) -> Scalar:
@@ -68,10 +70,9 @@ def felt_viscosity(block: Any, i: int, _medium: Medium) -> Scalar:
     return block[fluid.mu_f * LANES + i]
 
 
-def mixed_fluid(block: Any, i: int, medium: Medium) -> Medium:
+def mixed_medium(block: Any, i: int, medium: Medium) -> LocalMedium:
     """Return the medium with ρ_f at the barycentre of lane i."""
-    rho = block[fluid.rho_f * LANES + i]
-    return Medium(medium.mu, rho, medium.gravity, medium.coefficients, medium.surroundings)
+    return LocalMedium(medium.mu, block[mixture.rho_f * LANES + i], medium.gravity, medium.forces)
 
 
 def law(_rate: Scalar) -> Scalar:
@@ -126,8 +127,8 @@ def sample_fraction(
     """Store the volume fraction and its gradient at the position of lane i, and the fluid there."""
     block = s.block
     a, slope = viscosity(flow, s.host[i], load3(block, at.x, i), _middle(block, i, remaining))
-    block[fluid.fraction * LANES + i] = a
-    store3(block, fluid.fraction_slope, i, slope)
+    block[mixture.fraction * LANES + i] = a
+    store3(block, mixture.fraction_slope, i, slope)
     store_mixture(block, i, a, coefficients)
 
 
@@ -136,7 +137,7 @@ def store_mixture(block: Any, i: int, fraction: Scalar, coefficients: Any) -> No
     a = np.maximum(0.0, np.minimum(1.0, fraction))
     mu, other_mu, rho, other_rho = coefficients
     block[fluid.mu_f * LANES + i] = other_mu + a * (mu - other_mu)
-    block[fluid.rho_f * LANES + i] = other_rho + a * (rho - other_rho)
+    block[mixture.rho_f * LANES + i] = other_rho + a * (rho - other_rho)
 
 
 @traced
@@ -145,8 +146,8 @@ def evaluate_mixture(block: Any, _medium: Medium, share: float, coefficients: An
     for i in range(LANES):
         # At the start of a step new_x is not known.
         way = minus(load3(block, at.new_x, i), load3(block, at.x, i))
-        more = select(share > 0.0, share * inner(way, load3(block, fluid.fraction_slope, i)), 0.0)
-        store_mixture(block, i, block[fluid.fraction * LANES + i] + more, coefficients)
+        more = select(share > 0.0, share * inner(way, load3(block, mixture.fraction_slope, i)), 0.0)
+        store_mixture(block, i, block[mixture.fraction * LANES + i] + more, coefficients)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -177,6 +178,7 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
     rows: ClassVar = {"fluid": ViscosityRows}
     traits: ClassVar = Traits(each_step=False)
     update: ClassVar = staticmethod(start_law)
+    prepare: ClassVar = staticmethod(evaluate_law)
 
     @classmethod
     def of_kinematic(cls, coefficients: Mapping[str, float], rho: float) -> Self:
@@ -190,7 +192,7 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
         """Return also the law."""
-        return {**super().bindings(inertia), "prepare": evaluate_law, "law": type(self).law}
+        return {**super().bindings(inertia), "law": type(self).law}
 
     def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:  # noqa: ARG002
         """See :meth:`VaryingViscosity.of`."""
@@ -246,10 +248,7 @@ class FieldViscosity(VaryingViscosity):
     rows: ClassVar = {"fluid": FieldRows}
     traits: ClassVar = Traits(kernels=("viscosity",))
     update: ClassVar = staticmethod(sample_field)
-
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
-        """Return also the evaluation of the field."""
-        return {**super().bindings(inertia), "prepare": evaluate_field}
+    prepare: ClassVar = staticmethod(evaluate_field)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return the factor."""
@@ -279,13 +278,14 @@ class PhaseMixture(VaryingViscosity):
     mean: float
     """Mean viscosity over the cells, Pa s."""
 
-    rows: ClassVar = {"fluid": MixtureRows}
+    rows: ClassVar = {"mixture": MixtureRows}
     traits: ClassVar = Traits(kernels=("viscosity",))
     update: ClassVar = staticmethod(sample_fraction)
+    prepare: ClassVar = staticmethod(evaluate_mixture)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
-        """Return also the evaluation of the fraction, and the density."""
-        return {**super().bindings(inertia), "prepare": evaluate_mixture, "local_fluid": mixed_fluid}
+        """Return also the density."""
+        return {**super().bindings(inertia), "local_medium": mixed_medium}
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return viscosities and densities."""

@@ -1,9 +1,8 @@
 """Compilation of linked functions with numba internals.
 
-numba makes machine code of each function. Here only entries and stages become machine code. Inlined functions
-stay LLVM IR, which is linked into their callers before these are optimised. Separate functions are optimised
-alone and linked with their callers afterwards. Stages are called by name: the machine code of a caller serves
-for any stage of a name, with the key of this one in place of another. Stages that can be traced
+numba makes machine code of each function. Here inlined functions stay LLVM IR, which is linked into their
+callers before these are optimised. All others are called by name: the machine code of a caller serves for any
+function of a name, with the key of this one in place of another. Stages that can be traced
 (:mod:`foamprb.compile.trace`) skip the passes of numba. Compiled code is kept on disk
 (:mod:`foamprb.compile.cache`).
 
@@ -21,6 +20,7 @@ import logging
 import pickle
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from types import SimpleNamespace
 from typing import Any, Literal, TypeAlias
 
 from llvmlite import binding, ir  # type: ignore[import-untyped]
@@ -38,15 +38,16 @@ from numba.core.typing import signature
 
 from foamprb.compile.cache import Store
 from foamprb.compile.part import Keys, Part
-from foamprb.compile.trace import Code, UntraceableError, trace
+from foamprb.compile.record_type import RecordType, read_item
+from foamprb.compile.trace import TRACED, Code, Numbers, UntraceableError, trace
 
-__all__ = ["Role", "pipeline", "use_cache", "use_cache_of_entry"]
+__all__ = ["Role", "pipeline", "use_cache"]
 
 log = logging.getLogger("foamprb")
 
-Role: TypeAlias = Literal["entry", "stage", "separate", "inlined"]
-"""Python calls an entry; compiled code calls a stage or a separate function; an inlined one is a part of its
-callers."""
+Role: TypeAlias = Literal["entry", "lanes", "scalar", "inlined"]
+"""Python calls an entry; compiled code calls, by name, functions of all lanes and scalar ones; an inlined one
+is a part of its callers."""
 
 _WIDE = '"prefer-vector-width"="512"'
 """LLVM attribute: use registers of 512 bits where the processor has them."""
@@ -83,23 +84,21 @@ class _Inlined(JITCodeLibrary):  # type: ignore[misc]
 
 
 class _Entry(_Inlined):
-    """Machine code: linked with inlined functions before its optimisation, with separate ones after it."""
+    """Machine code, linked with inlined functions before its optimisation."""
 
     def finalize(self) -> None:
         inlined: dict[Any, None] = {}
-        called: dict[Any, None] = {}
-        _collect(self, inlined, called)
-        for library in inlined:
+        _collect(self, inlined)
+        # Callers first: a function to which nothing refers yet is left out.
+        for library in reversed(inlined):
             self._reload_init.update(library._reload_init)
             self._final_module.link_in(library._get_module_for_linking(), preserve=True)
         self._optimize_final_module()
-        for library in called:
-            self._final_module.link_in(library._final_module, preserve=True)
         self._final_module.verify()
         self._finish()
 
     def _finish(self) -> None:
-        # Another loop may hold a function of the same name that calls other stages.
+        # Another loop may hold a function of the same name that calls other functions.
         for function in self.get_defined_functions():
             if function.linkage == binding.Linkage.linkonce_odr:
                 function.linkage = "internal"
@@ -112,8 +111,12 @@ class _Entry(_Inlined):
         return self.name, "object", (self._get_compiled_object(), binding.parse_assembly(text).as_bitcode())
 
 
-class _Wide(_Entry):
-    """Code that uses wide registers."""
+class _Scalar(_Entry):
+    """Machine code that others find by its name."""
+
+
+class _Lanes(_Scalar):
+    """The same, with wide registers."""
 
     def add_ir_module(self, ir_module: Any) -> None:
         for function in ir_module.functions:
@@ -123,21 +126,7 @@ class _Wide(_Entry):
         super().add_ir_module(ir_module)
 
 
-class _Separate(_Wide):
-    """LLVM IR that is optimised with all that it calls, and linked with its callers after that."""
-
-    _finish = _Inlined._finish
-
-    def serialize_using_object_code(self) -> Any:
-        """Return the IR: there is no machine code."""
-        return self.serialize_using_bitcode()
-
-
-class _Stage(_Wide):
-    """Machine code that others find by its name."""
-
-
-class _Traced(_Stage):
+class _Traced(_Lanes):
     """Machine code of a traced stage, which needs few passes."""
 
     def finalize(self) -> None:
@@ -151,39 +140,37 @@ class _Traced(_Stage):
         self._finish()
 
 
-def _collect(library: Any, inlined: dict[Any, None], called: dict[Any, None]) -> None:
-    """Collect the inlined and the separate libraries that a library refers to, directly or not."""
+def _collect(library: Any, inlined: dict[Any, None]) -> None:
+    """Collect the inlined libraries that a library refers to, directly or not, each after its own."""
     for other in library._linking_libraries:
-        if isinstance(other, _Separate):
-            called[other] = None
-        elif other not in inlined and not isinstance(other, _Stage):
-            inlined[other] = None
+        if other not in inlined and not isinstance(other, _Scalar):
             if isinstance(other, _Inlined):
-                _collect(other, inlined, called)
+                _collect(other, inlined)
+            inlined[other] = None
 
 
-def _name_of_stage(qualified: str, kinds: Sequence[Any]) -> str:
-    """Return the name of a stage for arguments of some types in machine code.
+def _name_by_key(qualified: str, kinds: Sequence[Any]) -> str:
+    """Return the name of a function for arguments of some types in machine code.
 
     Of ``qualified`` only the key at the end counts, in whose place a caller's code may have another.
     """
     return (
-        f"stage_{qualified.rpartition('_')[2]}_{hashlib.sha256(repr(tuple(kinds)).encode()).hexdigest()[:16]}"
+        f"code_{qualified.rpartition('_')[2]}_{hashlib.sha256(repr(tuple(kinds)).encode()).hexdigest()[:16]}"
     )
 
 
-def _context(target: Any, stage: str = "") -> Any:
+def _context(target: Any, named: str = "") -> Any:
     """Return a copy of numba's context of a target for functions that Python does not call.
 
-    ``stage`` is the qualified name of a stage, with its key.
+    ``named`` is the qualified name, with its key, of a function that is found by a name.
     """
     context = copy.copy(target)
     context.get_executable = _without_executable
-    if stage:
+    if named:
 
         def mangler(name: str, kinds: Sequence[Any], **more: Any) -> Any:
-            is_stage = name.endswith(stage) and not name.startswith(".NumbaEnv")
-            return _name_of_stage(stage, kinds) if is_stage else target.mangler(name, kinds, **more)
+            is_named = name.endswith(named) and not name.startswith(".NumbaEnv")
+            return _name_by_key(named, kinds) if is_named else target.mangler(name, kinds, **more)
 
         context.mangler = mangler
     return context
@@ -198,8 +185,8 @@ def _without_executable(library: Any, fndesc: Any, env: Any) -> Any:
 
 _LIBRARIES: dict[Role, type[_Inlined]] = {
     "entry": _Entry,
-    "stage": _Stage,
-    "separate": _Separate,
+    "lanes": _Lanes,
+    "scalar": _Scalar,
     "inlined": _Inlined,
 }
 
@@ -215,10 +202,10 @@ def _lowering(role: Role) -> type:
             target = state.targetctx
             name = state.func_id.func_qualname
             state.library = _LIBRARIES[role](target.codegen(), name)
-            if role in ("entry", "stage"):
+            if role != "inlined":
                 state.library.enable_object_caching()
             if role != "entry":
-                state.targetctx = _context(target, name if role == "stage" else "")
+                state.targetctx = _context(target, "" if role == "inlined" else name)
             try:
                 return bool(super().run_pass(state))
             finally:
@@ -238,7 +225,7 @@ def _compiler(role: Role) -> type:
     class Compiler(CompilerBase):  # type: ignore[misc]
         def compile_extra(self, function: Any) -> Any:
             with _rare_collection(), _resolved_operators():
-                if role == "stage":
+                if hasattr(function, TRACED):
                     try:
                         return _traced(self.state, function)
                     except UntraceableError as reason:
@@ -363,12 +350,18 @@ def _register() -> int:
     return 8 if features.get("avx512f") else 4 if features.get("avx") else 2
 
 
-def _symbols(kind: Any, code: Code, path: tuple[int, ...]) -> Any:
+def _symbols(kind: Any, code: Code, path: tuple[int | str, ...]) -> Any:
     """Return the symbol of an argument of some type, found under ``path`` among the arguments."""
     if kind == types.Array(types.float64, 1, "C") and path == (0,):
         return code.block
     if kind == types.float64:
         return code.argument(path)
+    if kind == types.Array(types.float64, 1, "C"):
+        return Numbers(code, path)
+    if isinstance(kind, RecordType):
+        return SimpleNamespace(
+            **{name: _symbols(item, code, (*path, name)) for name, item in kind.items.items()}
+        )
     if isinstance(kind, types.BaseTuple):
         items = [_symbols(item, code, (*path, k)) for k, item in enumerate(kind)]
         return kind.instance_class(*items) if isinstance(kind, types.BaseNamedTuple) else tuple(items)
@@ -383,13 +376,28 @@ def _caller(context: Any, library: Any, descriptor: Any, code: Code) -> Any:
     arguments = context.call_conv.decode_arguments(builder, descriptor.argtypes, outer)
     block = context.make_array(descriptor.argtypes[0])(context, builder, arguments[0]).data
     numbers = [
-        builder.extract_value(arguments[path[0]], path[1:]) if path[1:] else arguments[path[0]]
-        for path in code.arguments
+        _number(context, builder, descriptor.argtypes, arguments, path, item) for path, item in code.arguments
     ]
     kind = ir.FunctionType(ir.VoidType(), [block.type, *(number.type for number in numbers)])
     builder.call(ir.Function(module, kind, f"{descriptor.qualname}_lanes"), [block, *numbers])
     context.call_conv.return_value(builder, context.get_dummy_value())
     return module
+
+
+def _number(
+    context: Any, builder: Any, kinds: Sequence[Any], arguments: Sequence[Any], path: Any, item: int | None
+) -> Any:
+    """Return the number under a path among the arguments, or the item of the array there."""
+    kind, value = kinds[path[0]], arguments[path[0]]
+    for k in path[1:]:
+        if isinstance(kind, RecordType):
+            kind, value = kind.items[k], read_item(context, builder, kind, value, k)
+        else:
+            kind, value = kind[k], builder.extract_value(value, k)
+    if item is None:
+        return value
+    data = context.make_array(kind)(context, builder, value).data
+    return builder.load(builder.gep(data, [ir.Constant(ir.IntType(64), item)]))
 
 
 class _Reader:
@@ -400,34 +408,34 @@ class _Reader:
 
     def create_library(self, name: str) -> Any:
         """Return an empty library for machine code."""
-        return _Stage(self._codegen, name)
+        return _Scalar(self._codegen, name)
 
     def unserialize_library(self, state: Any) -> Any:
-        name, kind, code = state
-        if kind == "object":
-            return _Stage._unserialize(self, state)
-        library = _Separate(self._codegen, name)
-        library._final_module = binding.parse_bitcode(code)
-        library._finish()
-        return library
+        return _Scalar._unserialize(self, state)
 
 
 class _Cache:
     """Cache of a dispatcher, as numba calls it before and after each compilation.
 
     The cache that numba has goes by a function's file, not by the code that it calls, and has no checksum.
-    Code that is found calls stages, which are then compiled or found as well.
+    Keys in saved code do not depend on the functions that are found by a name; each process puts the keys of
+    its own there. Code that is found calls these functions, which are then compiled or found as well.
 
     Parameters
     ----------
     store
         The function's files.
-    stages
-        Stages that its code may call, by the keys that they have in saved code.
+    keys
+        Its keys.
+    named
+        Functions that its code may call by name.
+    is_entry
+        Whether Python calls it.
     """
 
-    def __init__(self, store: Store, stages: Mapping[str, Part]) -> None:
-        self._store, self._stages = store, dict(stages)
+    def __init__(self, store: Store, keys: Keys, named: Mapping[str, Part], is_entry: bool) -> None:
+        self._store, self._named, self._is_entry = store, dict(named), is_entry
+        self._keys = [keys, *(part.keys for part in named.values())]
         self.cache_path = str(store.folder)
 
     def load_overload(self, signature: Any, context: Any) -> Any:
@@ -444,70 +452,53 @@ class _Cache:
         # Machine code that holds addresses serves one process only.
         if not result.library.has_dynamic_globals:
             codegen = result.target_context.codegen()
-            self._store.save((signature, codegen.magic_tuple()), self._reduced(result))
+            state = dumps(result._reduce())
+            for keys in self._keys:
+                state = state.replace(keys.full.encode(), keys.outside.encode())
+            self._store.save((signature, codegen.magic_tuple()), (self._called(result), state))
 
     def flush(self) -> None:
         self._store.flush()
 
     def _rebuilt(self, context: Any, saved: Any) -> Any:
         called, state = saved
-        self._compile(called)
+        for key, kinds, returned in called:
+            dispatcher = self._named[key].dispatcher
+            dispatcher.compile(kinds)
+            if dispatcher.overloads[kinds].signature.return_type != returned:
+                return None
+        for keys in self._keys:
+            state = state.replace(keys.outside.encode(), keys.full.encode())
+        if self._is_entry:
+            return CompileResult._rebuild(context, *pickle.loads(state))
         target, codegen = _context(context), context.codegen()
         target.codegen = lambda: _Reader(codegen)
         # Without the environments of interpreted code, which belong to entries.
-        return CompileResult._rebuild(target, *state[:-1], ())
+        return CompileResult._rebuild(target, *pickle.loads(state)[:-1], ())
 
-    def _reduced(self, result: Any) -> Any:
-        return self._called(result), result._reduce()
-
-    def _called(self, result: Any) -> list[tuple[str, Any]]:
-        """Return the keys of the stages that compiled code calls, and the types of their arguments."""
+    def _called(self, result: Any) -> list[tuple[str, Any, Any]]:
+        """Return the keys of the functions that compiled code calls, and their types."""
         declared = {f.name for f in result.library._final_module.functions if f.is_declaration}
         return [
-            (key, kinds)
-            for key, part in self._stages.items()
+            (key, kinds, compiled.signature.return_type)
+            for key, part in self._named.items()
             for kinds, compiled in part.dispatcher.overloads.items()
             if compiled.fndesc.mangled_name in declared
         ]
 
-    def _compile(self, called: list[tuple[str, Any]]) -> None:
-        for key, kinds in called:
-            self._stages[key].dispatcher.compile(kinds)
 
+def use_cache(dispatcher: Any, keys: Keys, named: Mapping[str, Part], is_entry: bool) -> Store:
+    """Give the dispatcher of a function with machine code of its own a place in the cache.
 
-class _CacheOfEntry(_Cache):
-    """Cache of an entry. Keys in saved code do not depend on the stages; each run puts its own there."""
-
-    def __init__(self, store: Store, keys: Keys, stages: Mapping[str, Part]) -> None:
-        super().__init__(store, stages)
-        self._keys = [keys, *(part.keys for part in stages.values())]
-
-    def _rebuilt(self, context: Any, saved: Any) -> Any:
-        called, state = saved
-        self._compile(called)
-        for keys in self._keys:
-            state = state.replace(keys.outside.encode(), keys.full.encode())
-        return CompileResult._rebuild(context, *pickle.loads(state))
-
-    def _reduced(self, result: Any) -> Any:
-        state = dumps(result._reduce())
-        for keys in self._keys:
-            state = state.replace(keys.full.encode(), keys.outside.encode())
-        return self._called(result), state
-
-
-def use_cache(dispatcher: Any, key: str, stages: Mapping[str, Part]) -> Store:
-    """Give the dispatcher of a stage or a separate function a place in the cache.
-
-    Its code changes with the ``stages`` that it calls, which have full keys.
+    Parameters
+    ----------
+    keys
+        Its keys.
+    named
+        Functions that it may call by name.
+    is_entry
+        Whether Python calls it.
     """
-    store = Store(key, dumps)
-    dispatcher._cache = _Cache(store, {part.keys.full: part for part in stages.values()})
-    return store
-
-
-def use_cache_of_entry(dispatcher: Any, keys: Keys, stages: Mapping[str, Part]) -> Store:
-    """Give the dispatcher of an entry a place in the cache; the ``stages`` go by their keys outside."""
     store = Store(keys.outside, dumps)
-    dispatcher._cache = _CacheOfEntry(store, keys, stages)
+    dispatcher._cache = _Cache(store, keys, named, is_entry)
     return store

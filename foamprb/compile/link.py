@@ -2,8 +2,13 @@
 
 The mathematics of foamprb is written once, as plain functions of floats, tuples and array elements.
 :func:`link` follows the functions that an entry function calls, through their module globals, and compiles
-all of them with numba. The plain functions stay callable, on floats or on numpy arrays. A model that the user
-selects (a traction, a drag law, a flow) is bound to the name by which the entry function calls it.
+all of them with numba. The plain functions stay callable, on floats or on numpy arrays.
+
+Most functions are inlined in their callers. Three kinds are machine code of their own, which callers find by
+a name, and are compiled once however many loops call them: :func:`traced` stages, :func:`separate` functions,
+and those behind a :func:`slot`. A slot is a function that another one replaces: a model, an integrator's
+stage, a kernel of a flow. Callers of a slot are not compiled again when what is behind it changes. Within a
+stage, a model (a traction, a drag law) is bound to the name by which the stage calls it.
 
 With ``NUMBA_DISABLE_JIT=1`` nothing is compiled: the same functions run in the interpreter, for a debugger.
 """
@@ -21,16 +26,17 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import version
+from inspect import signature
 from pathlib import Path
 from types import CellType, CodeType, FunctionType, ModuleType
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar
 
 import numpy as np
 
 from foamprb.body.tensor import select
 from foamprb.compile.cache import Store
 from foamprb.compile.part import Keys, Part
-from foamprb.compile.trace import TRACED, branch
+from foamprb.compile.trace import LANES, TRACED, branch
 
 if TYPE_CHECKING:
     from foamprb.compile.internals import Role
@@ -39,15 +45,22 @@ __all__ = [
     "allocating",
     "bound",
     "compiled",
+    "conform",
     "is_compiled",
+    "kernel",
     "key_of",
     "link",
     "linked",
+    "packed",
     "read_by",
+    "separate",
+    "slot",
     "traced",
 ]
 
 log = logging.getLogger("foamprb")
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 TESTED = "0.68"
 """Minor version of numba with which :mod:`foamprb.compile.internals` was tested."""
@@ -63,11 +76,12 @@ _OPTIONS: dict[str, Any] = {
     "fastmath": set(_FAST_MATH),
     "no_cfunc_wrapper": True,
 }
-_ALLOCATES = "allocates"
+_ALLOCATES, _SEPARATE, _SLOT, _PACKED = "allocates", "separate", "slot", "packed"
+"""Attributes of marked functions; the last one holds the first parameter of a kernel."""
 _OPTIONS_OF: dict[Role, dict[str, Any]] = {
     "entry": {"forceinline": False},
-    "stage": {"forceinline": False, "no_cpython_wrapper": True},
-    "separate": {"forceinline": False, "no_cpython_wrapper": True},
+    "lanes": {"forceinline": False, "no_cpython_wrapper": True},
+    "scalar": {"forceinline": False, "no_cpython_wrapper": True},
     "inlined": {"forceinline": True, "no_cpython_wrapper": True},
 }
 
@@ -75,7 +89,8 @@ _OPTIONS_OF: dict[Role, dict[str, Any]] = {
 def link(
     entry: Callable[..., Any],
     bindings: Mapping[str, Any] | None = None,
-    separate: Collection[Callable[..., Any]] = (),
+    slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None,
+    **layouts: Any,
 ) -> Any:
     """Compile ``entry`` with everything it calls.
 
@@ -87,16 +102,18 @@ def link(
     bindings
         Functions and constants to put under a global name that ``entry`` or its callees use, e.g.
         ``{"traction": roscoe}``.
-    separate
-        Callees that are compiled on their own, and called, so that several entries of a process share them;
-        every other callee is inlined. Those that are :func:`traced` are stages.
+    slots
+        Functions behind :func:`slot`; others have their defaults.
+    layouts
+        By the name of the first parameter of :func:`kernel` functions, the ``layout`` of the :func:`packed`
+        argument with which ``entry`` will be called.
 
     Returns
     -------
     A numba dispatcher. Equal code with equal bindings is compiled once per process; the entry and its
-    separate callees are saved in :mod:`foamprb.compile.cache`, under keys made of the code of every function
-    that was linked. Of stages the key of the entry contains the names only: an entry that differs in its
-    stages is not compiled again.
+    callees that are machine code of their own are saved in :mod:`foamprb.compile.cache`, under keys made of
+    the code of every function that was linked. Of callees with machine code of their own the key contains
+    the names only: an entry that differs in these alone is not compiled again.
 
     Raises
     ------
@@ -106,12 +123,12 @@ def link(
     from foamprb.compile.record_type import register_records
 
     register_records()
-    bindings = dict(bindings or {})
-    unread = bindings.keys() - read_by(entry, bindings).keys()
+    bindings, slots = dict(bindings or {}), dict(slots or {})
+    unread = bindings.keys() - read_by(entry, bindings, slots).keys()
     if unread:
         names = ", ".join(sorted(unread))
         raise NameError(f"{entry.__qualname__} is bound to {names}, a name that no linked function reads")
-    return _link(entry, _Linkage(bindings, frozenset(separate)), "entry").dispatcher
+    return _link(entry, _Linkage(bindings, slots, layouts), "entry").dispatcher
 
 
 @cache
@@ -120,23 +137,35 @@ def compiled(entry: Callable[..., Any]) -> Any:
     return link(entry)
 
 
-def read_by(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> dict[str, Any]:
+def read_by(
+    entry: Callable[..., Any],
+    bindings: Mapping[str, Any],
+    slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None,
+) -> dict[str, Any]:
     """Return the bindings whose names ``entry`` or a function linked with it reads."""
-    names_read = {name for function in linked(entry, bindings) for name in _global_names(function.__code__)}
+    functions = linked(entry, bindings, slots)
+    names_read = {name for function in functions for name in _global_names(function.__code__)}
     return {name: value for name, value in bindings.items() if name in names_read}
 
 
-def linked(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> Collection[Callable[..., Any]]:
+def linked(
+    entry: Callable[..., Any],
+    bindings: Mapping[str, Any],
+    slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None,
+) -> Collection[Callable[..., Any]]:
     """Return ``entry`` and the functions that are linked with it."""
+    slots = slots or {}
     reached = {entry}
     pending = [entry]
     while pending:
         function = pending.pop()
         for name in _global_names(function.__code__):
             value = bindings.get(name, function.__globals__.get(name))
-            if _is_linked(value) and value not in reached:
-                reached.add(value)
-                pending.append(value)
+            if _is_linked(value):
+                value = slots.get(value, value)
+                if value not in reached:
+                    reached.add(value)
+                    pending.append(value)
     return reached
 
 
@@ -147,13 +176,56 @@ def bound(function: Callable[..., Any], **names: Callable[..., Any] | int) -> Ca
 
 
 def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
-    """Mark a stage that is traced where it is a separate callee (:mod:`foamprb.compile.trace`)."""
+    """Mark a stage: machine code of its own, made by tracing (:mod:`foamprb.compile.trace`)."""
     setattr(stage, TRACED, True)
     return stage
 
 
+def separate(function: F) -> F:
+    """Mark a long function that is machine code of its own, compiled once for all of its callers."""
+    setattr(function, _SEPARATE, True)
+    return function
+
+
+def slot(function: F) -> F:
+    """Mark a function that :func:`link` may replace, of which callers know the name and the signature only.
+
+    The function itself is the default. Others take and return the same types.
+    """
+    setattr(function, _SLOT, True)
+    return function
+
+
+def kernel(function: F) -> F:
+    """Mark a slot whose first argument goes by address (:func:`packed`).
+
+    The functions behind it read the argument itself. They have the same parameters, or leave some out that
+    they do not need; the others then have the same names.
+    """
+    setattr(function, _PACKED, _parameters(function)[0])
+    return slot(function)
+
+
+def conform(placeholder: Callable[..., Any], implementation: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function with the parameters of a kernel that calls another, for callers that inline it."""
+    return _unpacking(placeholder, implementation, {})
+
+
+def packed(argument: Any) -> Any:
+    """Return an argument of kernels in the form in which loops pass it on, which does not depend on its type.
+
+    Without compilation that is the argument itself.
+    """
+    if not _compiles():
+        return argument
+    from foamprb.compile.record_type import Packed, register_records
+
+    register_records()
+    return Packed(argument)
+
+
 def allocating(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Mark a function that allocates arrays; wherever it is called, it is a separate callee."""
+    """Mark a :func:`separate` function that allocates arrays."""
     setattr(function, _ALLOCATES, True)
     return function
 
@@ -173,10 +245,12 @@ class _Linkage:
     """Arguments of :func:`link` that hold for all functions, and the functions that are linked already."""
 
     bindings: dict[str, Any]
-    separate: frozenset[Callable[..., Any]]
+    slots: dict[Callable[..., Any], Callable[..., Any]] = field(default_factory=dict)
+    layouts: dict[str, Any] = field(default_factory=dict)
+    """Types of packed arguments."""
     done: dict[tuple[Callable[..., Any], str], Part] = field(default_factory=dict)
-    stages: dict[str, Part] = field(default_factory=dict)
-    """By :attr:`Keys.outside`."""
+    named: dict[str, Part] = field(default_factory=dict)
+    """Functions that are found by a name, by :attr:`Keys.outside`."""
 
 
 # The code of this package is a part of every key.
@@ -184,47 +258,111 @@ _FILES = sorted(Path(__file__).parent.glob("*.py"))
 _OWN_CODE = hashlib.sha256(b"".join(file.read_bytes() for file in _FILES)).hexdigest()[:8]
 
 
-_parts: dict[str, Part] = {}
+_dispatchers: dict[str, Any] = {}
+"""By :attr:`Keys.full`."""
 _stores: dict[int, tuple[Store, ...]] = {}
-"""Where a function and its stages are saved, by the ``id`` of its dispatcher."""
+"""Where a function and, of an entry, all that it calls are saved, by the ``id`` of its dispatcher."""
 
 
 def _link(function: Callable[..., Any], linkage: _Linkage, role: Role, called: str = "") -> Part:
     """Return a function linked after its callees, once however many callers it has.
 
-    ``called`` is the name by which a stage is called.
+    ``called`` is the name by which machine code of its own is called.
     """
     task = function, f"{role} {called}"
     if task not in linkage.done:
         part = _link_once(function, linkage, role, called)
-        if role == "stage" and linkage.stages.setdefault(part.keys.outside, part) is not part:
-            # Another stage of this loop has the name, so the code must distinguish them.
+        if called and _has_another_name(part.keys, linkage):
+            # Code calls functions by their keys, so it could not distinguish the names.
+            part = _link_once(function, linkage, role, called, apart=called)
+        if called and linkage.named.setdefault(part.keys.outside, part).dispatcher is not part.dispatcher:
+            # Another function of this loop has the name, so the code must distinguish them.
             part = part._replace(keys=Keys(part.keys.full, part.keys.full))
-            linkage.stages[part.keys.outside] = part
+            linkage.named[part.keys.outside] = part
         linkage.done[task] = part
     return linkage.done[task]
 
 
+def _has_another_name(keys: Keys, linkage: _Linkage) -> bool:
+    """Return True if the same function is behind another name of this loop."""
+    return any(
+        part.keys.full == keys.full and part.keys.outside != keys.outside for part in linkage.named.values()
+    )
+
+
 def _link_callee(name: str, function: Callable[..., Any], linkage: _Linkage) -> Part:
     """Return a function that others call by a name."""
-    if function not in linkage.separate and not hasattr(function, _ALLOCATES):
-        return _link(function, linkage, "inlined")
-    if not hasattr(function, TRACED) or _internals() is None:
-        return _link(function, linkage, "separate")
-    # A name that is not bound may mean other functions elsewhere.
-    qualified = f"{function.__module__}.{function.__qualname__}"
-    return _link(function, linkage, "stage", name if name in linkage.bindings else qualified)
+    called = f"{function.__module__}.{function.__qualname__}"
+    if hasattr(function, _SLOT):
+        implementation = linkage.slots.get(function, function)
+        # A default reads nothing of its packed argument.
+        if hasattr(function, _PACKED) and implementation is not function:
+            implementation = _unpacking(function, implementation, linkage.layouts)
+        return _link(implementation, linkage, _role_of(implementation), called)
+    if hasattr(function, TRACED) and name in linkage.bindings:
+        # A name that is not bound may mean other functions elsewhere.
+        called = name
+    own = hasattr(function, TRACED) or hasattr(function, _SEPARATE) or hasattr(function, _ALLOCATES)
+    return (
+        _link(function, linkage, _role_of(function), called) if own else _link(function, linkage, "inlined")
+    )
 
 
-def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, called: str) -> Part:
-    """Return a function compiled after its callees; each is compiled once per process."""
+def _role_of(function: Callable[..., Any]) -> Role:
+    """Return the role of machine code of its own: that with loops over lanes uses wide registers."""
+    return "lanes" if LANES in function.__code__.co_names else "scalar"
+
+
+def _unpacking(
+    placeholder: Callable[..., Any], implementation: Callable[..., Any], layouts: Mapping[str, Any]
+) -> Callable[..., Any]:
+    """Return a function with the parameters of a kernel that calls another with the unpacked argument."""
+    layout = layouts.get(getattr(placeholder, _PACKED))
+    key = placeholder, implementation, layout
+    if key not in _unpackers:
+        names, parameters = _parameters(placeholder), _parameters(implementation)
+        wanted = parameters if len(parameters) < len(names) else names
+        passed = ", ".join("unpack(packed)" if k == 0 else name for k, name in enumerate(wanted))
+        text = f"def unpacking(packed, {', '.join(names[1:])}):\n    return implementation({passed})\n"
+        scope = {"implementation": implementation, "unpack": _unpack_as(layout), "__name__": __name__}
+        exec(text, scope)
+        unpacking: Any = scope["unpacking"]
+        unpacking.layout = str(layout)
+        _unpackers[key] = unpacking
+    return _unpackers[key]
+
+
+def _parameters(function: Callable[..., Any]) -> list[str]:
+    return [name.lstrip("_") for name in signature(function).parameters]
+
+
+def _unpack_as(layout: Any) -> Callable[[Any], Any]:
+    if layout is None:
+        return _as_it_is
+    from foamprb.compile.record_type import unpack_as
+
+    return unpack_as(layout)
+
+
+def _as_it_is(argument: Any) -> Any:
+    return argument
+
+
+_unpackers: dict[Any, Callable[..., Any]] = {}
+
+
+def _link_once(
+    function: Callable[..., Any], linkage: _Linkage, role: Role, called: str, apart: str = ""
+) -> Part:
+    """Return a function compiled after its callees; each is compiled once per process for each ``apart``."""
     if function is select:
         return _link_select()
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     names: dict[str, Any] = {}
     captured = [cell.cell_contents for cell in function.__closure__ or ()]
     is_traced = hasattr(function, TRACED)
-    identity = f"{role} {called} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
+    defaults, layout = function.__defaults__, getattr(function, "layout", "")
+    identity = f"{role} {function.__module__} {function.__qualname__} {defaults!r} {layout} {apart}"
     code = f"{_fingerprint(function.__code__).hex()} {captured!r} {is_traced}"
     described = [Keys(identity, identity), Keys(code, code)]
     for name in sorted(_global_names(function.__code__)):
@@ -241,9 +379,7 @@ def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, call
             text = f"{name}={getattr(value, '_fields', '')}"
         described.append(Keys(text, text))
     keys = Keys(*map(key_of, zip(*described, strict=True)))
-    if role == "stage":
-        keys = keys._replace(outside=key_of([called]))
-    if keys.full not in _parts:
+    if keys.full not in _dispatchers:
         cells = tuple(CellType(_constant(value)) for value in captured)
         scope = {**function.__globals__, **names}
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, cells)
@@ -254,8 +390,8 @@ def _link_once(function: Callable[..., Any], linkage: _Linkage, role: Role, call
             traced(clone)
         if hasattr(function, _ALLOCATES):
             allocating(clone)
-        _parts[keys.full] = Part(_compile(clone, role, keys, linkage.stages), keys)
-    return _parts[keys.full]
+        _dispatchers[keys.full] = _compile(clone, role, keys, linkage.named)
+    return Part(_dispatchers[keys.full], keys._replace(outside=key_of([called])) if called else keys)
 
 
 def key_of(texts: Iterable[str]) -> str:
@@ -291,9 +427,9 @@ def _link_select() -> Part:
     import numba
 
     key = "select"
-    if key not in _parts:
-        _parts[key] = Part(numba.njit(inline="always")(branch), Keys(key, key))
-    return _parts[key]
+    if key not in _dispatchers:
+        _dispatchers[key] = numba.njit(inline="always")(branch)
+    return Part(_dispatchers[key], Keys(key, key))
 
 
 # Cached: a process that has switched to another user may be unable to read a version again.
@@ -345,7 +481,14 @@ def _internals_by(switch: str) -> ModuleType | None:
     return internals
 
 
-def _compile(function: Callable[..., Any], role: Role, keys: Keys, stages: Mapping[str, Part]) -> Any:
+def _compiles() -> bool:
+    """Return False if functions run in the interpreter."""
+    import numba
+
+    return not numba.config.DISABLE_JIT
+
+
+def _compile(function: Callable[..., Any], role: Role, keys: Keys, named: Mapping[str, Part]) -> Any:
     import numba
 
     internals = _internals()
@@ -354,12 +497,10 @@ def _compile(function: Callable[..., Any], role: Role, keys: Keys, stages: Mappi
     if internals is None:
         return numba.njit(**options)(function)
     dispatcher = numba.njit(**options, **internals.pipeline(role))(function)
-    if role == "entry":
-        of_stages = [_stores[id(part.dispatcher)] for part in stages.values()]
-        store_of_entry = internals.use_cache_of_entry(dispatcher, keys, stages)
-        _stores[id(dispatcher)] = (store_of_entry, *(store for stores in of_stages for store in stores))
-    elif role != "inlined":
-        _stores[id(dispatcher)] = (internals.use_cache(dispatcher, keys.full, stages),)
+    if role != "inlined":
+        store = internals.use_cache(dispatcher, keys, named, is_entry=role == "entry")
+        others = [_stores[id(part.dispatcher)] for part in named.values()] if role == "entry" else []
+        _stores[id(dispatcher)] = (store, *(each for stores in others for each in stores))
     return dispatcher
 
 

@@ -13,7 +13,7 @@ class Keys(NamedTuple):
     full: str
     """It changes with the code of the function and of its callees."""
     outside: str
-    """The same, but stages count by the names by which they are called, and not by their code."""
+    """The same, but callees that are machine code of their own count by their names alone."""
 
 
 class Part(NamedTuple):

@@ -1,22 +1,27 @@
-"""Type of records (:mod:`foamprb.compile.record`) in compiled code.
+"""Types of arguments that compiled code takes by address.
 
-The function that Python calls writes the items of a record to its stack and passes their address. The module
-uses numba's interface for extensions only.
+The function that Python calls writes the items of a record (:mod:`foamprb.compile.record`) to its stack and
+passes their address. The address of a :class:`Packed` argument has the same type whatever it holds: functions
+that only pass it on do not depend on its content. The module uses numba's interface for extensions only.
 """
 
 from __future__ import annotations
 
 import functools
 import hashlib
+import struct
+from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from llvmlite import ir  # type: ignore[import-untyped]
-from numba import types
+from numba import typeof, types
 from numba.core import cgutils
 from numba.core.typing.templates import AttributeTemplate
 from numba.extending import (
     NativeValue,
     infer_getattr,
+    intrinsic,
     lower_getattr_generic,
     models,
     register_model,
@@ -26,7 +31,7 @@ from numba.extending import (
 
 from foamprb.compile.record import RECORDS
 
-__all__ = ["RecordType", "register_records"]
+__all__ = ["Packed", "RecordType", "read_item", "register_records", "unpack_as"]
 
 _registered: set[type[tuple[Any, ...]]] = set()
 
@@ -90,7 +95,8 @@ def _unbox_record(record: RecordType, value: Any, c: Any) -> NativeValue:
 
 
 @lower_getattr_generic(RecordType)  # type: ignore[untyped-decorator]
-def _read_item(context: Any, builder: Any, record: RecordType, address: Any, name: str) -> Any:
+def read_item(context: Any, builder: Any, record: RecordType, address: Any, name: str) -> Any:
+    """Return an item of a record."""
     place = builder.bitcast(address, _structure(context, record).as_pointer())
     path, item = _path(0, list(record.items).index(name)), record.items[name]
     model = context.data_model_manager[item]
@@ -151,3 +157,99 @@ def _load(builder: Any, place: Any, path: list[Any]) -> Any:
     value = builder.load(builder.gep(place, path, inbounds=True))
     value.set_metadata("invariant.load", builder.module.add_metadata([]))
     return value
+
+
+class _PackedType(types.Type):  # type: ignore[misc]
+    """Address of an argument of any type."""
+
+    def __init__(self) -> None:
+        super().__init__(name="Packed")
+
+
+_PACKED = _PackedType()
+
+
+class Packed:
+    """Argument in memory, in the form in which compiled functions read it after :func:`unpack_as`.
+
+    Parameters
+    ----------
+    argument
+        A record, or a tuple; of arrays, numbers, and others like it.
+
+    Raises
+    ------
+    TypeError
+        For items of other types.
+    """
+
+    def __init__(self, argument: Any) -> None:
+        self.layout: types.Type = typeof(argument)
+        self._held: list[Any] = [argument]
+        words = self._record(argument) if isinstance(self.layout, RecordType) else self._words(argument)
+        self._memory = np.frombuffer(words or bytes(8), dtype=np.uint8).copy()
+        self.address = self._memory.ctypes.data
+
+    def _record(self, items: tuple[Any, ...]) -> bytes:
+        """Return the items of a record, see :func:`_structure`."""
+        return b"".join(map(self._item, items))
+
+    def _item(self, item: Any) -> bytes:
+        if isinstance(item, np.ndarray) and _is_contiguous(typeof(item)):
+            return struct.pack(f"{1 + item.ndim}q", item.ctypes.data, *item.shape)
+        return self._words(item)
+
+    def _words(self, item: Any) -> bytes:
+        """Return an item as numba has it in memory."""
+        if isinstance(item, np.ndarray):
+            owner = (0, 0, item.size, item.itemsize)
+            return struct.pack(f"{5 + 2 * item.ndim}q", *owner, item.ctypes.data, *item.shape, *item.strides)
+        if type(item) in _registered:
+            inner = Packed(item)
+            self._held.append(inner)
+            return struct.pack("q", inner.address)
+        if isinstance(item, tuple):
+            return b"".join(map(self._words, item))
+        kind = typeof(item)
+        if kind == types.int64:
+            return struct.pack("q", int(item))
+        if kind == types.float64:
+            return struct.pack("d", float(item))
+        if kind == types.complex128:
+            return struct.pack("2d", item.real, item.imag)
+        raise TypeError(f"{item!r} is of the type {kind}, which no kernel takes by address")
+
+
+@typeof_impl.register(Packed)  # type: ignore[untyped-decorator]
+def _typeof_packed(_argument: Packed, _context: Any) -> types.Type:
+    return _PACKED
+
+
+@register_model(_PackedType)
+class _PackedModel(models.OpaqueModel):  # type: ignore[misc]
+    """An untyped address."""
+
+
+@unbox(_PackedType)  # type: ignore[untyped-decorator]
+def _unbox_packed(_kind: Any, argument: Any, c: Any) -> NativeValue:
+    number = c.pyapi.object_getattr_string(argument, "address")
+    address = c.builder.inttoptr(c.pyapi.long_as_longlong(number), cgutils.voidptr_t)
+    c.pyapi.decref(number)
+    return NativeValue(address)
+
+
+@functools.cache
+def unpack_as(layout: types.Type) -> Callable[[Any], Any]:
+    """Return a function of compiled code that returns an argument of some type from its address."""
+
+    @intrinsic  # type: ignore[untyped-decorator]
+    def unpack(_typing: Any, argument: Any) -> Any:
+        def read(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+            if isinstance(layout, RecordType):
+                return values[0]
+            place = builder.bitcast(values[0], context.get_data_type(layout).as_pointer())
+            return context.data_model_manager[layout].load_from_data_pointer(builder, place)
+
+        return layout(argument), read
+
+    return unpack  # type: ignore[no-any-return]

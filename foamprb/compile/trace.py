@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["LANES", "TRACED", "Code", "UntraceableError", "branch", "trace"]
+__all__ = ["LANES", "TRACED", "Code", "Numbers", "UntraceableError", "branch", "trace"]
 
 LANES = "LANES"
 """Global name of the number of lanes in stages."""
@@ -61,14 +61,19 @@ class Code:
         self.block = _Block(self)
         """Symbol of the block."""
 
-    def argument(self, origin: Any) -> Symbol:
-        """Return the symbol of a number that all lanes share; ``origin`` is returned by :attr:`arguments`."""
-        self._origins.append(origin)
-        return Symbol(self, f"%all{len(self._origins) - 1}", None)
+    def argument(self, path: Any, item: int | None = None) -> Symbol:
+        """Return the symbol of a number that all lanes share.
+
+        It is found under a path among the arguments of the stage, or is an item of the array there.
+        """
+        origin = path, item
+        if origin not in self._origins:
+            self._origins.append(origin)
+        return Symbol(self, f"%all{self._origins.index(origin)}", None)
 
     @property
-    def arguments(self) -> tuple[Any, ...]:
-        """Origins of the arguments after the block."""
+    def arguments(self) -> tuple[tuple[Any, int | None], ...]:
+        """Path and item of the arguments after the block."""
         return tuple(self._origins)
 
     def function(self, name: str) -> str:
@@ -283,6 +288,18 @@ class Symbol:
 
     def __ne__(self, other: Any) -> Condition:  # type: ignore[override]
         return self.code.compare("une", self, other)
+
+
+class Numbers:
+    """Symbol of an array of numbers that all lanes share."""
+
+    def __init__(self, code: Code, path: Any) -> None:
+        self._code, self._path = code, path
+
+    def __getitem__(self, item: Any) -> Symbol:
+        if not isinstance(item, int):
+            raise UntraceableError(f"an array is indexed with {item!r}")
+        return self._code.argument(self._path, item)
 
 
 class Condition(Symbol):

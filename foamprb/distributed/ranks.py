@@ -153,7 +153,6 @@ class Ranks(Communicator):
         """See :meth:`Communicator.arrays_here`; each rank writes its own."""
         return {}
 
-
     def prepare_steps(self, cloud: Cloud) -> None:
         """Send the particles to the processes that advance them."""
         flow: Any = cloud.flow

@@ -1,6 +1,6 @@
 """Flows in closed form with the interface of a flow on a mesh, for tests, validation and first steps.
 
-The kernels are described in :class:`foamprb.flow.base.Flow`.
+The kernels are described in :mod:`foamprb.flow.kernels`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from foamprb.compile.link import bound
 from foamprb.errors import InputError
 from foamprb.flow import channels
 from foamprb.flow import posts as arrays_of_posts
-from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
+from foamprb.flow.base import Floats, Ints, Patch, PatchFaces, Tetrahedra
 from foamprb.flow.jumps import NO_JUMPS
 from foamprb.flow.nodes import NO_VALUES, Ends, Function, NodeValues, ends_over
 from foamprb.flow.sampling import sample_with
@@ -72,54 +72,9 @@ def curvature_linear(flow: Any, host: int, x: Vector, t: float) -> Curvature:
     return _ZERO, _ZERO, _ZERO, _ZERO, _ZERO, _ZERO
 
 
-def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """Reach x1: there are no walls."""
-    return host, 1.0, -1, -1
-
-
 def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()) -> tuple[float, int, int]:
     """Return infinity: there are no walls."""
     return math.inf, -1, -1
-
-
-def walls_free(flow: Any, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
-    """Return no planes: there are no walls."""
-    return NO_PLANES
-
-
-def turbulence_free(flow: Any, host: int, x: Vector, t: float) -> Turbulence:
-    """Return zeros: there are no eddies."""
-    return 0.0, 0.0, _ZERO, _ZERO
-
-
-def viscosity_unknown(flow: Any, host: int, x: Vector, t: float) -> tuple[float, Vector]:
-    """Return NaN and zeros: there is no field of the viscosity."""
-    return math.nan, _ZERO
-
-
-def no_rotation(flow: Any, host: int) -> tuple[Vector, Vector]:
-    """Return zero angular velocity and the origin: the frame is at rest."""
-    return _ZERO, _ZERO
-
-
-def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:
-    """Return zeros: there are no walls."""
-    return _ZERO
-
-
-def cross_free(flow: Any, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
-    """Stay at x: there are no coupled patches."""
-    return 0, x, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-
-
-def recover_free(flow: Any, x: Vector) -> int:
-    """Return host 0, which is everywhere."""
-    return 0
-
-
-def cell_volume_free(flow: Any, host: int) -> float:
-    """Return infinity: there are no cells."""
-    return math.inf
 
 
 def everywhere(points: Floats) -> NDArray[np.bool_]:
@@ -127,12 +82,7 @@ def everywhere(points: Floats) -> NDArray[np.bool_]:
     return np.ones(len(points), dtype=bool)
 
 
-_UNBOUNDED: dict[str, Callable[..., Any]] = {
-    "walk": walk_free,
-    "gap": gap_free,
-    "normal": normal_free,
-    "recover": recover_free,
-}
+_UNBOUNDED: dict[str, Callable[..., Any]] = {"gap": gap_free}
 
 
 class AnalyticFlow:
@@ -143,7 +93,7 @@ class AnalyticFlow:
     parameters
         Named tuple that the kernels read.
     kernels
-        Functions ``sample``, ``walk``, ``gap``, ``normal``, ``recover`` and optional ones.
+        Functions ``sample``, ``gap``, and others of :mod:`foamprb.flow.kernels`.
     patches
         Boundaries, if any.
     inside
@@ -457,7 +407,6 @@ def _between(parameters: channels.SlitArrays, patches: tuple[Patch, ...]) -> Ana
             "gap": channels.gap_slit,
             "walls": channels.planes_of_slit,
             "normal": channels.normal_slit,
-            "recover": recover_free,
         },
         patches,
         inside,
@@ -501,7 +450,6 @@ def duct(width: float, height: float, mean_velocity: float) -> AnalyticFlow:
             "gap": channels.gap_duct,
             "walls": channels.planes_of_duct,
             "normal": channels.normal_duct,
-            "recover": recover_free,
         },
         tuple(Patch(name, "wall") for name in ("lower", "upper", "left", "right")),
         inside,
@@ -534,7 +482,6 @@ def pipe(radius: float, mean_velocity: float, length: float = math.inf) -> Analy
             "gap": channels.gap_pipe,
             "walls": channels.planes_of_pipe,
             "normal": channels.normal_pipe,
-            "recover": recover_free,
         },
         (Patch("wall", "wall"), Patch("inlet", "patch"), Patch("outlet", "patch")),
         inside,
@@ -583,7 +530,6 @@ def posts(spacing: float, diameter: float, velocity: tuple[float, float], shift:
             "gap": arrays_of_posts.gap_posts,
             "walls": arrays_of_posts.planes_of_posts,
             "normal": arrays_of_posts.normal_posts,
-            "recover": recover_free,
         },
         (Patch("posts", "wall"),),
         inside,

@@ -126,35 +126,12 @@ class Sampled(Protocol):
 class Flow(Sampled, Protocol):
     """Velocity and its gradient at a point and a time, and the boundary of the flow.
 
-    The ``kernels`` are plain functions that :func:`foamprb.compile.link.link` compiles into the loop. Their
-    argument ``flow`` is the tuple of :meth:`arrays`, and ``host`` the piece of the flow (a tetrahedron) that
-    holds x. Kernels marked * are optional.
-
-    * ``sample(flow, host, x, t) -> (u, l, u_t)``: velocity, m/s, ∂u_i/∂x_j row by row, 1/s, and ∂u/∂t at the
-      fixed point, m/s² (zero in a steady flow), at time t, s; u_t + l·v is the fluid's acceleration along a
-      path of velocity v, so that a flow subtracts from u_t what l·v would count of jumps in u;
-    * ``walk(flow, host, x0, x1) -> (host, fraction, patch, triangle)``: follow the segment to its end (patch
-      −1), to the patch that it crosses at ``fraction``, or to failure (patch −2);
-    * ``walk_on(flow, host, ahead, x0, x1)`` *: ``walk`` with a hint: an earlier path from x0 to a point near
-      x1 ended in ``ahead``;
-    * ``sample_ahead(flow, host, x0, x1, t) -> (ahead, room, entered, u, l, u_t)`` *: the last piece on the
-      path from x0 to x1, its ``sample`` at x1, the distance from x1, m, along each axis within which a point
-      certainly lies in this piece, if more than 0, and the number of cells that the path enters;
-    * ``gap(flow, host, x, F, R, mode) -> (gap, patch, triangle)``: signed clearance between the ellipsoid,
-      or the surface of a quadratic mode, and the nearest touchable wall; beyond :data:`NEAR` R it may be
-      infinite, with −1 and −1;
-    * ``walls(flow, host, x, cut, chosen) -> planes`` *: the walls nearer to x than ``cut``, see
-      :mod:`foamprb.flow.planes`;
-    * ``turbulence(flow, host, x, t) -> (k, epsilon, slope, drift)`` *: see :data:`Turbulence`;
-    * ``rotation_at(flow, host) -> (omega, origin)`` *: angular velocity, 1/s, and a point of the axis of the
-      frame of a host;
-    * ``curvature(flow, host, x, t) -> (u_xx, u_yy, u_zz, u_xy, u_yz, u_xz)`` *: second derivatives of the
-      velocity, 1/(m s);
-    * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
-    * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle continues that meets a triangle of a
-      coupled patch at x, and the rotation of every quantity with a direction;
-    * ``recover(flow, x) -> host``: the host of a point, found without a hint; −1 outside;
-    * ``cell_volume(flow, host) -> V`` *: volume of the cell of a host, m³.
+    The ``kernels`` are plain functions that :func:`foamprb.compile.link.link` compiles for the loop, with
+    names and parameters of :mod:`foamprb.flow.kernels`. Their argument ``flow`` is the tuple of
+    :meth:`arrays`. One more is ``gap(flow, host, x, F, R, mode) -> (gap, patch, triangle)``: the signed
+    clearance between the ellipsoid {x + R F·ξ: ξ·ξ ≤ 1}, or the surface of a quadratic mode, and the nearest
+    touchable wall; beyond :data:`NEAR` R it may be infinite, with −1 and −1. A flow has ``sample`` and
+    ``gap``; others may be missing.
     """
 
     span: tuple[float, float]

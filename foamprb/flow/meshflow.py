@@ -17,21 +17,20 @@ from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
 from foamprb.flow.jumps import count_jumps, relative_jumps
 from foamprb.flow.mesh.arrays import FREE, GRADIENT, VELOCITY, MeshArrays, no_mesh
-from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
+from foamprb.flow.mesh.folds import FOLDED, grade
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
-from foamprb.flow.mesh.locator import cell_boxes, locate, seek
+from foamprb.flow.mesh.locator import cell_boxes, locate
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.nodes import Ends, Function, NodeValues, ends_over, stride_over
 from foamprb.flow.patches import PatchKind
-from foamprb.flow.planes import planes_among, walls
+from foamprb.flow.planes import walls
 from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.flow.viscosity import viscosity
 from foamprb.flow.walk import (
     cell_volume,
     cross,
     curvature,
-    follow,
     normal,
     recover,
     sample,
@@ -41,21 +40,8 @@ from foamprb.flow.walk import (
     walk_on,
 )
 from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
-from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall, walls_at
+from foamprb.flow.walls import Walls, gap, images_of_walls, walls_at
 from foamprb.memory import sparse_zeros, trim
-
-LONG: tuple[Callable[..., Any], ...] = (
-    follow,
-    trace,
-    is_in_mesh,
-    nearby,
-    nearest_wall,
-    nearest_in_tree,
-    planes_among,
-    seek,
-)
-"""Long kernels that few steps need; they are compiled separately, as inlining them would swell the loop."""
-
 
 _NO_END = frozenset({PatchKind.MIRROR, PatchKind.PASSABLE})
 """Kinds of patches beyond which the flow continues."""
@@ -464,7 +450,7 @@ class MeshFlow:
 # Linking costs as much as locating thousands of points.
 @cache
 def _locator() -> Any:
-    return link(_locate_all, separate=LONG)
+    return link(_locate_all)
 
 
 def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector, inner, norm, vector_product
+from foamprb.compile.link import separate
 from foamprb.flow.base import NO_PLANES, Planes
 from foamprb.flow.mesh.arrays import MeshArrays, arm
 from foamprb.flow.walk import inward, nearest_point
@@ -35,6 +36,7 @@ def walls(flow: MeshArrays, host: int, x: Vector, cut: float, chosen: NDArray[np
     return planes_among(flow, begin, end, x, cut, chosen)
 
 
+@separate
 def planes_among(
     flow: MeshArrays, begin: int, end: int, x: Vector, cut: float, chosen: NDArray[np.int8]
 ) -> Planes:

@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from foamprb.body.tensor import Tensor, Vector
-from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints, PatchFaces, Sampled
-
-
-def sample(flow: Any, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Placeholder for the kernel of a flow, which :func:`sample_with` binds."""
-    raise NotImplementedError
+from foamprb.flow.kernels import linked_with, sample, viscosity
 
 
 def sample_with(
@@ -28,19 +21,9 @@ def sample_with(
     points = np.ascontiguousarray(points, dtype=np.float64)
     velocities, gradients = np.empty((len(points), 3)), np.empty((len(points), 9))
     hosts = np.ascontiguousarray(hosts, dtype=np.int32)
-    _sampler(kernel)(arrays, points, hosts, _times(t, len(points)), velocities, gradients)
+    sample_all, flow = linked_with({"sample": kernel}, arrays, _sample_all)
+    sample_all(flow, points, hosts, _times(t, len(points)), velocities, gradients)
     return velocities, gradients.reshape(-1, 3, 3)
-
-
-# Linking costs as much as sampling some thousands of particles.
-@lru_cache(maxsize=16)
-def _sampler(kernel: Callable[..., Any]) -> Any:
-    return link(_sample_all, {"sample": kernel})
-
-
-def viscosity(flow: Any, host: int, x: Vector, t: float) -> tuple[float, Vector]:
-    """Placeholder for the kernel of a flow, which :func:`viscosity_with` binds."""
-    raise NotImplementedError
 
 
 def viscosity_with(
@@ -52,7 +35,8 @@ def viscosity_with(
     """
     points, found = np.ascontiguousarray(points, dtype=np.float64), np.empty(len(points))
     hosts = np.ascontiguousarray(hosts, dtype=np.int32)
-    link(_viscosity_all, {"viscosity": kernel})(arrays, points, hosts, _times(t, len(points)), found)
+    viscosity_all, flow = linked_with({"viscosity": kernel}, arrays, _viscosity_all)
+    viscosity_all(flow, points, hosts, _times(t, len(points)), found)
     return found
 
 

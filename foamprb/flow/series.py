@@ -174,12 +174,12 @@ def walk_on(flow: SeriesArrays, host: int, ahead: int, x0: Vector, x1: Vector) -
 
 
 def sample_ahead(
-    flow: SeriesArrays, host: int, x0: Vector, x1: Vector, t: float
+    flow: SeriesArrays, host: int, x0: Vector, x1: Vector, t1: float
 ) -> tuple[int, float, int, Vector, Tensor, Vector]:
     """See :func:`foamprb.flow.walk.sample_ahead`."""
     last, _, patch, _, entered = follow(flow.mesh, host, x0, x1)
     last = host if patch == FAILED else last
-    u, l, u_t = sample(flow, last, x1, t)
+    u, l, u_t = sample(flow, last, x1, t1)
     return last, 0.0, entered, u, l, u_t
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
+from foamprb.compile.link import separate
 from foamprb.flow.base import Floats, Turbulence
 from foamprb.flow.correction import correct_cell, is_stored, stored
 from foamprb.flow.mesh.arrays import (
@@ -75,7 +76,7 @@ def sample_ahead(
     host: int,
     x0: Vector,
     x1: Vector,
-    t: float,  # noqa: ARG001
+    t1: float,  # noqa: ARG001
 ) -> tuple[int, float, int, Vector, Tensor, Vector]:
     """Return the last tetrahedron on the path from x0 in ``host`` to x1, and :func:`sample` at x1 in it.
 
@@ -471,6 +472,7 @@ def is_sound(flow: MeshArrays, tet: int) -> bool:
     return flow.folds[flow.tets[tet, 0] - flow.n_points] == SOUND  # type: ignore[no-any-return]
 
 
+@separate
 def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int, int]:
     """Follow the segment from x0, in the tetrahedron ``host``, to x1, through the faces on its way.
 

@@ -23,6 +23,7 @@ from foamprb.body.tensor import (
     scale_vector,
     vector_dot,
 )
+from foamprb.compile.link import separate
 from foamprb.flow.base import NEAR, Floats, Ints
 from foamprb.flow.mesh.arrays import MeshArrays, arm
 from foamprb.flow.mesh.folds import height
@@ -61,6 +62,7 @@ def gap(
     return nearest_wall(flow, begin, end, x, F, R, mode)
 
 
+@separate
 def nearest_wall(
     flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float, mode: Any = ()
 ) -> tuple[float, int, int]:
@@ -94,6 +96,7 @@ def _any_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float)
     return False
 
 
+@separate
 def nearest_in_tree(
     flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float, mode: Any = ()
 ) -> tuple[float, int, int]:

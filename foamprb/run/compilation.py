@@ -55,7 +55,7 @@ class Compilation:
         flow
             Class of the flow.
         """
-        if tracker.compiled or available_threads() == 1:
+        if tracker.is_compiled(flow.nothing()) or available_threads() == 1:
             return
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-m", __name__],

@@ -189,7 +189,7 @@ class Device:
         random = [
             type(model).__name__
             for model in cloud.models.surroundings
-            if "draws" in model.bindings(False) or model.traits.turbulence
+            if model.hold is not None or model.traits.turbulence
         ]
         fault = ""
         if settings.solution.transient:

@@ -189,7 +189,8 @@ def _check(file: Path, kind: str, name: str) -> None:
         block = new_block(ROWS + rows)
         block[:] = 1.0
         with _one_message(file.resolve()):
-            model.disturb(block, SAMPLE.medium, 0.0, tried(model).coefficients(()))
+            if model.disturb is not None:
+                model.disturb(block, SAMPLE.medium, 0.0, tried(model).coefficients(()))
 
 
 def _compile(file: Path, function: Callable[..., Any], *arguments: Any) -> None:

@@ -15,10 +15,9 @@ from foamprb.cloud.block import (
     load_integrals,
     new_block,
     new_integrals,
-    new_scratch,
     store3,
 )
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.layout import LANES, layout
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import in_blocks, tasks_of
 from foamprb.compile.link import link
@@ -29,8 +28,8 @@ LONG, ROUND = (2.5, 1.0, 0.4), (1.3, 1.0, 1.0 / 1.3)
 @pytest.mark.parametrize("elongated", [0, 1, LANES - 1, LANES])
 def test_every_lane_has_the_integrals_of_its_own_shape(elongated):
     """Whichever of the two ways to them a block goes, or both."""
-    block = new_scratch(ROWS).block
-    idle_lanes(block, 1.0)
+    block = new_block(ROWS)
+    idle_lanes(block, layout(at).initial, 1.0)
     shapes = [LONG if i < elongated else ROUND for i in range(LANES)]
     for i, stretches in enumerate(shapes):
         store3(block, at.stretch, i, stretches)

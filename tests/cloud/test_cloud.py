@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import numba
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
@@ -8,15 +9,13 @@ from small_clouds import assert_same
 from foamprb import analytic
 from foamprb.body.ellipsoid import reach
 from foamprb.body.material import MATERIALS, stored_energy
-from foamprb.cloud.block import ROWS, Medium, new_scratch
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
-from foamprb.cloud.integrators.paper import track_block
-from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Reason, Status, spheres
 from foamprb.cloud.tracker import Models, Outcome
+from foamprb.compile import link as linking
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.meshflow import LONG
 from foamprb.flow.series import SeriesFlow
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
@@ -152,7 +151,7 @@ class TestBookkeeping:
         assert_same(one.particles, many.particles)
         assert_same(one.particles.take(order), mixed.particles)
 
-    def test_compiled_and_plain_text_agree(self):
+    def test_compiled_and_plain_text_agree(self, monkeypatch):
         """The same text as plain Python, on one block in a shear flow."""
         clouds = []
         for _ in range(2):
@@ -160,12 +159,17 @@ class TestBookkeeping:
             clouds.append(Cloud(p, analytic.shear(500.0), AIR, (), 2e-5, PAPER))
         compiled, plain = clouds
         compiled.advance(5)
-        table = PatchTable(np.empty(0, dtype=np.int8), np.empty(0), np.empty(0), np.empty((0, 5)))
+        monkeypatch.setattr(linking, "_dispatchers", {})
+        monkeypatch.setattr(numba.config, "DISABLE_JIT", True)
+        monkeypatch.setenv(linking.SWITCH, "1")
+        flow, tracker = plain.flow.arrays(0.0, ()), plain.tracker
+        track = tracker.linked(flow, ())
+        assert not hasattr(track, "signatures")
         with np.errstate(all="ignore"):
-            flow, air = plain.flow.arrays(0.0, ()), plain.tracker.medium
-            track_block(
-                flow, table, air, plain.particles, np.arange(2), 0, 5, plain.dt, 0.0, new_scratch(ROWS)
-            )
+            track(
+                flow, tracker.table, tracker.medium, plain.particles, np.arange(2), 0, 5, plain.dt, 0.0,
+                tracker._scratch(),
+            )  # fmt: skip
         for name in ("x", "v", "F"):
             a, b = getattr(compiled.particles, name), getattr(plain.particles, name)
             np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-14)
@@ -193,12 +197,19 @@ class TestBookkeeping:
         np.testing.assert_allclose(cloud.particles.A, reference.particles.A, rtol=1e-12, atol=1e-9)
 
     def test_normals_of_walls_are_found_with_the_compiled_parts_of_the_loop(self, monkeypatch):
-        """Inlined, the long kernels would take 40 s to compile."""
-        cloud, separate = pipe_cloud(0.5), []
-        cloud.make_ready()
-        monkeypatch.setattr("foamprb.cloud.tracker.link", lambda *given: separate.extend(given[2]) or print)
+        """The long kernels take seconds to compile."""
+
+        def with_own_machine_code():
+            return {key: d for key, d in linking._dispatchers.items() if id(d) in linking._stores}
+
+        monkeypatch.setattr(linking, "_dispatchers", {})
+        cloud = pipe_cloud(0.5)
+        cloud.tracker.compile(cloud.make_ready())
+        before = with_own_machine_code()
         cloud.contact_normals(cloud.particles)
-        assert {*LONG} <= {*separate}
+        names = [d.py_func.__name__ for key, d in with_own_machine_code().items() if key not in before]
+        # The gap of a particle is the kernel of the cloud for that of a lane.
+        assert sorted(names) == ["contact_normals", "unpacking"]
 
     def test_failed_walk_is_recovered_by_the_tree_and_counted(self):
         cloud = self.in_shear(0.0, walk=walk_fails, recover=recover_above)

@@ -24,7 +24,7 @@ from foamprb import (
     spheres,
 )
 from foamprb.body.slip import balanced_slip
-from foamprb.cloud.block import ROWS, at
+from foamprb.cloud.block import ROWS, LocalMedium, at
 from foamprb.cloud.forces import FORCES, Force, Inputs, coefficients, compose, forces_on
 from foamprb.cloud.layout import LANES
 from foamprb.dictionary.constraints import Positive
@@ -54,9 +54,8 @@ def with_thrust(monkeypatch):
 
 def summed(*forces, Du_Dt=DU_DT):
     """Force and inertia per mass, of plain numbers."""
-    given = coefficients(forces)
-    inputs = Inputs(1.1, RHO, Du_Dt, Medium(MU_F, RHO_F, G, given))
-    push, inertia = compose(forces)["sum_of_forces"](None, 0, inputs, given)
+    inputs = Inputs(1.1, RHO, Du_Dt, LocalMedium(MU_F, RHO_F, G, coefficients(forces)))
+    push, inertia = compose(forces)["sum_of_forces"](None, 0, inputs)
     return np.array(push), inertia
 
 

@@ -17,7 +17,7 @@ from foamprb.body.ellipsoid import integrals
 from foamprb.body.error_control import REUSE_FOR
 from foamprb.body.material import MATERIALS, piola
 from foamprb.body.tensor import principal_frame
-from foamprb.cloud.block import Medium, at, idle_lanes, new_frames, new_integrals, new_scratch
+from foamprb.cloud.block import Medium, at, idle_lanes, new_block, new_frames, new_integrals
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import DEFAULT, coefficients
 from foamprb.cloud.integrators.adaptive import during
@@ -406,8 +406,8 @@ def test_the_place_predicted_with_inertia_is_that_of_drag_in_a_fluid_that_is_acc
     """A sphere at rest, of relaxation rate r, in u + a t: at first its acceleration is r (u + a t)."""
     layout, h, R = ROSENBROCK.layout, 1e-4, 1.0
     medium = Medium(1.0, 1e-12, (0.0, 0.0, 0.0), coefficients(DEFAULT))
-    block = new_scratch(layout.rows).block
-    idle_lanes(block, h)
+    block = new_block(layout.rows)
+    idle_lanes(block, layout.initial, h)
     new_frames(block)
     new_integrals(block)
     u, a = np.array([1.0, -2.0, 3.0]), np.array([4e4, 2e4, -6e4])

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from small_clouds import assert_same
 
-from foamprb.cloud.block import ROWS, SHELF, Medium, new_scratch
+from foamprb.cloud.block import ROWS, SHELF, Medium, idle_lanes, new_scratch
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.lanes import ENDED, READY, begin_lanes, drop_unfinished, set_aside, take_back
@@ -56,7 +56,7 @@ def go(cloud):
 def scratch():
     """With numbers of no meaning in all lanes, each of them another."""
     kept = INTEGRATORS["rosenbrock"].layout
-    s = new_scratch(kept.rows, room=20, lasting=(kept.lasting, kept.fresh))
+    s = new_scratch(kept, room=20)
     begin_lanes(s, 1.0)
     s.block[:] = np.arange(len(s.block))
     for n, name in enumerate(LABELS):
@@ -166,7 +166,7 @@ def test_rebounds_of_the_unfinished_do_not_count():
 def test_what_loading_leaves_alone_is_empty_in_a_lane_that_is_used_again(integrator):
     own = INTEGRATORS[integrator].layout
     block = np.full(own.rows * LANES, np.nan)
-    own.idle(block)
+    idle_lanes(block, own.initial, 1.0)
     left = own.lasting[len(own.lasting) - len(own.fresh) :]
     assert len(left) > 0
     np.testing.assert_array_equal(block.reshape(-1, LANES)[left], np.tile(own.fresh, (LANES, 1)).T)

@@ -2,21 +2,51 @@
 
 from __future__ import annotations
 
+import sys
+from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated, NamedTuple
 
 import numpy as np
 import pytest
 
-from foamprb.cloud import measures
-from foamprb.cloud.block import ROWS, Rows, at, load_particle, new_scratch, save_particle
+from foamprb.cloud import measures, viscosity
+from foamprb.cloud.adhesion import BondRows
+from foamprb.cloud.block import Rows, at, idle_lanes, load_particle, new_scratch, save_particle
 from foamprb.cloud.integrators import rosenbrock, stokes
-from foamprb.cloud.integrators.adaptive import during
+from foamprb.cloud.integrators.adaptive import StepRows, during
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets, rows_of
+from foamprb.cloud.layout import (
+    _FIRST,
+    FURTHER,
+    IDENTITY,
+    LANES,
+    Row,
+    end,
+    is_reserved,
+    layout,
+    offsets,
+    rows_of,
+    text_of,
+)  # fmt: skip
 from foamprb.cloud.state import CHANGING, VARIABLES, Particles, empty
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.brownian import BrownianMotion, BrownianRows
+from foamprb.cloud.surroundings.dispersion import EddyRows
+from foamprb.cloud.surroundings.fates import FateRows
+from foamprb.cloud.surroundings.faxen import FaxenRows
+from foamprb.cloud.surroundings.largest import LargestRows
+from foamprb.cloud.surroundings.quadratic import QuadraticRows, SecondRows
+from foamprb.cloud.surroundings.registry import _placed, numbers_of
+from foamprb.cloud.surroundings.rotating_frames import FrameRows
+from foamprb.cloud.surroundings.swimming import SwimmerRows, Swimming
+from foamprb.cloud.surroundings.wall_lift import WallLift, WallRows
+from foamprb.compile.link import bound
+from foamprb.errors import InputError
+from foamprb.flow.base import Patch
 
 PARTS = {
-    "paper": (at,),
+    "paper": (at, during),
     "rosenbrock": (at, during, rosenbrock.work),
     "stokes": (at, during, stokes.work),
     "measures": (at, measures.result),
@@ -33,6 +63,44 @@ class ExtraRows(NamedTuple):
     rest: Annotated[int, Row(9, "1", "shape at rest", IDENTITY, of="F0")]
 
 
+BASE = layout(at)
+load, save = (
+    bound(function, load_rows=BASE.load, save_rows=BASE.save) for function in (load_particle, save_particle)
+)
+"""Copy a particle into a lane and back."""
+
+RESERVED = [
+    Rows, StepRows, stokes.RelaxationRows, rosenbrock.StiffnessRows, LargestRows, viscosity.ViscosityRows,
+    viscosity.FieldRows, viscosity.MixtureRows, QuadraticRows, SecondRows, FaxenRows, WallRows,
+    BrownianRows, SwimmerRows, EddyRows, FrameRows, FateRows, BondRows,
+]  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wind(Surrounding):
+    """A model without reserved places."""
+
+    a: float
+    b: float
+
+    def coefficients(self, _patches):
+        return self.a, (self.b, self.a)
+
+
+class Breeze(Wind):
+    """Another one."""
+
+
+class Table(Wind):
+    """One with an array, as wallLift has one."""
+
+    def coefficients(self, _patches):
+        return self.a, np.array([self.b, self.a, self.b])
+
+
+Table.__name__ = "Swimming"
+
+
 def particles(n=2):
     """Particles with numbers of no meaning in every array, all of them different."""
     random = np.random.default_rng(3)
@@ -43,7 +111,7 @@ def particles(n=2):
 
 
 @pytest.mark.parametrize("name", PARTS)
-def test_rows_cover_the_block_and_do_not_overlap(name):
+def test_rows_of_a_block_do_not_overlap(name):
     parts = PARTS[name]
     taken = [
         first + c
@@ -52,7 +120,86 @@ def test_rows_cover_the_block_and_do_not_overlap(name):
         for c in range(row.components)
     ]
     rows = INTEGRATORS[name].layout.rows if name in INTEGRATORS else layout(*parts).rows
-    assert taken == list(range(rows))
+    assert len(set(taken)) == len(taken)
+    assert max(taken) == rows - 1
+
+
+def test_reserved_rooms_do_not_overlap_and_every_declaration_fits():
+    rooms = sorted({(first, first + size) for first, size in _FIRST.values()})
+    assert rooms[0][0] == 0
+    assert rooms[-1][1] == FURTHER
+    for (_, last), (first, _) in pairwise(rooms):
+        assert last <= first
+    assert {declaration.__name__ for declaration in RESERVED} == set(_FIRST)
+    for declaration in RESERVED:
+        first, size = _FIRST[declaration.__name__]
+        at_first = offsets(declaration)
+        assert first == at_first[0]
+        assert end(at_first) <= first + size
+
+
+def test_functions_of_models_read_the_rows_that_these_declare():
+    """Offsets with a reserved place are not bound: the name means the module's own."""
+
+    def all_of(cls):
+        return {cls}.union(*map(all_of, cls.__subclasses__()))
+
+    models = [model for model in all_of(Surrounding) if model.__module__.startswith("foamprb.")]
+    assert len(models) > 15
+    for model in models:
+        for name, declaration in getattr(model.rows, "items", dict)():
+            if is_reserved(declaration):
+                fields = getattr(sys.modules[model.__module__], name)._fields
+                assert fields[: len(declaration._fields)] == declaration._fields, model
+
+
+def test_declaration_that_does_not_fit_its_room_is_an_error(monkeypatch):
+    assert rows_of(ExtraRows)
+    assert not is_reserved(ExtraRows)
+    monkeypatch.setitem(_FIRST, "ExtraRows", (0, 14))
+    assert not is_reserved(ExtraRows)
+    monkeypatch.setattr(ExtraRows, "__module__", "foamprb.example")
+    with pytest.raises(ValueError, match="ExtraRows has 15 rows, and room for 14"):
+        offsets(ExtraRows)
+
+
+def test_coefficients_are_read_from_flat_numbers():
+    """Tuples in tuples, seeds and an array come back as they were, wherever their numbers begin."""
+    values = 1.5, (2.5, (3.5, 4.5), ()), np.uint64(2**32 - 1), (np.arange(3.0),), -0.5
+    for first in (0, 4):
+        own, all_numbers = [], [7.0] * 20
+        text = text_of(values, first, own, all_numbers)
+        assert len(own) == 8
+        all_numbers[first : first + 8] = own
+        numbers = np.array(all_numbers)
+        found = eval(text, {"numbers": numbers, "np": np})
+        a, b, seed, (array,), c = found
+        assert (a, b, c) == (values[0], values[1], values[4])
+        assert (seed, type(seed)) == (values[2], np.uint64)
+        np.testing.assert_array_equal(array, [0.0, 1.0, 2.0])
+
+
+def test_coefficients_of_models_lie_side_by_side():
+    """Each model reads its own numbers, whatever models there are beside it."""
+    walls = (Patch("floor", "wall"), Patch("inlet", "patch"))
+    models = BrownianMotion(T=300.0, seed=5), Swimming(speed=2.0, seed=7), WallLift(patches=("floor",))
+    further = Wind(a=1.0, b=2.0), Breeze(a=3.0, b=4.0), Table(a=5.0, b=6.0)
+    for chosen in ((*models, *further), models[::-1], further[::-1], models[1:2]):
+        texts, numbers = _placed(chosen, walls)
+        for model, text in zip(chosen, texts, strict=True):
+            found = eval(text, {"numbers": numbers, "np": np})
+            for one, other in zip(found, model.coefficients(walls), strict=True):
+                np.testing.assert_array_equal(one, other)
+
+
+def test_too_many_coefficients_are_an_error():
+    @dataclass(frozen=True, kw_only=True)
+    class Storm(Surrounding):
+        def coefficients(self, _patches):
+            return (1.0,) * 65
+
+    with pytest.raises(InputError, match="Storm has 65 coefficients, which are too many"):
+        numbers_of((Storm(),), ())
 
 
 def test_rows_of_every_integrator_are_looked_at():
@@ -71,9 +218,9 @@ def test_rows_are_declared_as_the_arrays_of_the_cloud_are():
 
 @pytest.mark.parametrize("end_of_run", [True, False])
 def test_what_changes_in_the_loop_is_saved_and_nothing_else(end_of_run):
-    p, scratch = particles(), new_scratch(ROWS)
+    p, scratch = particles(), new_scratch(BASE)
     scratch.block[:] = 0.0
-    load_particle(p, 1, scratch, 5)
+    load(p, 1, scratch, 5)
     scratch.block[:] += 1.0
     scratch.host[:] += 7
     for numbers in (scratch.reason, scratch.patch):
@@ -81,7 +228,7 @@ def test_what_changes_in_the_loop_is_saved_and_nothing_else(end_of_run):
     scratch.status[5] += end_of_run
     scratch.block[at.mirrored * LANES + 5] = float(end_of_run)
     before = Particles(*(array.copy() for array in p))
-    save_particle(p, 1, scratch, 5)
+    save(p, 1, scratch, 5)
     # F₀ is that of a mirror image only, a reason and a patch belong to the end, others to loops and models.
     seldom = {name for name, v in VARIABLES.items() if v.optional}
     seldom |= {"demanding", "discount", "largest", "curved"}
@@ -96,23 +243,23 @@ def test_what_changes_in_the_loop_is_saved_and_nothing_else(end_of_run):
 def test_what_is_loaded_comes_back_where_it_was():
     p = particles()
     saved = Particles(*(array.copy() for array in p))
-    scratch = new_scratch(ROWS)
+    scratch = new_scratch(BASE)
     for lane, k in ((0, 1), (LANES - 1, 0)):
-        load_particle(p, k, scratch, lane)
+        load(p, k, scratch, lane)
         scratch.block[at.mirrored * LANES + lane] = 1.0
-        save_particle(p, k, scratch, lane)
+        save(p, k, scratch, lane)
     for name, old, new in zip(Particles._fields, saved, p, strict=True):
         np.testing.assert_array_equal(new, old, err_msg=name)
 
 
 def test_a_row_that_is_declared_needs_nothing_else():
     """Its place, its initial value, loading and saving, alone or when a condition holds."""
-    extra = offsets(ExtraRows, ROWS)
+    extra = offsets(ExtraRows, FURTHER)
     own = layout(at, extra)
-    assert (extra.place, own.rows) == (ROWS, ROWS + 15)
+    assert (extra.place, own.rows) == (FURTHER, FURTHER + 15)
     assert own.rows == end(extra)
     block = np.full(own.rows * LANES, np.nan)
-    own.idle(block)
+    idle_lanes(block, own.initial, 1.0)
     rows = block.reshape(own.rows, LANES)
     assert (rows[extra.place : extra.ready] == 2.0).all()
     assert (rows[extra.rest :].T == IDENTITY).all()
@@ -133,7 +280,7 @@ def test_a_row_that_is_declared_needs_nothing_else():
 
 def test_name_of_a_row_is_taken_once():
     with pytest.raises(ValueError, match="x is declared twice"):
-        layout(at, offsets(Rows, ROWS))
+        layout(at, offsets(Rows, FURTHER))
 
 
 def test_idle_lanes_hold_a_sphere_that_is_not_deformed():
@@ -141,10 +288,10 @@ def test_idle_lanes_hold_a_sphere_that_is_not_deformed():
 
 
 def test_a_stuck_particle_that_has_come_off_and_stuck_elsewhere_is_saved_there():
-    p, scratch = particles(), new_scratch(ROWS)
-    load_particle(p, 1, scratch, 5)
+    p, scratch = particles(), new_scratch(BASE)
+    load(p, 1, scratch, 5)
     assert scratch.patch[5] == p.patch[1]
     scratch.patch[5] += 2
     expected = scratch.patch[5]
-    save_particle(p, 1, scratch, 5)
+    save(p, 1, scratch, 5)
     assert p.patch[1] == expected

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from foamprb.body.quadratic import bullet_amplitude, layers, turned
-from foamprb.cloud.block import ROWS, Medium, at, idle_lanes, load3, new_block, store3
+from foamprb.cloud.block import Medium, at, idle_lanes, load3, new_block, store3
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.layout import LANES, layout, offsets
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Escape, Stick
 from foamprb.cloud.state import Status, drops, set_rest_shape, spheres
@@ -237,15 +237,12 @@ def test_numbers_depend_neither_on_threads_nor_on_calls():
 
 
 @pytest.fixture
-def lane(monkeypatch):
+def lane():
     """A block with the rows of the mode, whose lane 3 has just been computed."""
-    rows, first = {}, ROWS
-    for name, n in zip(QuadraticRows._fields, (7, 3, 1, 1, 1, 7, 3, 3, 7, 3), strict=True):
-        rows[name], first = first, first + n
-    mode = QuadraticRows(**rows)
-    monkeypatch.setattr(quadratic, "mode", mode)
-    block, random = new_block(first), np.random.default_rng(4)
-    idle_lanes(block, 0.3)
+    mode = offsets(QuadraticRows)
+    own = layout(at, mode)
+    block, random = new_block(own.rows), np.random.default_rng(4)
+    idle_lanes(block, own.initial, 0.3)
     block[at.t * LANES + 3], block[mode.reached * LANES + 3], block[mode.sampled * LANES + 3] = 0.7, 0.2, 1.0
     store3(block, at.v, 3, (1.0, 0.0, 0.0))
     for row in (mode.B, mode.growth):

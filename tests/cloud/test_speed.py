@@ -19,16 +19,15 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.integrators.rosenbrock import predict_inertial
+from foamprb.cloud.integrators.rosenbrock import first_inertial, predict_inertial
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.registry import compose as surrounding
-from foamprb.cloud.surroundings.registry import with_rows
-from foamprb.cloud.surroundings.wall_lift import WallLift, lift
+from foamprb.cloud.surroundings.registry import numbers_of, with_rows
+from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.compile import link as compiling
-from foamprb.compile.link import link, read_by
-from foamprb.compile.trace import TRACED
+from foamprb.compile.link import bound, link, read_by, separate
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
 
@@ -112,23 +111,25 @@ def caller(*arguments):
     called(*arguments)
 
 
+without_trace = separate(bound(first_inertial))
+"""A stage that is not marked to be traced."""
+
+
 @pytest.mark.skipif(not has_avx2(), reason="reads assembly for AVX2")
-@pytest.mark.parametrize("stage", [predict_inertial, lift], ids=["traced", "compiled by numba"])
+@pytest.mark.parametrize("stage", [predict_inertial, without_trace], ids=["traced", "compiled by numba"])
 def test_stage_is_vectorised(stage, monkeypatch, tmp_path):
     """Beside walls, where stages are longest. A cached function cannot be inspected."""
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
-    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr(compiling, "_dispatchers", {})
     integrator, models = INTEGRATORS["rosenbrock"], (WallLift(),)
     block = np.ones(with_rows(integrator.layout, models).rows * LANES)
-    around = surrounding(integrator.layout, models, integrator.inertia)
-    bindings = compose(FORCES) | integrator.bindings | around | {"called": stage}
-    dispatcher = link(caller, read_by(caller, bindings), separate=(stage,))
-    values = {"block": block, "medium": AIR._replace(coefficients=coefficients(FORCES)), "share": 1.0}
-    values["coefficients"] = models[0].coefficients([])
-    dispatcher(*(values[name] for name in stage.__code__.co_varnames[: stage.__code__.co_argcount]))
-    # A traced stage has machine code of its own.
-    code = dispatcher.py_func.__globals__["called"] if hasattr(stage, TRACED) else dispatcher
-    (assembly,) = code.inspect_asm().values()
+    around = surrounding(models, (), integrator.inertia)
+    bindings = compose(FORCES) | integrator.bindings | around.bindings | {"called": stage}
+    slots = {**integrator.slots, **around.slots}
+    dispatcher = link(caller, read_by(caller, bindings, slots), slots)
+    medium = AIR._replace(forces=coefficients(FORCES), numbers=numbers_of(models, ()))
+    dispatcher(block, medium)
+    (assembly,) = dispatcher.py_func.__globals__["called"].inspect_asm().values()
     packed, scalar = arithmetic(assembly)
     assert packed > 500
     assert scalar <= packed // 50

@@ -13,7 +13,7 @@ from foamprb.cloud.block import Medium, Scratch, at, load3, store3
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import Gravity, PressureGradient, VirtualMass
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.layout import LANES, Row, end, offsets
+from foamprb.cloud.layout import FURTHER, LANES, Row, end, offsets
 from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.registry import compose, with_rows
@@ -99,14 +99,14 @@ def test_no_op_surrounding_changes_no_bit(integrator):
         assert np.array_equal(one, other, equal_nan=True)
 
 
-def test_models_have_their_rows_one_after_the_other_behind_the_integrators():
+def test_further_models_have_their_rows_one_after_the_other_behind_all_rooms():
     own = INTEGRATORS["stokes"].layout
     models = (Calm(), Wind(speed=0.0))
     assert with_rows(own, ()) is own
-    assert compose(own, (), inertia=False) == {}
-    assert with_rows(own, models).rows == own.rows + 9 + 1 + 3
-    found = compose(own, models, inertia=False)
-    assert found["calm"] == (own.rows,)
+    assert compose((), (), inertia=False).bindings == {}
+    assert with_rows(own, models).rows == FURTHER + 9 + 1 + 3
+    found = compose(models, (), inertia=False).bindings
+    assert found["calm"] == (FURTHER,)
     assert end(found["calm"]) == found["wind"].speed
 
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from foamprb.cloud.block import ROWS, Medium, at, idle_lanes, load3, load9, new_block, store3, store9
+from foamprb.cloud.block import Medium, at, idle_lanes, load3, load9, new_block, store3, store9
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.integrators.stokes import STOKES
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.layout import LANES, layout, offsets
 from foamprb.cloud.measures import context, measure, swimming_direction
+from foamprb.cloud.motion import turn_along
 from foamprb.cloud.patches import Rebound
 from foamprb.cloud.state import drops, set_rest_shape, spheres
 from foamprb.cloud.surroundings import swimming
@@ -75,12 +76,12 @@ def test_numbers_depend_on_the_particle_and_the_step_alone():
 
 
 @pytest.fixture
-def lane(monkeypatch):
+def lane():
     """A block whose lane 3 swims along (0.6 0 −0.8), with a deformed body."""
-    rows = SwimmerRows(*(ROWS + k for k in (0, 1, 4, 5)))
-    monkeypatch.setattr(swimming, "swimmers", rows)
-    block = new_block(ROWS + 8)
-    idle_lanes(block, DT)
+    rows = offsets(SwimmerRows)
+    own = layout(at, rows)
+    block = new_block(own.rows)
+    idle_lanes(block, own.initial, DT)
     F = np.diag([1.25, 1.0, 0.8])
     store9(block, at.F, 3, tuple(F.ravel()))
     store9(block, at.new_F, 3, tuple(F.ravel()))
@@ -114,8 +115,8 @@ def test_a_rotated_body_keeps_its_heading(lane):
 
 def test_models_together_all_turn_with_the_body():
     """Eddies and swimming bind the same function: both are called."""
-    bound = compose(STOKES.layout, [StochasticDispersion(), Swimming(speed=V)], False)
-    called = {f.__name__ for name in ("one", "other") for f in [bound["turn_along"].__globals__[name]]}
+    both = compose([StochasticDispersion(), Swimming(speed=V)], (), False).slots[turn_along]
+    called = {f.__name__ for name, f in both.__globals__.items() if re.fullmatch(r"f\d", name)}
     assert called == {"turn_eddy", "turn_heading"}
 
 

@@ -18,6 +18,7 @@ from foamprb.cloud.surroundings.wall_lift import WallLift, count_close, nearest_
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic
+from foamprb.flow.kernels import linked_with
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls
@@ -131,16 +132,16 @@ def test_distances_are_told_in_radii():
     assert notes[-1].split() == ["beyond", "cutOff", "1"]
 
 
-def test_the_nearest_of_all_walls_is_told(monkeypatch):
+def test_the_nearest_of_all_walls_is_told():
     """Of a box, whose floor, lid and sides are walls: where each of the six is the nearest."""
     grid = block(4, perturbation=0.0)
     flow = still(build_mesh(grid, box_patches(grid)))
     x = np.array([[a, 0.45, 0.6] for a in (0.03, 0.96)])
     x = np.concatenate([np.roll(x, shift, axis=1) for shift in range(3)] + [[[0.5, 0.4, 0.6]]])
     every, near = np.ones(len(flow.patches), dtype=np.int8), np.full(len(x), np.inf)
-    monkeypatch.setattr(wall_lift, "walls", flow.kernels["walls"])
     arrays, cuts = flow.arrays(0.0, (), 0.3, range(len(every))), np.full(len(x), 0.3)
-    wall_lift._nearest_walls(arrays, x, flow.locate(x), cuts, every, near)
+    find, packed_flow = linked_with(flow.kernels, arrays, wall_lift._nearest_walls)
+    find(packed_flow, x, flow.locate(x), cuts, every, near)
     expected = np.minimum(x, 1.0 - x).min(axis=1)
     expected[expected > 0.3] = np.inf
     assert near == pytest.approx(expected, rel=1e-9)

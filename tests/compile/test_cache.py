@@ -46,7 +46,7 @@ def folder(tmp_path, monkeypatch):
     """An empty cache, with nothing compiled in this process and nothing said."""
     folder = tmp_path / "cache"
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
-    monkeypatch.setattr(linking, "_parts", {})
+    monkeypatch.setattr(linking, "_dispatchers", {})
     monkeypatch.setattr(caching, "_told", set())
     return folder
 
@@ -54,7 +54,7 @@ def folder(tmp_path, monkeypatch):
 @pytest.fixture
 def forget(monkeypatch):
     """Do as if another process began."""
-    return lambda: monkeypatch.setattr(linking, "_parts", {})
+    return lambda: monkeypatch.setattr(linking, "_dispatchers", {})
 
 
 def start(cache, before=None, **variables):
@@ -77,7 +77,7 @@ def said(process):
 
 def compiled():
     """Compile the small program, or find it; how often it was found."""
-    f = link(small_program.outer, separate=(small_program.middle,))
+    f = link(small_program.outer)
     assert f(small_program.example()) == pytest.approx(
         small_program.outer(small_program.example()), rel=1e-13
     )
@@ -131,7 +131,7 @@ class TestDamage:
     def flip_and_compile(folder, times):
         random = chance.Random(1)
         files = sorted(folder.rglob("*.code"))
-        assert len(files) == 2
+        assert len(files) == 3
         for _ in range(times):
             file = random.choice(files)
             data = bytearray(file.read_bytes())
@@ -140,11 +140,11 @@ class TestDamage:
             if random.random() < 0.3:
                 del data[random.randrange(len(data)) :]
             file.write_bytes(data)
-            linking._parts.clear()
+            linking._dispatchers.clear()
             hits = compiled()
-            # The loop has the machine code of what it calls in it.
-            assert hits == (0 if file.parent.name == files_of("outer", files) else 1)
-            linking._parts.clear()
+            # What it calls is machine code of its own.
+            assert hits == (0 if file.parent.name == folder_of("outer") else 1)
+            linking._dispatchers.clear()
             assert compiled() == 1
 
     @pytest.mark.usefixtures("folder")
@@ -155,10 +155,15 @@ class TestDamage:
         assert store.load("key") is None
 
 
-def files_of(function, files):
-    """Name of the folder of a function that was compiled in this process."""
-    (key,) = {p.keys.outside for p in linking._parts.values() if p.dispatcher.py_func.__name__ == function}
-    return key
+def dispatcher_of(function):
+    """Dispatcher of a function that this process has linked, by its name."""
+    (found,) = (d for d in linking._dispatchers.values() if d.py_func.__name__ == function)
+    return found
+
+
+def folder_of(function):
+    """Name of the folder of its machine code."""
+    return linking._stores[id(dispatcher_of(function))][0].folder.name
 
 
 def doubled(x):
@@ -271,7 +276,7 @@ class TestOwners:
             status = 1
             try:
                 os.setuid(SOMEBODY)
-                linking._parts.clear()
+                linking._dispatchers.clear()
                 status = 0 if compiled() == 1 and not os.access(folder, os.W_OK) else 2
                 # Another function is compiled, and not saved.
                 status = status or (0 if link(swapped_by_hand)((1.0, 2.0)) == (2.0, 1.0) else 3)
@@ -316,7 +321,7 @@ class TestStages:
     @staticmethod
     def linked(stage):
         """The small program with one of its stages."""
-        return link(small_program.outer, {"stage": stage}, (small_program.middle, stage))
+        return link(small_program.outer, {"stage": stage})
 
     def found(self, stage):
         """How often the program was found in the cache, after it has given what it gives with its stage."""
@@ -357,9 +362,8 @@ class TestStages:
         for one, other in ((by_two, by_three), (by_three, by_two)):
             hits = []
             for _ in range(2):
-                f = link(small_program.twice, {"one": bound(small_program.calling, formed=one),
-                                               "other": bound(small_program.calling, formed=other)},
-                         (one, other))  # fmt: skip
+                first, second = (bound(small_program.calling, formed=stage) for stage in (one, other))
+                f = link(small_program.twice, {"one": first, "other": second})
                 values = np.ones(small_program.LANES)
                 f(values)
                 # x -> 2x + 1 and x -> 3x + 1 in their order.
@@ -371,16 +375,15 @@ class TestStages:
     @pytest.mark.usefixtures("folder")
     def test_a_stage_that_a_known_function_calls_is_there_for_another_entry(self, forget):
         """The function is found in the cache; its stage is called by nothing else."""
-        hits, outside = [], linking.key_of([f"{small_program.formed.__module__}.formed"])
+        hits = []
         for entry, result in ((small_program.calls_once, 3.0), (small_program.calls_again, 7.0)) * 2:
-            f = link(entry, {"formula": doubled}, (small_program.calling, small_program.formed))
+            f = link(entry, {"formula": doubled})
             values = np.ones(small_program.LANES)
             f(values)
             np.testing.assert_array_equal(values, result)
             hits.append(sum(f.stats.cache_hits.values()))
             # In another process nothing else has made its machine code.
-            (stage,) = (p.dispatcher for p in linking._parts.values() if p.keys.outside == outside)
-            assert stage.signatures
+            assert dispatcher_of("formed").signatures
             forget()
         assert hits == [0, 0, 1, 1]
 
@@ -392,17 +395,20 @@ class TestStages:
             results = []
             for stage in stages:
                 values = np.ones(small_program.LANES)
-                link(small_program.calls_once, {"formed": stage}, (small_program.calling, stage))(values)
+                link(small_program.calls_once, {"formed": stage})(values)
                 results.append(values[0])
             assert results == [3.0, 4.0]
             forget()
 
     def test_what_is_kept_of_an_entry_names_no_stage(self, folder):
         self.found(small_program.stage)
-        stage, entry = (p.keys for p in linking._parts.values() if p.keys.full != p.keys.outside)
-        (file,) = (folder / entry.outside).glob("*.code")
-        kept = file.read_bytes()
-        assert [key.encode() in kept for key in (*entry, *stage)] == [False, True, False, True]
+        entry, stage = (
+            dispatcher_of(name).py_func.__qualname__.rpartition("_")[2] for name in ("outer", "stage")
+        )
+        (file,) = (folder / folder_of("outer")).glob("*.code")
+        kept, named = file.read_bytes(), linking.key_of(["stage"])
+        keys = entry, folder_of("outer"), stage, named
+        assert [key.encode() in kept for key in keys] == [False, True, False, True]
 
 
 class TestProcessors:
@@ -411,12 +417,12 @@ class TestProcessors:
         assert compiled() == 0
         monkeypatch.setattr(linking, "_compiler", lambda **_: "another processor")
         forget()
-        assert not is_compiled(link(small_program.outer, separate=(small_program.middle,)))
+        assert not is_compiled(link(small_program.outer))
         assert compiled() == 0
         monkeypatch.undo()
         monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
-        monkeypatch.setattr(linking, "_parts", {})
-        assert is_compiled(link(small_program.outer, separate=(small_program.middle,)))
+        monkeypatch.setattr(linking, "_dispatchers", {})
+        assert is_compiled(link(small_program.outer))
         assert compiled() == 1
 
     def test_numba_may_be_told_which_processor_it_is(self, tmp_path, monkeypatch):

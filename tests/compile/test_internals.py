@@ -32,7 +32,7 @@ assert abs(small_program.linked()(small_program.example()) / plain - 1.0) < 1e-1
 def switch(request, tmp_path, monkeypatch):
     monkeypatch.setenv(SWITCH, request.param)
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
-    monkeypatch.setattr(linking, "_parts", {})
+    monkeypatch.setattr(linking, "_dispatchers", {})
 
 
 def test_small_program_is_right(switch):
@@ -40,7 +40,7 @@ def test_small_program_is_right(switch):
     total = small_program.outer(expected)
     for _ in range(2):
         # The second time it is loaded from the cache.
-        linking._parts.clear()
+        linking._dispatchers.clear()
         found = small_program.example()
         assert small_program.linked()(found) == pytest.approx(total, rel=1e-13)
         assert found.values == pytest.approx(expected.values, rel=1e-13, abs=0.0)

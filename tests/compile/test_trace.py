@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 import foamprb
 from foamprb.body.tensor import select
-from foamprb.cloud.integrators.paper import dense_newton
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.tracker import Tracker
 from foamprb.compile import link as compiling
-from foamprb.compile.link import link, traced
+from foamprb.compile.link import link, linked, traced
+from foamprb.compile.record_type import register_records
 from foamprb.compile.trace import TRACED, UntraceableError, trace
 from foamprb.flow.meshflow import MeshFlow
 
@@ -28,7 +28,7 @@ FLAGS = "contract nsz"
 def fresh(tmp_path, monkeypatch, caplog):
     """Nothing compiled in this process nor in an earlier one; what is not traced is in the log."""
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path / "cache"))
-    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr(compiling, "_dispatchers", {})
     return caplog
 
 
@@ -87,7 +87,7 @@ def after(function, block, shift):
     plain, compiled = block.copy(), block.copy()
     with np.errstate(all="ignore"):
         function(plain, shift)
-    link(entry, {"stage": function}, separate=(function,))(compiled, shift)
+    link(entry, {"stage": function})(compiled, shift)
     return plain.reshape(ROWS, LANES), compiled.reshape(ROWS, LANES)
 
 
@@ -129,19 +129,19 @@ def test_stages_of_all_integrators_are_traced(fresh):
         scratch = tracker._scratch()
         examples = {"block": scratch.block, "M": scratch.matrix, "medium": tracker.medium, "i": np.int64(0)}
         examples |= {"allowed": 1.0, "tolerance": 1.0}
-        for stage in integrator.stages:
-            linkage = compiling._Linkage(tracker.bindings, frozenset(tracker.separate))
+        register_records()
+        linkage = compiling._Linkage(tracker.bindings, tracker.slots)
+        stages = [f for f in linked(integrator.track, tracker.bindings, tracker.slots) if hasattr(f, TRACED)]
+        assert len(stages) >= 7
+        for stage in stages:
             kinds = tuple(numba.typeof(examples[name]) for name in inspect.signature(stage).parameters)
-            compiling._link(stage, linkage, "separate").dispatcher.compile(kinds)
-        unmarked = {stage for stage in integrator.stages if not hasattr(stage, TRACED)}
-        # It solves the equations of a single lane.
-        assert unmarked <= {dense_newton}
+            compiling._link(stage, linkage, "lanes", stage.__name__).dispatcher.compile(kinds)
     assert fresh.messages == []
 
 
 def operations(function, *arguments):
     """Lines of the code of a function, each an operation."""
-    linked = link(entry, {"stage": function}, separate=(function,)).py_func.__globals__["stage"]
+    linked = link(entry, {"stage": function}).py_func.__globals__["stage"]
 
     def symbols(code):
         return [code.block, *(code.argument(k) for k in range(len(arguments)))]

@@ -10,6 +10,7 @@ import pytest
 from foamprb import analytic
 from foamprb.errors import InputError
 from foamprb.flow import analytic as module
+from foamprb.flow import kernels as defaults
 from foamprb.flow.base import NO_PLANES
 
 
@@ -38,17 +39,17 @@ def test_a_flow_without_bounds_has_none():
     flow = analytic.linear(np.arange(9.0).reshape(3, 3), (0.1, 0.2, 0.3))
     arrays, kernels = flow.arrays(0.1, (0,)), flow.kernels
     x, F, no = (0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
-    assert kernels["walk"](arrays, 4, x, (9.0, 9.0, 9.0)) == (4, 1.0, -1, -1)
+    assert defaults.walk(arrays, 4, x, 0.0, (9.0, 9.0, 9.0), 1.0) == (4, 1.0, -1, -1)
     assert kernels["gap"](arrays, 4, x, F, 0.1) == (np.inf, -1, -1)
-    assert kernels["normal"](arrays, 4, x) == no
-    assert kernels["recover"](arrays, x) == 0
+    assert defaults.normal(arrays, 4, x, 0.0) == no
+    assert defaults.recover(arrays, x, 0.0) == 0
     assert kernels["curvature"](arrays, 4, x, 0.0) == (no,) * 6
     assert kernels["sample"](arrays, 4, x, 0.0)[2] == no
-    assert module.walls_free(arrays, 4, x, 1.0, None) == NO_PLANES
-    assert module.turbulence_free(arrays, 4, x, 0.0) == (0.0, 0.0, no, no)
-    assert module.no_rotation(arrays, 4) == (no, no)
-    assert module.cross_free(arrays, 4, x) == (0, x, F)
-    assert module.cell_volume_free(arrays, 4) == np.inf
+    assert defaults.walls(arrays, 4, x, 1.0, None, 0.0) == NO_PLANES
+    assert defaults.turbulence(arrays, 4, x, 0.0) == (0.0, 0.0, no, no)
+    assert defaults.rotation_at(arrays, 4) == (no, no)
+    assert defaults.cross(arrays, 4, x, 0.0) == (0, x, F)
+    assert defaults.cell_volume(arrays, 4) == np.inf
     assert flow.locate(np.zeros((3, 3))).tolist() == [0, 0, 0]
     assert flow.cell_size(np.zeros(3, dtype=np.int32)).tolist() == [np.inf] * 3
     assert flow.width == np.inf

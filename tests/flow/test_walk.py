@@ -23,7 +23,7 @@ from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.arrays import FREE, frame, no_mesh
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.meshflow import LONG, MeshFlow
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.walk import (
     FAILED,
     REACHED,
@@ -104,7 +104,7 @@ def test_ahead_the_flow_is_that_of_the_last_tetrahedron_on_the_way(reach, random
     last, *_ = walked(flow, first, start, end)
     assert 0.02 < np.mean(first == last) < 0.98 or reach == 3.0
     u, l, room = np.empty((2000, 3)), np.empty((2000, 9)), np.empty(2000)
-    link(look_ahead, separate=LONG)(flow.arrays(), first, start, end, u, l, room)
+    link(look_ahead)(flow.arrays(), first, start, end, u, l, room)
     expected_u, expected_l = flow.sample(end, last, 0.0)
     np.testing.assert_allclose(u, expected_u, atol=1e-11 * np.abs(expected_u).max())
     np.testing.assert_allclose(l, expected_l.reshape(-1, 9), atol=1e-11 * np.abs(expected_l).max())
@@ -134,12 +134,12 @@ def test_a_way_is_not_followed_again_to_where_one_near_it_led(random):
     arrays, moved = flow.arrays(), first != last
     assert moved.mean() > 0.3
     for looked_at in (first, last, np.zeros_like(first)):
-        link(go_on, separate=LONG)(arrays, first, looked_at, start, end, found)
+        link(go_on)(arrays, first, looked_at, start, end, found)
         assert np.array_equal(found, last)
     walled = arrays._replace(neighbours=np.full_like(arrays.neighbours, -1))
-    link(go_on, separate=LONG)(walled, first, first, start, end, found)
+    link(go_on)(walled, first, first, start, end, found)
     assert np.array_equal(found, first)
-    link(go_on, separate=LONG)(walled, first, last, start, end, found)
+    link(go_on)(walled, first, last, start, end, found)
     assert np.array_equal(found, last)
 
 
@@ -181,7 +181,7 @@ def test_across_an_interface_the_nearest_place_of_the_other_side_is_next(mesh, a
     share = random.dirichlet((1.0, 1.0, 1.0), len(triangles))
     x = np.einsum("nk,nki->ni", share, mesh.points[mesh.triangles[triangles]])
     hosts, y = np.empty(len(x), dtype=np.int32), np.empty((len(x), 3))
-    link(crossed, separate=LONG)(flow.arrays(), triangles, x, hosts, y)
+    link(crossed)(flow.arrays(), triangles, x, hosts, y)
     assert np.all(weights(flow, hosts, y) > -1e-9)
     for c in mesh.couplings:
         here = mesh.triangle_patch[triangles] == c.patch

@@ -23,6 +23,7 @@ from foamprb.cloud.measures import _kernel
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.compile import link as compiling
 from foamprb.compile.cache import cache_directory
+from foamprb.compile.link import packed
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.series import SeriesFlow
@@ -57,7 +58,7 @@ def begun(tracker, flow):
 def two_processors(tmp_path, monkeypatch):
     """An empty cache, and a processor to spare."""
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path / "cache"))
-    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr(compiling, "_dispatchers", {})
     monkeypatch.setattr("foamprb.run.compilation.available_threads", lambda: 2)
 
 
@@ -150,40 +151,41 @@ def test_code_of_the_second_process_is_used(tmp_path, monkeypatch):
         return Tracker(models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
 
     # A cache that lacks only the loop and the measures.
-    names = (code.py_func.__qualname__.rpartition("_")[2] for code in (loop()._track, _kernel()))
-    keys, of_measures = (compiling._parts[name].keys for name in names)
-    cache, lacks = tmp_path / "cache", (keys.outside, of_measures.outside)
+    arguments = type(flow).nothing()
+    loop().compile(arguments)
+    code = loop().linked(packed(arguments), packed(()))
+    lacks = [compiling._stores[id(entry)][0].folder for entry in (code, _kernel())]
+    cache = tmp_path / "cache"
     cache.mkdir()
-    for folder in {*cache_directory().glob("*")} - {cache_directory() / name for name in lacks}:
+    for folder in {*cache_directory().glob("*")} - {*lacks}:
         (cache / folder.name).symlink_to(folder)
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(cache))
-    monkeypatch.delitem(compiling._parts, keys.full)
+    monkeypatch.setattr(compiling, "_dispatchers", {})
 
     p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
     cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, models)
-    assert not cloud.tracker.compiled
+    assert not cloud.tracker.is_compiled(arguments)
     begun(loop(), type(flow)).wait()
     # It runs no code of the current folder.
     assert not (tmp_path / "executed").exists()
-    assert cloud.tracker.compiled
-    assert (cache / of_measures.outside).is_dir()
+    assert cloud.tracker.is_compiled(arguments)
+    assert all((cache / folder.name).is_dir() for folder in lacks)
     cloud.advance(1)
-    stats = cloud.tracker._track.stats
+    stats = cloud.tracker._loop.stats
     assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
     assert p.x[0, 0] > 0.5
 
 
 def in_memory():
     """Functions that this process has compiled, or loaded from the cache."""
-    parts = compiling._parts.values()
-    return {(part.dispatcher.__qualname__, s) for part in parts for s in part.dispatcher.signatures}
+    return {(code.__qualname__, s) for code in compiling._dispatchers.values() for s in code.signatures}
 
 
 @pytest.mark.parametrize(
     ("fluid", "kind"), [("CrossPowerLaw", "steady"), ("Newtonian", "transient"), ("Newtonian", "rotating")]
 )
 def test_after_compile_no_run_has_to(fluid, kind, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr(compiling, "_dispatchers", {})
     monkeypatch.setattr(precompile, "RUNS", [(fluid, kind, "stokes")])
     assert main(["compile"]) == 0
     assert "The code is kept in" in capsys.readouterr().out

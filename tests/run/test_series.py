@@ -67,7 +67,7 @@ def test_the_first_time_without_balanced_fluxes_is_named(kind, first, case, tmp_
     accepted.load(0.0, 1.0)
     mesh = accepted.mesh
     accepted.sample(mesh.nodes[mesh.tets].mean(axis=1), np.arange(len(mesh.tets)), 0.5)
-    assert accepted.loaded().correction[: 2 * len(mesh.tets)] == pytest.approx(0.0, abs=1e-30)
+    assert accepted.arrays().correction[: 2 * len(mesh.tets)] == pytest.approx(0.0, abs=1e-30)
 
 
 def test_the_time_of_the_run_is_that_of_the_flow(case):

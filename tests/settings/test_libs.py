@@ -326,7 +326,7 @@ def test_class_of_surroundings_is_checked():
         pass
 
     class Bound(foamprb.Surrounding):
-        disturb = None
+        disturb = max
 
     with pytest.raises(ValueError, match=r"Bare has no @dataclass\(frozen=True, kw_only=True\)"):
         add_surrounding("bare", Bare)

@@ -16,7 +16,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import Gravity, PressureGradient
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
-from foamprb.flow.analytic import FunctionFlow, gap_free, normal_free, recover_free, walk_free
+from foamprb.flow.analytic import FunctionFlow, gap_free
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
 from validation.references import soft
 
@@ -73,10 +73,7 @@ def axis_flow(table: Axis) -> FunctionFlow:
     """Return the flow near the axis."""
     kernels: dict[str, Callable[..., Any]] = {
         "sample": sample_axis,
-        "walk": walk_free,
         "gap": gap_free,
-        "normal": normal_free,
-        "recover": recover_free,
     }
     return FunctionFlow(table, kernels)
 

@@ -6,15 +6,14 @@ a part of a particle's state. All lanes of a block go through the same operation
 A step evaluates the body's equations at its start, at a quarter of it, and for the lanes that need order 3
 at its end. The flow is sampled at the start, at the end, and in the middle if the third evaluation is made.
 
-The names ``predict``, ``first_slope``, ``second_slope``, ``last_argument``, ``third_slope`` and ``end_slope``
-are bound to the stages of the integrator when the loop is compiled, ``sample`` and ``walk`` to the flow, and
-``sample_ahead`` where it has its own.
+The slots :func:`predict`, :func:`first_slope`, :func:`second_slope`, :func:`last_argument`,
+:func:`third_slope` and :func:`end_slope` are the stages of the integrator.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -45,8 +44,6 @@ from foamprb.body.tensor import (
     select,
 )
 from foamprb.cloud.block import (
-    BLOCK_STAGES,
-    ROWS,
     Medium,
     Scratch,
     accept_stage,
@@ -79,10 +76,9 @@ from foamprb.cloud.lanes import (
     pause,
     set_aside,
     take_back,
-    updates_end,
     walks_relocated,
 )
-from foamprb.cloud.layout import LANES, Row, end, offsets
+from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
     SHORTEST_STEP,
@@ -99,9 +95,8 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.paths import is_full, record_ends, record_starts
 from foamprb.cloud.state import Particles
-from foamprb.compile.link import traced
-from foamprb.flow.analytic import sample_linear as sample
-from foamprb.flow.analytic import walk_free as walk
+from foamprb.compile.link import bound, kernel, separate, slot, traced
+from foamprb.flow.kernels import inlined, sample, sample_ahead
 
 _LAST_STEP = 1.0 / 4096.0
 """Longest step, in Δt, of a centre onto a patch to which it sticks."""
@@ -141,11 +136,8 @@ class StepRows(NamedTuple):
     room: Annotated[int, Row(1, "m", "how far off its end may be, along each axis, in the same host")]
 
 
-during = offsets(StepRows, ROWS)
-STEP_ROWS = end(during)
+during = offsets(StepRows)
 
-draws = 0
-"""Bound to 1 by models that draw random numbers."""
 _SMALLEST = 1e-9
 """Smallest step allowed, over Δt."""
 SHARE_OF_MEMORY = 4.0
@@ -239,18 +231,13 @@ def mark_disturbed(block: Any, i: int) -> None:
     block[during.disturbed * LANES + i] = select(off > 0.0, 1.0, 0.0)
 
 
-def fading_rate(_block: Any, _i: int) -> Any:
-    """Return 0: the solid has no memory, whose fastest rate, 1/s, a model of it binds."""
-    return 0.0
-
-
 def error_share(block: Any, i: int, rho: Any) -> Any:
     """Return θ of :mod:`foamprb.body.error_control`; 1 where models of the surroundings change the gradient.
 
     They may change it faster than elasticity and the flow do. ``rho`` is the rate at which the elastic stress
     relaxes, 1/s.
     """
-    rho = rho + fading_rate(block, i)
+    rho = rho + block[at.fading * LANES + i]
     theta = share_of_slope(block[at.dt * LANES + i], rho, load9(block, during.start_l, i))
     return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)
 
@@ -287,16 +274,34 @@ def keep_frame(block: Any, i: int, third: Any) -> None:
     store9(block, at.Q, i, choose(third, Q, second))
 
 
-def no_stage(block: Any, medium: Medium) -> None:
-    """Stand-in of a stage."""
+@slot
+def predict(_block: Any, _medium: Medium) -> None:
+    """Compute what :func:`sample_ahead` needs of the step."""
 
 
-def no_choice(block: Any, medium: Medium, tolerance: float) -> None:
-    """Stand-in of a stage that judges by the tolerance."""
+@slot
+def first_slope(_block: Any, _medium: Medium) -> None:
+    """Compute the state at the start, and at a quarter of the step."""
 
 
-predict = first_slope = last_argument = end_slope = no_stage
-second_slope = third_slope = no_choice
+@slot
+def second_slope(_block: Any, _medium: Medium, _tolerance: float) -> None:
+    """Compute the solution of order 2, and choose the order."""
+
+
+@slot
+def last_argument(_block: Any, _medium: Medium) -> None:
+    """Compute the state for the evaluation at the end, in lanes of order 3."""
+
+
+@slot
+def third_slope(_block: Any, _medium: Medium, _tolerance: float) -> None:
+    """Compute the solution of order 3."""
+
+
+@slot
+def end_slope(_block: Any, _medium: Medium) -> None:
+    """Compute the rates at the ends of calls."""
 
 
 @traced
@@ -314,12 +319,8 @@ def limit_by_path(block: Any, i: int, tolerance: float) -> None:
     block[during.by_path * LANES + i] = path_factor(block[during.path * LANES + i], tolerance)
 
 
-ADAPTIVE_STAGES = (*BLOCK_STAGES, begin_stage)
-ADAPTIVE_BINDINGS: dict[str, Callable[..., Any] | int] = {
-    "limit_next_step": limit_by_path,
-    "MOST_MEMBERS": 2**40,
-}
-"""Stages and bindings of every integrator of this loop, beside its own."""
+ADAPTIVE_BINDINGS: dict[str, Callable[..., Any]] = {"limit_next_step": limit_by_path}
+"""Bindings of every integrator of this loop."""
 
 
 def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
@@ -332,45 +333,65 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
     apply_surroundings(block, medium, share)
 
 
-def sample_ahead(
-    flow: Any, host: int, x: Vector, goal: Vector, t: float
-) -> tuple[int, float, int, Vector, Tensor, Vector]:
-    """Return the flow at the goal of a step from x.
-
-    Returns
-    -------
-    host, room, entered, u, l_f, u_t
-        The host of the goal, or the last one on the way; the distance along each axis, m, within which this
-        host certainly holds any point around the goal; the number of cells on the way; the flow there.
-    """
-    reached, _, patch, _ = walk(flow, host, x, goal)
-    last = host if patch == -2 else reached
-    u, l_f, u_t = sample(flow, last, goal, t)
-    return last, 0.0, 0, u, l_f, u_t
+@kernel
+def sample_starts(_flow: Any, _block: Any, _hosts: Any) -> None:
+    """Store the flow where the steps of the moving lanes start."""
 
 
-def _sample_end(flow: Any, s: Scratch, i: int, medium: Medium) -> None:
-    """Store the flow at the end of the step of lane i, and the host there."""
-    block = s.block
-    place = load3(block, at.new_x, i)
-    t = block[at.t * LANES + i] + block[at.dt * LANES + i]
-    s.ahead[i], room, entered, u, l_f, u_t = sample_ahead(flow, s.host[i], load3(block, at.x, i), place, t)
-    store3(block, during.ahead, i, place)
-    block[during.room * LANES + i] = room
-    block[during.entered * LANES + i] = entered
-    store3(block, during.end_u, i, u)
-    store9(block, during.end_l, i, l_f)
-    store3(block, during.end_ut, i, u_t)
-    look_ahead(flow, s, i, medium)
+@kernel
+def sample_ends(_flow: Any, _block: Any, _hosts: Any, _ahead: Any) -> None:
+    """Store the flow at the ends of the steps of the moving lanes, and the hosts there."""
 
 
-def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
-    """Store the fluid's gradient half-way on the step of lane i."""
-    half = 0.5 * block[at.dt * LANES + i]
-    place = place_after(block, i, half, load3(block, during.start_v, i), load3(block, during.start_a, i))
-    t = block[at.t * LANES + i] + half
-    _, _, _, _, l_f, _ = sample_ahead(flow, host, load3(block, at.x, i), place, t)
-    store9(block, during.middle_l, i, l_f)
+@kernel
+def sample_middles(_flow: Any, _block: Any, _hosts: Any) -> None:
+    """Store the fluid's gradient half-way on the steps of order 3."""
+
+
+# In these functions the kernels of a flow are inlined (:func:`sampling`).
+def _sample_starts(flow: Any, block: Any, hosts: Any) -> None:
+    for i in range(LANES):
+        if block[at.moving * LANES + i] > 0.0:
+            u, l_f, u_t = sample(flow, hosts[i], load3(block, at.x, i), block[at.t * LANES + i])
+            store3(block, during.start_u, i, u)
+            store9(block, during.start_l, i, l_f)
+            store3(block, at.DuDt, i, u_t)
+
+
+def _sample_ends(flow: Any, block: Any, hosts: Any, ahead: Any) -> None:
+    for i in range(LANES):
+        if block[at.moving * LANES + i] > 0.0:
+            x, goal, t = load3(block, at.x, i), load3(block, at.new_x, i), block[at.t * LANES + i]
+            t_end = t + block[at.dt * LANES + i]
+            ahead[i], room, entered, u, l_f, u_t = sample_ahead(flow, hosts[i], x, t, goal, t_end)
+            store3(block, during.ahead, i, goal)
+            block[during.room * LANES + i] = room
+            block[during.entered * LANES + i] = entered
+            store3(block, during.end_u, i, u)
+            store9(block, during.end_l, i, l_f)
+            store3(block, during.end_ut, i, u_t)
+
+
+def _sample_middles(flow: Any, block: Any, hosts: Any) -> None:
+    for i in range(LANES):
+        if needs_third(block, i):
+            half, t = 0.5 * block[at.dt * LANES + i], block[at.t * LANES + i]
+            v, a = load3(block, during.start_v, i), load3(block, during.start_a, i)
+            place = place_after(block, i, half, v, a)
+            x = load3(block, at.x, i)
+            _, _, _, _, l_f, _ = sample_ahead(flow, hosts[i], x, t, place, t + half)
+            store9(block, during.middle_l, i, l_f)
+
+
+def sampling(kernels: Mapping[str, Callable[..., Any]]) -> dict[Callable[..., Any], Callable[..., Any]]:
+    """Return the functions behind the slots by which the loop samples a flow, from its kernels."""
+    functions = inlined(kernels)
+    start, ahead = functions["sample"], functions["sample_ahead"]
+    return {
+        sample_starts: bound(_sample_starts, sample=start),
+        sample_ends: bound(_sample_ends, sample_ahead=ahead),
+        sample_middles: bound(_sample_middles, sample_ahead=ahead),
+    }
 
 
 def holds_end(block: Any, i: int, goal: Vector) -> bool:
@@ -399,7 +420,7 @@ def track_adaptive(
 
     Parameters
     ----------
-    As in :func:`foamprb.cloud.integrators.paper.track_block`, with any number of members, a block of the
+    As in :func:`foamprb.cloud.integrators.paper.track_paper`, with any number of members, a block of the
     integrator's rows, and
     tolerance
         Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, limited
@@ -418,7 +439,7 @@ def track_adaptive(
     """
     last = step + steps
     enough = tolerance if tolerance < math.inf else 0.0
-    block, current = scratch.block, scratch.step
+    block, current, updates_end = scratch.block, scratch.step, scratch.switches.updates_end
     begin_lanes(scratch, dt)
 
     while True:
@@ -433,22 +454,19 @@ def track_adaptive(
         if interrupted(scratch):
             drop_unfinished(scratch)
             break
-        if updates_end and (moving == 0 or scratch.counts[ENDED] >= LANES) and has_ended(scratch):
+        if updates_end > 0 and (moving == 0 or scratch.counts[ENDED] >= LANES) and has_ended(scratch):
             update_ends(flow, medium, p, scratch, last)
             continue
         if moving == 0:
             break
 
         for i in range(LANES):
-            block[at.moving * LANES + i] = 0.0
-            if not must_move(scratch, i, last):
+            block[at.moving * LANES + i] = 1.0 if must_move(scratch, i, last) else 0.0
+        sample_starts(flow, block, scratch.host)
+        for i in range(LANES):
+            if not block[at.moving * LANES + i] > 0.0:
                 continue
-            block[at.moving * LANES + i] = 1.0
-            t = block[at.t * LANES + i]
-            u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
-            store3(block, during.start_u, i, u)
-            store9(block, during.start_l, i, l_f)
-            store3(block, at.DuDt, i, u_t)
+            t, l_f = block[at.t * LANES + i], load9(block, during.start_l, i)
             scratch.stride[i] = min((current[i] // stretch + 1) * stretch, last) - current[i]
             block[during.held_until * LANES + i] = next_end(scratch, i, t, dt, start, stretch, medium)
             remaining = start + block[during.held_until * LANES + i] * dt - t
@@ -457,25 +475,16 @@ def track_adaptive(
             if measures_again(scratch, i, left, stretch):
                 block[during.discount * LANES + i] = 0.0
         begin_stage(block)
-        for i in range(LANES):
-            if block[at.moving * LANES + i] > 0.0:
-                first, remaining = (
-                    int(block[during.held_from * LANES + i]),
-                    block[during.remaining * LANES + i],
-                )
-                update_surroundings(flow, scratch, i, first, remaining, medium)
+        update_surroundings(flow, scratch, medium)
         evaluate_shape(block, medium, 0.0)
         predict(block, medium)
-        for i in range(LANES):
-            if block[at.moving * LANES + i] > 0.0:
-                _sample_end(flow, scratch, i, medium)
+        sample_ends(flow, block, scratch.host, scratch.ahead)
+        look_ahead(flow, scratch, medium)
         first_slope(block, medium)
         evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
         if count_thirds(block):
-            for i in range(LANES):
-                if needs_third(block, i):
-                    _sample_middle(flow, scratch.host[i], block, i)
+            sample_middles(flow, block, scratch.host)
             last_argument(block, medium)
             evaluate_shape(block, medium, 1.0)
             third_slope(block, medium, enough)
@@ -562,7 +571,7 @@ def next_end(s: Scratch, i: int, t: float, dt: float, start: float, stretch: int
     the state in which they begin, and not on themselves.
     """
     block, end = s.block, float(s.step[i] + s.stride[i])
-    if draws == 0:
+    if s.switches.draws == 0:
         block[during.held_from * LANES + i] = s.step[i]
         return end
     if t < start + (block[during.held_until * LANES + i] - SHORTEST_STEP) * dt:
@@ -587,8 +596,9 @@ def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, mos
     dt, most
         As in :func:`track_adaptive`.
     """
-    remembered = SHARE_OF_MEMORY / (fading_rate(block, i) + 1e-300)
-    size = min(block[at.h * LANES + i], most * dt, longest_step(l_f), remembered)
+    size = min(block[at.h * LANES + i], most * dt, longest_step(l_f))
+    if block[at.fading * LANES + i] > 0.0:
+        size = min(size, SHARE_OF_MEMORY / block[at.fading * LANES + i])
     return float(max(1.0, np.ceil((remaining - SHORTEST_STEP * dt) / size)))
 
 
@@ -669,6 +679,7 @@ def has_ended(s: Scratch) -> bool:
     return bool(s.counts[ENDED] > 0)
 
 
+@separate
 def update_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) -> None:
     """Apply ``end_slope`` to finished particles, and save them.
 
@@ -688,15 +699,10 @@ def update_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) 
             u, l_f, u_t = sample(flow, s.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
-            update_surroundings(flow, s, i, last - 1, 0.0, medium)
+            block[during.held_from * LANES + i], block[during.remaining * LANES + i] = last - 1.0, 0.0
+    update_surroundings(flow, s, medium)
     evaluate_shape(block, medium, 0.0)
     end_slope(block, medium)
     for i in range(LANES):
         if s.member[i] >= 0 and not interrupted(s):
             leave(p, s, i)
-
-
-RARE = (
-    fill_lanes, update_ends, record_starts, record_ends, record_before, capture
-)  # fmt: skip
-"""Functions that few steps call, compiled as separate functions to keep the loop short."""

@@ -5,8 +5,8 @@ in the processor's cache. In a step, the flow is sampled and the mesh walked par
 equations of the body are computed stage by stage over the lanes, in vector instructions. All lanes go
 through the same operations, so results depend neither on their order nor on the number of threads.
 
-The names of models (``traction``, ``drag``, ``sample``, ``walk``, …) are bound to the selected ones when the
-loop is compiled (:func:`foamprb.compile.link.link`), and ``track`` to the loop of the integrator.
+What a model, an integrator or a flow does is behind slots (:func:`foamprb.compile.link.slot`): a loop is
+compiled once for all of them.
 """
 
 from __future__ import annotations
@@ -16,18 +16,11 @@ from math import inf
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from foamprb.body.tensor import Scalar, Vector
-from foamprb.cloud.block import Medium, Scratch
-from foamprb.cloud.layout import LANES, Layout
-from foamprb.cloud.motion import PatchTable
+from foamprb.cloud.block import Medium, Scratch, Switches
+from foamprb.cloud.layout import Layout
 from foamprb.cloud.paths import RecordedRows
-from foamprb.cloud.state import Particles
-
-MOST_MEMBERS = LANES
-"""Particles that the loop of an integrator takes at once; bound with it."""
+from foamprb.compile.link import slot
 
 
 def _refuses_nothing(_traction: str, _material: str, _tense: bool) -> str:
@@ -43,17 +36,16 @@ class Integrator(NamedTuple):
     order: int
     """Order of accuracy in the time step."""
     track: Callable[..., int]
-    """Loop that advances a block of particles."""
-    stages: tuple[Callable[..., Any], ...]
-    """Parts of the loop that do not depend on the flow; each is compiled once for all flows."""
+    """Loop that advances particles."""
     layout: Layout
     """Layout of its block."""
     recorded: RecordedRows
     """Rows of its block that are recorded of each step."""
-    rare: tuple[Callable[..., Any], ...] = ()
-    """Parts of the loop that few steps need, compiled as separate functions; the longest comes first."""
-    bindings: Mapping[str, Callable[..., Any] | int] = MappingProxyType({})
-    """Its own functions and constants, by their names in the loop."""
+    slots: Mapping[Callable[..., Any], Callable[..., Any]] = MappingProxyType({})
+    """Its functions behind slots of the loop."""
+    bindings: Mapping[str, Callable[..., Any]] = MappingProxyType({})
+    """Its functions by their names in stages that all integrators have."""
+    switches: Switches = Switches()
     adaptive: bool = False
     """Whether it divides tracking steps to meet a tolerance, which is then an argument of its loop."""
     inertia: bool = True
@@ -66,68 +58,38 @@ class Integrator(NamedTuple):
 
 
 # ---------------------------------------------------------------------------------------------------------
-# Models of the surroundings: the names below are bound to those that a cloud has chosen (see
-# foamprb.cloud.surroundings.registry) when the loop is compiled. Without any they are no-ops.
+# Models of the surroundings (see foamprb.cloud.surroundings.registry)
 
 
-def update_surroundings(flow: Any, s: Scratch, i: int, step: int, remaining: float, medium: Medium) -> None:
-    """Let each model update its rows of lane i before a step.
+@slot
+def update_surroundings(_flow: Any, _s: Scratch, _medium: Medium) -> None:
+    """Let each model update its rows of the moving lanes before a step.
 
-    Parameters
-    ----------
-    step
-        Number of the tracking step in which the lane's random numbers begin.
-    remaining
-        Time from the lane's t to the end of their validity, s; 0 at the end of a call.
+    The rows ``held_from`` and ``remaining`` hold the tracking step in which a lane's random numbers begin,
+    and the time to the end of their validity, s; 0 at the end of a call.
     """
-    update_all(flow, s, i, step, remaining, medium, medium.surroundings)
 
 
-def apply_surroundings(block: Any, medium: Medium, share: float) -> None:
+@slot
+def apply_surroundings(_block: Any, _medium: Medium, _share: float) -> None:
     """Let each model change the fluid's u and l of all lanes, ``share`` of the way from x to new_x."""
-    prepare_all(block, medium, share, medium.surroundings)
-    disturb_all(block, medium, share, medium.surroundings)
 
 
-def look_ahead(flow: Any, s: Scratch, i: int, medium: Medium) -> None:
-    """Let each model update its rows of lane i where the step is to lead."""
-    look_all(flow, s, i, medium, medium.surroundings)
+@slot
+def look_ahead(_flow: Any, _s: Scratch, _medium: Medium) -> None:
+    """Let each model update its rows of the moving lanes where the steps are to lead."""
 
 
-def resolved_share(flow: Any, s: Scratch, i: int, medium: Medium) -> float:
+@slot
+def resolved_share(_flow: Any, _s: Scratch, _i: int, _medium: Medium) -> float:
     """Return the smallest share of a step of lane i longer than Δt that a model resolves, 1 for all of it."""
-    share: float = resolve_all(flow, s, i, medium, medium.surroundings)
-    return share
-
-
-def held_for(block: Any, i: int, medium: Medium) -> float:
-    """Return how long lane i may hold its next random numbers, s."""
-    longest: float = hold_all(block, i, medium, medium.surroundings)
-    return longest
-
-
-def held_forever(_block: Any, _i: int, _medium: Medium, _coefficients: Any) -> float:
-    """Return infinity: there are no random numbers."""
-    return inf
-
-
-def no_look(_flow: Any, _s: Scratch, _i: int, _medium: Medium, _coefficients: Any) -> None:
-    """No-op: no model needs the end of a step."""
-
-
-def all_resolved(_flow: Any, _s: Scratch, _i: int, _medium: Medium, _coefficients: Any) -> float:
-    """Return 1: every step is resolved."""
     return 1.0
 
 
-def no_update(
-    _flow: Any, _s: Scratch, _i: int, _step: int, _remaining: float, _medium: Medium, _coefficients: Any
-) -> None:
-    """No-op: no model of the surroundings has rows."""
-
-
-def no_disturbance(_block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
-    """No-op: u and l are not disturbed."""
+@slot
+def held_for(_block: Any, _i: int, _medium: Medium) -> float:
+    """Return how long lane i may hold its next random numbers, s."""
+    return inf
 
 
 def lifted(
@@ -139,46 +101,3 @@ def lifted(
     and virtual mass over that of the body, by which a and the rates are divided.
     """
     return a
-
-
-update_all: Any = no_update
-look_all: Any = no_look
-hold_all: Any = held_forever
-resolve_all: Any = all_resolved
-prepare_all: Any = no_disturbance
-disturb_all: Any = no_disturbance
-
-
-track: Any = None
-
-
-def track_share(
-    flow: Any,
-    patches: PatchTable,
-    medium: Medium,
-    p: Particles,
-    rows: NDArray[np.int64],
-    step: int,
-    steps: int,
-    dt: float,
-    start: float,
-    scratch: Scratch,
-    options: tuple[float, ...],
-) -> int:
-    """Advance a thread's share of the particles, with the indices ``rows``.
-
-    Parameters
-    ----------
-    options
-        Further arguments of the integrator's loop; the others are as in
-        :func:`foamprb.cloud.integrators.paper.track_block`.
-
-    Returns
-    -------
-    The number of walks that needed the tree.
-    """
-    recovered = 0
-    for first in range(0, len(rows), MOST_MEMBERS):
-        members = rows[first : first + MOST_MEMBERS]
-        recovered += track(flow, patches, medium, p, members, step, steps, dt, start, scratch, *options)
-    return recovered

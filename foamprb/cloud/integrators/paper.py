@@ -18,9 +18,9 @@ from foamprb.body.material import MATERIALS, viscous_stress
 from foamprb.body.tensor import Tensor, add, det, dot, inverse, scale, to_frame, transpose
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import (
-    BLOCK_STAGES,
     Medium,
     Scratch,
+    Switches,
     accept_stage,
     at,
     idle_lanes,
@@ -39,6 +39,7 @@ from foamprb.cloud.block import (
     viscosity_at,
 )
 from foamprb.cloud.forces import acceleration
+from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator, apply_surroundings, lifted, update_surroundings
 from foamprb.cloud.layout import LANES, layout
 from foamprb.cloud.motion import (
@@ -47,17 +48,17 @@ from foamprb.cloud.motion import (
     PENDING,
     SHORTEST_STEP,
     PatchTable,
+    bounce_to_end,
     clearance_of,
     end_block,
     interrupted,
     is_sound,
-    reach_end,
     release,
 )
 from foamprb.cloud.paths import RecordedRows, record_ends, record_starts
 from foamprb.cloud.state import Particles
-from foamprb.compile.link import traced
-from foamprb.flow.analytic import sample_linear as sample
+from foamprb.compile.link import separate, traced
+from foamprb.flow.kernels import sample
 
 _DENSE_STEPS = 25
 
@@ -141,6 +142,7 @@ def _eliminate(M: Any, n: int) -> bool:
     return True
 
 
+@separate
 def dense_newton(block: Any, i: int, M: Any) -> None:
     """Compute the deformation gradient of lane i by Newton's method with the full 9×9 tangent (50), in M."""
     predictor, stress = load9(block, at.predictor, i), load9(block, at.stress, i)
@@ -175,7 +177,7 @@ def dense_newton(block: Any, i: int, M: Any) -> None:
     _finish_shape(block, i, G, 0.0 if size < 1e-9 else math.inf)
 
 
-def track_block(
+def track_paper(
     flow: Any,
     patches: PatchTable,
     medium: Medium,
@@ -187,12 +189,12 @@ def track_block(
     start: float,
     scratch: Scratch,
 ) -> int:
-    """Advance up to :data:`LANES` particles from step ``step`` by ``steps`` steps of Δt.
+    """Advance particles from step ``step`` by ``steps`` steps of Δt, block by block.
 
     Parameters
     ----------
     flow
-        Arrays of the flow.
+        Packed arrays of the flow.
     p
         The cloud; only ``members`` are read and changed.
     members
@@ -200,15 +202,35 @@ def track_block(
     step
         Number of the first step: it goes from t = start + step Δt to start + (step + 1) Δt.
     scratch
-        With a block of ROWS.
+        With a block of the integrator's rows.
 
     Returns
     -------
     The number of walks that needed the tree.
     """
     recovered = 0
+    for first in range(0, len(members), LANES):
+        some = members[first : first + LANES]
+        recovered += _track_block(flow, patches, medium, p, some, step, steps, dt, start, scratch)
+    return recovered
+
+
+def _track_block(
+    flow: Any,
+    patches: PatchTable,
+    medium: Medium,
+    p: Particles,
+    members: NDArray[np.int64],
+    step: int,
+    steps: int,
+    dt: float,
+    start: float,
+    scratch: Scratch,
+) -> int:
+    """Advance up to :data:`LANES` particles, see :func:`track_paper`."""
+    recovered = 0
     block, status = scratch.block, scratch.status
-    idle_lanes(block, dt)
+    idle_lanes(block, scratch.initial, dt)
     for i in range(LANES):
         scratch.member[i] = members[i] if i < len(members) else -1
     for i in range(len(members)):
@@ -233,12 +255,14 @@ def track_block(
                 block[at.dt * LANES + i] = t_end - max(start + n * dt, t0)
                 u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t_end)
                 store_fluid(block, i, u, l_f, u_t)
-                update_surroundings(flow, scratch, i, n, block[at.dt * LANES + i], medium)
+                block[during.held_from * LANES + i] = n
+                block[during.remaining * LANES + i] = block[at.dt * LANES + i]
             elif status[i] == PENDING:
                 moving += 1
         if moving == 0 or interrupted(scratch):
             break
 
+        update_surroundings(flow, scratch, medium)
         renew_frames(block)
         apply_surroundings(block, medium, 0.0)
         traction_stage(block, medium)
@@ -258,7 +282,7 @@ def track_block(
             h = block[at.dt * LANES + i]
             x, v = load3(block, at.x, i), load3(block, at.v, i)
             goal = (x[0] + h * v[0], x[1] + h * v[1], x[2] + h * v[2])
-            recovered += reach_end(flow, patches, scratch, i, goal, scratch.host[i], False, t_end, h)
+            recovered += bounce_to_end(flow, patches, scratch, i, goal, t_end, h)
         record_ends(scratch)
     if interrupted(scratch):
         return 0
@@ -278,11 +302,10 @@ PAPER = Integrator(
     name="paper",
     description="implicit-explicit Euler of the paper's Sect. 4, first order, stable below 1.5 τ_s",
     order=1,
-    track=track_block,
-    stages=(*BLOCK_STAGES, traction_stage, newton_stage, barycentre_stage, dense_newton),
-    layout=layout(at),
+    track=track_paper,
+    layout=layout(at, during),
     recorded=RecordedRows(at.frame, at.l, at.A, in_frame=False),
-    bindings={"bouncing": GOES_ON},
+    switches=Switches(bouncing=GOES_ON),
     stable_steps=1.5,
     refuses=_refuses,
 )

@@ -65,6 +65,7 @@ from foamprb.body.tensor import (
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import (
     Medium,
+    Switches,
     at,
     choose,
     choose3,
@@ -81,9 +82,6 @@ from foamprb.cloud.elastic import conservative_stress, solid_elasticity
 from foamprb.cloud.forces import acceleration
 from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
-    ADAPTIVE_STAGES,
-    RARE,
-    STEP_ROWS,
     acceleration_at_end,
     choose_order,
     counted_error,
@@ -91,17 +89,22 @@ from foamprb.cloud.integrators.adaptive import (
     during,
     end_acceleration,
     error_share,
+    first_slope,
     fluid_acceleration,
     judge_difference,
     keep_frame,
+    last_argument,
     mark_disturbed,
+    predict,
+    second_slope,
     store_path_error,
+    third_slope,
     track_adaptive,
     update_discount,
 )
 from foamprb.cloud.integrators.base import Integrator, lifted
 from foamprb.cloud.layout import LANES, Row, layout, offsets
-from foamprb.cloud.motion import STOPS_AT_CONTACT
+from foamprb.cloud.motion import STOPS_AT_CONTACT, rewind
 from foamprb.cloud.paths import RecordedRows
 from foamprb.compile.link import traced
 
@@ -161,7 +164,7 @@ class StiffnessRows(NamedTuple):
     second_v: Annotated[int, Row(3, "m/s", "change of v of order 2")]
 
 
-work = offsets(StiffnessRows, STEP_ROWS)
+work = offsets(StiffnessRows)
 
 
 def with_fading(
@@ -574,26 +577,17 @@ ROSENBROCK = Integrator(
     description="with inertia, third order, implicit in elasticity and traction",
     order=3,
     track=track_adaptive,
-    stages=(
-        *ADAPTIVE_STAGES,
-        predict_inertial,
-        first_inertial,
-        second_inertial,
-        last_inertial,
-        third_inertial,
-    ),
     layout=layout(at, during, work),
     recorded=RecordedRows(during.start_Q, during.start_l, at.A, in_frame=False, end_l=during.end_l),
-    rare=RARE,
-    bindings={
-        **ADAPTIVE_BINDINGS,
-        "predict": predict_inertial,
-        "first_slope": first_inertial,
-        "second_slope": second_inertial,
-        "last_argument": last_inertial,
-        "third_slope": third_inertial,
-        "bouncing": STOPS_AT_CONTACT,
-        "rewind": rewind_inertial,
+    slots={
+        predict: predict_inertial,
+        first_slope: first_inertial,
+        second_slope: second_inertial,
+        last_argument: last_inertial,
+        third_slope: third_inertial,
+        rewind: rewind_inertial,
     },
+    bindings=ADAPTIVE_BINDINGS,
+    switches=Switches(bouncing=STOPS_AT_CONTACT),
     adaptive=True,
 )

@@ -45,6 +45,7 @@ from foamprb.body.tensor import (
 from foamprb.body.turning import commutator, turning_gradient
 from foamprb.cloud.block import (
     Medium,
+    Switches,
     at,
     choose,
     choose3,
@@ -64,22 +65,25 @@ from foamprb.cloud.elastic import (
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
-    ADAPTIVE_STAGES,
-    RARE,
-    STEP_ROWS,
     add_disturbance_error,
     choose_order,
     counted_error,
     drag_rate,
     during,
     end_acceleration,
+    end_slope,
     error_share,
     finish_path,
+    first_slope,
     fluid_acceleration,
     judge_difference,
     keep_frame,
+    last_argument,
     mark_disturbed,
     place_after,
+    predict,
+    second_slope,
+    third_slope,
     track_adaptive,
     update_discount,
 )
@@ -113,7 +117,7 @@ class RelaxationRows(NamedTuple):
     second: Annotated[int, Row(9, "1", "Ω of order 2")]
 
 
-work = offsets(RelaxationRows, STEP_ROWS)
+work = offsets(RelaxationRows)
 
 
 def with_fading(
@@ -387,30 +391,20 @@ STOKES = Integrator(
     description="without inertia, third order, exactly incompressible",
     order=3,
     track=track_adaptive,
-    stages=(
-        *ADAPTIVE_STAGES,
-        predict_inertialess,
-        first_inertialess,
-        second_inertialess,
-        last_inertialess,
-        third_inertialess,
-        end_inertialess,
-    ),
     layout=layout(at, during, work),
     recorded=RecordedRows(
         during.start_Q, during.start_l, work.l_s, in_frame=True, end_l=during.end_l, v=during.start_v
     ),
-    rare=RARE,
-    bindings={
-        **ADAPTIVE_BINDINGS,
-        "predict": predict_inertialess,
-        "first_slope": first_inertialess,
-        "second_slope": second_inertialess,
-        "last_argument": last_inertialess,
-        "third_slope": third_inertialess,
-        "end_slope": end_inertialess,
-        "updates_end": 1,
+    slots={
+        predict: predict_inertialess,
+        first_slope: first_inertialess,
+        second_slope: second_inertialess,
+        last_argument: last_inertialess,
+        third_slope: third_inertialess,
+        end_slope: end_inertialess,
     },
+    bindings=ADAPTIVE_BINDINGS,
+    switches=Switches(updates_end=1),
     adaptive=True,
     inertia=False,
     refuses=_refuses,

@@ -17,14 +17,7 @@ from foamprb.body.tensor import (
     scale_vector,
 )
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.integrators.base import (
-    Integrator,
-    all_resolved,
-    held_forever,
-    no_disturbance,
-    no_look,
-    no_update,
-)
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
 from foamprb.flow.base import Flow, Patch
@@ -84,37 +77,37 @@ class Surrounding:
     """Declaration of its rows, as :func:`foamprb.cloud.layout.offsets` reads it, by the global name of their
     offsets in its functions."""
     traits: ClassVar[Traits] = Traits()
-    update: ClassVar[Callable[..., None]] = staticmethod(no_update)
+    update: ClassVar[Callable[..., None] | None] = None
     """``update(flow, s, i, step, remaining, medium, coefficients)``: update rows of lane i before a step h.
 
     Random numbers belong to the tracking step ``step`` and hold for the time ``remaining``, s, through one or
     more steps h (:attr:`hold`). A further call with ``remaining`` 0 comes at the end of a call, for the last
     rates. The lane's x and t are at the start of h.
     """
-    hold: ClassVar[Callable[..., float]] = staticmethod(held_forever)
+    hold: ClassVar[Callable[..., float] | None] = None
     """``hold(block, i, medium, coefficients) -> s``: how long lane i may hold the next random numbers. They
-    hold for a power of two of tracking steps at most, one at least. Such a model binds ``draws`` to 1."""
-    look: ClassVar[Callable[..., None]] = staticmethod(no_look)
+    hold for a power of two of tracking steps at most, one at least. Such a model draws random numbers."""
+    look: ClassVar[Callable[..., None] | None] = None
     """``look(flow, s, i, medium, coefficients)``: update rows of lane i where the step is to lead, new_x in
     the host ``s.ahead[i]``; not with ``paper``."""
-    resolve: ClassVar[Callable[..., float]] = staticmethod(all_resolved)
+    resolve: ClassVar[Callable[..., float] | None] = None
     """``resolve(flow, s, i, medium, coefficients) -> share``: of a step of lane i longer than Δt that led to
     new_x and new_F, the share that the model resolves. Below 1 the step is repeated, so much shorter."""
-    disturb: ClassVar[Callable[..., None]] = staticmethod(no_disturbance)
+    prepare: ClassVar[Callable[..., None] | None] = None
+    """``disturb`` of data that other models read; it is called before that of any model."""
+    disturb: ClassVar[Callable[..., None] | None] = None
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
-    stages: ClassVar[tuple[Callable[..., None], ...]] = ()
-    """Parts of ``disturb`` that are compiled once for all flows, as that is."""
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
-        """Return the arguments of its functions: numbers and arrays, of the same types for any patches."""
+        """Return the arguments of its functions: numbers and arrays of them, perhaps in tuples."""
         return ()
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
-        """Return functions and constants by their names, for an integrator with or without inertia.
+        """Return functions by their names, for an integrator with or without inertia.
 
-        ``prepare`` has the arguments of ``disturb``. It is called before that of any model, for data that
-        other models read.
+        The names are those of slots, of :class:`foamprb.cloud.block.Switches`, or of functions that stages
+        call.
         """
         return {}
 

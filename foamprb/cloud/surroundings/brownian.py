@@ -27,6 +27,7 @@ from foamprb.body.error_control import longest_step
 from foamprb.body.tensor import (
     Tensor,
     Vector,
+    add,
     dot,
     dot_vector,
     from_frame,
@@ -60,11 +61,11 @@ from foamprb.cloud.surroundings.base import (
     Survey,
     Traits,
     add3,
-    add9,
     hindrance_by_walls,
     resistances,
     volume_at_rest,
 )
+from foamprb.compile.link import separate, traced
 from foamprb.dictionary.constraints import Meaning, Positive, Seed
 from foamprb.flow.base import NEAR, Patch
 
@@ -131,12 +132,16 @@ def hold_of_molecules(block: Any, i: int, medium: Medium, coefficients: Any) -> 
 
 def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
     """Compute force and stress of the lanes whose random numbers are new."""
-    kT = coefficients[0]
     new = 0
     for i in range(LANES):
         new += block[thermal.duration * LANES + i] > 0.0
-    if new == 0 or share > 0.0:
-        return
+    if new > 0 and share == 0.0:
+        force_stage(block, medium, coefficients[0])
+
+
+@traced
+def force_stage(block: Any, medium: Medium, kT: float) -> None:
+    """Compute force and stress of the lanes whose random numbers are new."""
     for i in range(LANES):
         duration = block[thermal.duration * LANES + i]
         fresh = duration > 0.0
@@ -154,26 +159,26 @@ def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -
         block[thermal.duration * LANES + i] = 0.0
 
 
+@traced
 def apply_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Change u and l so that the fluid exerts the force and stress of the molecules.
 
     The velocity is u + K⁻¹·f_B/μ_f, with K without walls: the hindrance by walls is applied by ``wallLift``.
-    The gradient is added whose traction on the body at rest is the stress.
+    The gradient is added whose traction on the body at rest is the stress, unless only the force acts.
     """
+    deforms = coefficients[2] > 0.0
     for i in range(LANES):
         c = 1.0 / viscosity_at(block, i, medium)
         Q, k = load9(block, at.Q, i), resistances(block, i)
         f = dot_vector(Q, load3(block, thermal.thermal_force, i))
         add3(block, at.u, i, vector_dot((c * f[0] / k[0], c * f[1] / k[1], c * f[2] / k[2]), Q))
-    if coefficients[2] > 0.0:
-        for i in range(LANES):
-            c = 1.0 / viscosity_at(block, i, medium)
-            Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
-            T = to_frame(Q, load9(block, thermal.thermal_stress, i))
-            l = response(shape_resistance(stretches, load_integrals(block, i), 1.0), scale(c, T))
-            add9(block, at.l, i, from_frame(Q, l))
+        stretches, felt = load3(block, at.stretch, i), load9(block, at.l, i)
+        T = to_frame(Q, load9(block, thermal.thermal_stress, i))
+        l = response(shape_resistance(stretches, load_integrals(block, i), 1.0), scale(c, T))
+        store9(block, at.l, i, choose(deforms, add(felt, from_frame(Q, l)), felt))
 
 
+@separate
 def turn_force(block: Any, i: int, turn: Tensor) -> None:
     """Rotate or mirror force and stress on lane i, together with the particle."""
     store3(block, thermal.thermal_force, i, dot_vector(turn, load3(block, thermal.thermal_force, i)))
@@ -198,6 +203,7 @@ class BrownianMotion(Surrounding):
     traits: ClassVar = Traits(each_step=False, surveys=("R", "rho", "mu"))
     update: ClassVar = staticmethod(draw)
     hold: ClassVar = staticmethod(hold_of_molecules)
+    prepare: ClassVar = staticmethod(compute_force)
     disturb: ClassVar = staticmethod(apply_force)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
@@ -207,11 +213,9 @@ class BrownianMotion(Surrounding):
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
         """Return the force, which walls hinder too; that walls reflect steps, and mirrors the force."""
         return {
-            "prepare": compute_force,
             "thermal_force": force_of_molecules,
             "reflects_steps": 1,
             "turn_along": turn_force,
-            "draws": 1,
         }
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:

@@ -36,10 +36,10 @@ from foamprb.body.turbulence import (
 from foamprb.cloud.block import Medium, Scratch, at, load3, store3
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
-from foamprb.compile.link import traced
+from foamprb.compile.link import separate, traced
 from foamprb.dictionary.constraints import Meaning, Seed
-from foamprb.flow.analytic import turbulence_free as turbulence
 from foamprb.flow.base import Floats, Flow, Patch
+from foamprb.flow.kernels import turbulence
 from foamprb.flow.nodes import NodeValues
 
 _KIND = np.uint64(2)
@@ -134,11 +134,13 @@ def add_eddies(block: Any, _medium: Medium, _share: float, _coefficients: Any) -
         store3(block, at.u, i, plus(plus(u, w), c))
 
 
+@separate
 def turn_eddy(block: Any, i: int, turn: Tensor) -> None:
     """Rotate or mirror the eddy of lane i, together with the particle."""
     store3(block, eddies.eddy_velocity, i, dot_vector(turn, load3(block, eddies.eddy_velocity, i)))
 
 
+@separate
 def reflect_eddy(block: Any, i: int, n: Vector) -> None:
     """Reflect the eddy of lane i at a wall of normal n that the particle bounces off."""
     w = load3(block, eddies.eddy_velocity, i)

@@ -16,7 +16,7 @@ from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.surroundings.base import Surrounding, Traits, add3
 from foamprb.compile.link import traced
-from foamprb.flow.analytic import curvature_linear as curvature
+from foamprb.flow.kernels import curvature
 
 
 class FaxenRows(NamedTuple):

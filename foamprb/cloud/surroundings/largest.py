@@ -22,7 +22,7 @@ from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.surroundings.base import Surrounding, Traits
 from foamprb.cloud.surroundings.quadratic import QuadraticRows, load7
 from foamprb.compile.link import traced
-from foamprb.flow.analytic import curvature_linear as curvature
+from foamprb.flow.kernels import curvature
 
 INTERVAL = 64
 """Tracking steps between two samples of the second derivatives."""
@@ -128,7 +128,6 @@ class LargestValues(Surrounding):
     traits: ClassVar = Traits(each_step=False)
     update: ClassVar = staticmethod(sample_curvature)
     disturb: ClassVar = staticmethod(note_largest)
-    stages: ClassVar = (largest_stage,)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
         """Return the amplitude of the quadratic mode, if bodies have it."""

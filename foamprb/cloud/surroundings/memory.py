@@ -64,7 +64,7 @@ def rows_for(n_times: int) -> Any:
         ("memory_rate", Annotated[int, rates]),
         ("metric_strain", Annotated[int, Row(6, "1", "X at the start of the step")]),
         ("node_strain", Annotated[int, Row(6, "1", "X at the node of the step")]),
-        ("fading", Annotated[int, Row(6, "1/s", "rate of the metric there, while the shape stays")]),
+        ("metric_rate", Annotated[int, Row(6, "1/s", "rate of the metric there, while the shape stays")]),
         ("faded_once", Annotated[int, Row(1, "", "1 once a step has started, else 0")]),
         ("faded_to", Annotated[int, Row(1, "s", "time to which the strains have faded")]),
         ("at_node", Annotated[int, Row(1, "", "1 if the next shape is that at the node, else 0")]),
@@ -117,7 +117,7 @@ def fade_stage(block: Any) -> None:
             total, change = accumulated(total, share, D), fading(change, share, rate, X, D)
         store9(block, at.M, i, faded_metric(F0, total))
         store6(block, past.metric_strain, i, X)
-        store6(block, past.fading, i, change)
+        store6(block, past.metric_rate, i, change)
         block[past.faded_once * LANES + i] = 1.0
         block[past.faded_to * LANES + i] = t
         block[past.at_node * LANES + i] = 1.0
@@ -153,7 +153,7 @@ def gradient_with_fading(
     block: Any, i: int, turning: Tensor, m: Mobility, e: Elasticity, G: Tensor, mu_f: Any
 ) -> Tensor:
     """Return the rate of change of l_s by turning and by the metric that fades, 1/s²."""
-    stress = scale(1.0 / mu_f, fading_stress(e, G, load6(block, past.fading, i)))
+    stress = scale(1.0 / mu_f, fading_stress(e, G, load6(block, past.metric_rate, i)))
     return add(turning, velocity_gradient(m, stress, ZERO))
 
 
@@ -171,13 +171,8 @@ def acceleration_with_fading(
     block: Any, i: int, turning: Tensor, n: Stiffness, e: Elasticity, G: Tensor, c: Any
 ) -> Tensor:
     """Return the rate of change of dl_s/dt by turning and by the metric that fades, 1/s³."""
-    stress = fading_stress(e, G, load6(block, past.fading, i))
+    stress = fading_stress(e, G, load6(block, past.metric_rate, i))
     return add(turning, over_b(n.b, scale(-c, stress)))
-
-
-def fastest_fading(block: Any, i: int) -> Any:
-    """Return the rate of the shortest relaxation time of lane i, 1/s."""
-    return block[past.memory_rate * LANES + i]
 
 
 def mirror_strains(block: Any, i: int, turn: Tensor) -> None:
@@ -201,7 +196,7 @@ class FadingMemory(Surrounding):
     """Whether the third parameter of the solid is the exponent of a power law."""
 
     traits: ClassVar = Traits(each_step=False, surveys=("k", "memoryRates"))
-    stages: ClassVar = (fade_stage, follow_stage)
+    prepare: ClassVar = staticmethod(remember)
 
     @property
     def rows(self) -> Mapping[str, type[tuple[int, ...]]]:  # type: ignore[override]
@@ -209,13 +204,11 @@ class FadingMemory(Surrounding):
         return {"past": rows_for(self.n_times)}
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
-        """Return the metric, its fastest rate, and that it fades until the end of calls."""
+        """Return the metric, and that it fades until the end of calls."""
         return {
-            "prepare": remember,
             "with_fading": acceleration_with_fading if inertia else gradient_with_fading,
             **({} if inertia else {"gradient_at_end": smooth_gradient_at_end}),
             "n_times": self.n_times,
-            "fading_rate": fastest_fading,
             "mirror_memory": mirror_strains,
             "updates_end": 1,
         }

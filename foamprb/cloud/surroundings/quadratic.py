@@ -59,8 +59,8 @@ from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import clearance_of
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits, add3
-from foamprb.compile.link import traced
-from foamprb.flow.analytic import curvature_linear as curvature
+from foamprb.compile.link import separate, traced
+from foamprb.flow.kernels import curvature
 
 
 class QuadraticRows(NamedTuple):
@@ -266,6 +266,7 @@ def mode_of_row(p: Particles, k: int, F: Tensor) -> tuple[Third, Tensor]:
     return (b[k, 0], b[k, 1], b[k, 2], b[k, 3], b[k, 4], b[k, 5], b[k, 6]), turn_of(F)
 
 
+@separate
 def turn_mode(block: Any, i: int, turn: Tensor) -> None:
     """Turn or mirror the mode of lane i, and the flow where it was computed last."""
     store7(block, mode.B, i, turned(load7(block, mode.B, i), turn))

@@ -2,21 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from itertools import accumulate
 from types import FunctionType
-from typing import Any
+from typing import Any, NamedTuple
 
-from foamprb.cloud.block import Medium, Scratch
-from foamprb.cloud.forces import nested
-from foamprb.cloud.integrators.base import all_resolved, held_forever, no_disturbance, no_look, no_update
-from foamprb.cloud.layout import Layout, end, keep, layout, offsets
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.block import Switches, at
+from foamprb.cloud.forces import store_fields
+from foamprb.cloud.integrators.adaptive import during
+from foamprb.cloud.integrators.base import (
+    apply_surroundings,
+    held_for,
+    look_ahead,
+    resolved_share,
+    update_surroundings,
+)
+from foamprb.cloud.lanes import hold
+from foamprb.cloud.layout import (
+    FURTHER,
+    LANES,
+    Layout,
+    compose_function,
+    end,
+    is_reserved,
+    keep,
+    layout,
+    offsets,
+    sequence,
+    text_of,
+)
+from foamprb.cloud.motion import bounce_along, form_bond, mirror_memory, turn_along
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
 from foamprb.cloud.surroundings.swimming import Swimming
-from foamprb.cloud.surroundings.wall_lift import WallLift
-from foamprb.compile.link import bound
+from foamprb.cloud.surroundings.wall_lift import WallLift, after_lift, before_lift
+from foamprb.compile.link import separate
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 
@@ -51,11 +77,14 @@ def add_surrounding(name: str, kind: type[Surrounding]) -> None:
         raise ValueError(f"model {name}: {kind!r} is no subclass of Surrounding")
     if "__dataclass_fields__" not in vars(kind):
         raise ValueError(f"model {name}: {kind.__name__} has no @dataclass(frozen=True, kw_only=True)")
-    for function in ("update", "disturb"):
-        if not isinstance(getattr(kind, function), FunctionType):
-            raise ValueError(f"model {name}: {function} of {kind.__name__} is no staticmethod(…)")
+    names = set[str]()
+    for call in ("update", "disturb"):
+        function: Any = getattr(kind, call)
+        if function is not None and not isinstance(function, FunctionType):
+            raise ValueError(f"model {name}: {call} of {kind.__name__} is no staticmethod(…)")
+        names |= function.__globals__.keys() if function is not None else set()
     for rows in kind.rows:
-        if rows not in kind.disturb.__globals__.keys() | kind.update.__globals__.keys():
+        if rows not in names:
             raise ValueError(f"model {name}: the module has no offsets of its rows by the name {rows}")
     SURROUNDINGS[name] = kind
 
@@ -64,17 +93,30 @@ def with_rows(base: Layout, surroundings: Sequence[Surrounding]) -> Layout:
     """Return the layout of an integrator's block, extended by the lasting rows of these models."""
     if not surroundings:
         return base
-    extended = layout(*base.parts, *_offsets(base, surroundings).values())
-    return keep(extended, [row for row in range(base.rows, extended.rows) if row not in extended.lasting])
+    parts = _offsets(surroundings).values()
+    extended = layout(*base.parts, *parts)
+    rows = (row for at in parts for row in range(at[0], end(at)))
+    return keep(extended, [row for row in rows if row not in extended.lasting])
 
 
-def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> dict[str, Any]:
-    """Return the composed functions of these models and the offsets of their rows, by the names they bind.
+class Composed(NamedTuple):
+    """What the models of a cloud put into a loop."""
+
+    slots: dict[Callable[..., Any], Callable[..., Any]]
+    """Functions behind slots of the loop."""
+    switches: dict[str, int]
+    """By the names of :class:`~foamprb.cloud.block.Switches`."""
+    bindings: dict[str, Any]
+    """Functions that stages call, and offsets of rows without a reserved place, by name."""
+
+
+def compose(surroundings: Sequence[Surrounding], patches: Sequence[Patch], inertia: bool) -> Composed:
+    """Return what models put into a loop.
 
     Parameters
     ----------
-    base
-        Layout of the integrator's block without them.
+    surroundings, patches
+        The models, in the order in which they act, and the patches of the flow.
     inertia
         Whether the integrator's solid has inertia.
 
@@ -83,97 +125,153 @@ def compose(base: Layout, surroundings: Sequence[Surrounding], inertia: bool) ->
     InputError
         If two models determine the same quantity.
     """
-    if not surroundings:
-        return {}
-    update: Callable[..., None] = no_update
-    look: Callable[..., None] = no_look
-    resolve: Callable[..., float] = all_resolved
-    hold: Callable[..., float] = held_forever
-    prepare: Callable[..., None] = no_disturbance
-    disturb: Callable[..., None] = no_disturbance
-    bindings: dict[str, Any] = dict(_offsets(base, surroundings))
+    by_place: dict[str, list[Callable[..., Any]]] = {name: [] for name in _PLACES}
+    for model, coefficients in zip(surroundings, _placed(surroundings, patches)[0], strict=True):
+        for name, text in _PLACES.items():
+            function = getattr(type(model), name)
+            if function is not None:
+                by_place[name].append(
+                    _adapter(f"{name}_{type(model).__name__}", text, function, coefficients)
+                )
+    slots: dict[Any, Any] = {
+        update_surroundings: sequence("update_surroundings", "flow, s, medium", by_place["update"]),
+        look_ahead: sequence("look_ahead", "flow, s, medium", by_place["look"]),
+        apply_surroundings: sequence(
+            "apply_surroundings", "block, medium, share", [*by_place["prepare"], *by_place["disturb"]]
+        ),
+        resolved_share: sequence("resolved_share", "flow, s, i, medium", by_place["resolve"], least="1.0"),
+        held_for: sequence("held_for", "block, i, medium", by_place["hold"], least="np.inf"),
+    }
+    switches = {"draws": 1} if by_place["hold"] else {}
+    bindings: dict[str, Any] = {name: at for name, at in _offsets(surroundings).items() if at[0] >= FURTHER}
+    together: dict[str, list[Callable[..., Any]]] = {}
     for model in surroundings:
-        update = bound(_then_update, others=update, model=type(model).update)
-        look = bound(_then_look, others=look, model=type(model).look)
-        resolve = bound(_least_resolved, others=resolve, model=type(model).resolve)
-        hold = bound(_shortest_held, others=hold, model=type(model).hold)
-        functions: dict[str, Any] = dict(model.bindings(inertia))
-        prepare = bound(_then_disturb, others=prepare, model=functions.pop("prepare", no_disturbance))
-        disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
-        for name in functions.keys() & bindings.keys():
-            if name in _TOGETHER:
-                functions[name] = bound(_both, one=bindings[name], other=functions[name])
-            elif functions[name] is not bindings[name]:
-                others = [
-                    type(m).__name__ for m in surroundings if m is not model and name in m.bindings(inertia)
-                ]
+        own: Mapping[str, Any] = model.bindings(inertia)
+        for name, value in own.items():
+            if name in Switches._fields:
+                switches[name] = value
+            elif name in _TOGETHER:
+                together.setdefault(name, []).append(value)
+            elif bindings.setdefault(name, value) is not value:
+                others = [type(m).__name__ for m in surroundings if name in m.bindings(inertia)]
                 raise InputError(f"{type(model).__name__} excludes {others[0]}: both determine {name}")
-        bindings |= functions
-    composed = {"update_all": update, "look_all": look, "resolve_all": resolve, "hold_all": hold}
-    return {**bindings, **composed, "prepare_all": prepare, "disturb_all": disturb}
+    for name, functions in together.items():
+        slots[_SLOTS[name]] = sequence(name, _TOGETHER[name], functions)
+    slots |= {_SLOTS[name]: bindings.pop(name) for name in _SLOTS.keys() & bindings.keys()}
+    return Composed(slots, switches, bindings)
 
 
-def stages(surroundings: Sequence[Surrounding], inertia: bool) -> list[Callable[..., Any]]:
-    """Return the functions of these models that are compiled once for all flows."""
-    prepared: list[Any] = [model.bindings(inertia).get("prepare") for model in surroundings]
-    further = [stage for model in surroundings for stage in model.stages]
-    return [*filter(None, prepared), *further, *(type(model).disturb for model in surroundings)]
+def numbers_of(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> NDArray[np.float64]:
+    """Return the coefficients of models, each at its place, (n,)."""
+    return _placed(surroundings, patches)[1]
 
 
-def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> tuple[Any, ...]:
-    """Return the coefficients of these models, see :func:`foamprb.cloud.forces.nested`."""
-    return nested(model.coefficients(patches) for model in surroundings)
+_ROOMS = {
+    "WallLift": 6, "BrownianMotion": 3, "Swimming": 3, "StochasticDispersion": 3, "GradientDispersion": 3,
+    "Fates": 8, "PowerLaw": 6, "CrossPowerLaw": 6, "BirdCarreau": 6, "Casson": 6, "HerschelBulkley": 6,
+    "FieldViscosity": 1, "PhaseMixture": 4,
+}  # fmt: skip
+"""Numbers that are reserved for the coefficients of models, so that their code does not depend on others."""
+_FIRST = dict(zip(_ROOMS, accumulate(_ROOMS.values(), initial=0), strict=False))
+_FURTHER = sum(_ROOMS.values())
+_TAIL = _FURTHER + 64
+"""Numbers of other models are before this place, arrays behind it."""
 
 
-def _offsets(base: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tuple[int, ...]]:
+def _placed(
+    surroundings: Sequence[Surrounding], patches: Sequence[Patch]
+) -> tuple[list[str], NDArray[np.float64]]:
+    """Return the text of the coefficients of each model, and all numbers.
+
+    Raises
+    ------
+    InputError
+        If a model has more coefficients than there are places.
+    """
+    numbers, texts, further = [0.0] * _TAIL, [], _FURTHER
+    for model in surroundings:
+        name, values = type(model).__name__, model.coefficients(patches)
+        own: list[float] = []
+        # A user's model may have the same name.
+        reserved = name in _ROOMS and type(model).__module__.startswith("foamprb.")
+        first = _FIRST[name] if reserved else further
+        texts.append(text_of(values, first, own, numbers))
+        if first + len(own) > (first + _ROOMS[name] if reserved else _TAIL):
+            raise InputError(f"{name} has {len(own)} coefficients, which are too many")
+        numbers[first : first + len(own)] = own
+        further += 0 if reserved else len(own)
+    return texts, np.array(numbers)
+
+
+_PLACES = {
+    "update": (
+        "def {name}(flow, s, medium):\n"
+        "    block, numbers = s.block, medium.numbers\n"
+        f"    for i in range({LANES}):\n"
+        f"        if block[{at.moving * LANES} + i] > 0.0:\n"
+        f"            step, remaining = int(block[{during.held_from * LANES} + i]), "
+        f"block[{during.remaining * LANES} + i]\n"
+        "            function(flow, s, i, step, remaining, medium, {coefficients})\n"
+    ),
+    "look": (
+        "def {name}(flow, s, medium):\n"
+        "    block, numbers = s.block, medium.numbers\n"
+        f"    for i in range({LANES}):\n"
+        f"        if block[{at.moving * LANES} + i] > 0.0:\n"
+        "            function(flow, s, i, medium, {coefficients})\n"
+    ),
+    "resolve": (
+        "def {name}(flow, s, i, medium):\n"
+        "    numbers = medium.numbers\n"
+        "    return float(function(flow, s, i, medium, {coefficients}))\n"
+    ),
+    "hold": (
+        "def {name}(block, i, medium):\n"
+        "    numbers = medium.numbers\n"
+        "    return float(function(block, i, medium, {coefficients}))\n"
+    ),
+} | dict.fromkeys(
+    ("prepare", "disturb"),
+    "def {name}(block, medium, share):\n"
+    "    numbers = medium.numbers\n"
+    "    function(block, medium, share, {coefficients})\n",
+)
+"""How the functions of models are called at each place of a step."""
+
+
+@cache
+def _adapter(name: str, text: str, function: Callable[..., Any], coefficients: str) -> Callable[..., Any]:
+    """Return a function of the loop that calls one of a model with its coefficients."""
+    return separate(
+        compose_function(name, text.format(name=name, coefficients=coefficients), {"function": function})
+    )
+
+
+def _offsets(surroundings: Sequence[Surrounding]) -> dict[str, tuple[int, ...]]:
     first_rows: dict[str, tuple[int, ...]] = {}
-    first = base.rows
+    first = FURTHER
     for model in surroundings:
         for name, rows in model.rows.items():
-            first_rows[name] = offsets(rows, first)
-            first = end(first_rows[name])
+            own = None if is_reserved(rows) else first
+            first_rows[name] = offsets(rows, own)
+            if own is not None:
+                first = end(first_rows[name])
     return first_rows
 
 
-_TOGETHER = {"turn_along", "bounce_along"}
-"""Functions that several models may bind; all are called."""
-
-
-def _both(block: Any, i: int, turn: Any) -> None:
-    one(block, i, turn)
-    other(block, i, turn)
-
-
-def _then_update(
-    flow: Any, s: Scratch, i: int, step: int, remaining: float, medium: Medium, coefficients: Any
-) -> None:
-    others(flow, s, i, step, remaining, medium, coefficients[0])
-    model(flow, s, i, step, remaining, medium, coefficients[1])
-
-
-def _then_look(flow: Any, s: Scratch, i: int, medium: Medium, coefficients: Any) -> None:
-    others(flow, s, i, medium, coefficients[0])
-    model(flow, s, i, medium, coefficients[1])
-
-
-def _least_resolved(flow: Any, s: Scratch, i: int, medium: Medium, coefficients: Any) -> float:
-    share: float = min(
-        others(flow, s, i, medium, coefficients[0]), model(flow, s, i, medium, coefficients[1])
+_TOGETHER = {"turn_along": "block, i, turn", "bounce_along": "block, i, n"}
+"""Functions that several models may have; all are called."""
+_SLOTS: dict[str, Callable[..., Any]] = {
+    slot.__name__: slot
+    for slot in (
+        turn_along,
+        bounce_along,
+        form_bond,
+        mirror_memory,
+        hold,
+        store_fields,
+        before_lift,
+        after_lift,
     )
-    return share
-
-
-def _shortest_held(block: Any, i: int, medium: Medium, coefficients: Any) -> float:
-    longest: float = min(others(block, i, medium, coefficients[0]), model(block, i, medium, coefficients[1]))
-    return longest
-
-
-def _then_disturb(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
-    others(block, medium, share, coefficients[0])
-    model(block, medium, share, coefficients[1])
-
-
-others: Any = no_update
-model: Any = no_update
-one: Any = no_update
-other: Any = no_update
+}
+"""Slots that models fill, by name."""

@@ -30,7 +30,7 @@ from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.stokes import slip_of_body as slip_without_rotation
 from foamprb.cloud.layout import Row, offsets
 from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
-from foamprb.flow.analytic import no_rotation as rotation_at
+from foamprb.flow.kernels import rotation_at
 
 
 class FrameRows(NamedTuple):

@@ -22,7 +22,7 @@ from foamprb.body.tensor import (
     vector_dot,
 )
 from foamprb.body.wall import hindered_resistance
-from foamprb.cloud.block import Medium, at, load3, load9, local_fluid, viscosity_at
+from foamprb.cloud.block import Medium, at, load3, load9, local_medium, viscosity_at
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.stokes import slip_of_body as slip_without_lift
 from foamprb.cloud.layout import LANES
@@ -44,7 +44,7 @@ def slip_with_lift(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vecto
     x, y, z = dot_vector(Q, w)
     # The walls' effect on the slip without lift is part of u.
     near_walls = vector_dot(dot_vector(inverse(K), (k[0] * x, k[1] * y, k[2] * z)), Q)
-    lifted = lifted_slip(near_walls, Q, K, vorticity(l_f), R, local_fluid(block, i, medium).rho, mu)
+    lifted = lifted_slip(near_walls, Q, K, vorticity(l_f), R, local_medium(block, i, medium).rho, mu)
     return plus(w, minus(lifted, near_walls))
 
 
@@ -62,13 +62,13 @@ def acceleration_with_lift(
     K = hindered_resistance(scale_vector(mass / mu, rate), present_hindrance(block, i))
     load = dot_vector(Q, minus(a, load3(block, at.DuDt, i)))
     w0 = vector_dot(dot_vector(inverse(K), scale_vector(mass / mu, load)), Q)
-    balanced = lifted_slip(w0, Q, K, omega, R, local_fluid(block, i, medium).rho, mu)
+    balanced = lifted_slip(w0, Q, K, omega, R, local_medium(block, i, medium).rho, mu)
     y = block[at.dt * LANES + i] * (rate[0] + rate[1] + rate[2]) * (1.0 / 3.0)
     y = y * y
     share = y * y / (1.0 + y * y)
     w = minus(v, u)
     w = plus(w, scale_vector(share, minus(balanced, w)))
-    return plus(a, scale_vector(1.0 / mass, lift_force(w, omega, R, local_fluid(block, i, medium).rho, mu)))
+    return plus(a, scale_vector(1.0 / mass, lift_force(w, omega, R, local_medium(block, i, medium).rho, mu)))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,7 +22,7 @@ from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import mirror_body
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits, add3, add9
-from foamprb.compile.link import traced
+from foamprb.compile.link import separate, traced
 from foamprb.dictionary.constraints import Meaning, NonNegative, Positive, Seed, Vector3
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
@@ -75,12 +75,14 @@ def swim(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  
         add9(block, at.l, i, (0.0 * x, -z, y, z, 0.0 * x, -x, -y, x, 0.0 * x))
 
 
+@separate
 def turn_heading(block: Any, i: int, turn: Tensor) -> None:
     """Mirror q of lane i, together with the body; a rotation of F turns the direction already."""
     if det(turn) < 0.0:
         store3(block, swimmers.heading, i, dot_vector(turn, load3(block, swimmers.heading, i)))
 
 
+@separate
 def leave_wall(block: Any, i: int, n: Vector) -> None:
     """Mirror the swimmer in lane i at a wall of normal n, unless it swims away from it already."""
     if inner(direction(load9(block, at.F, i), load3(block, swimmers.heading, i)), n) < 0.0:
@@ -116,7 +118,7 @@ class Swimming(Surrounding):
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
         """Return the functions by which mirrors and walls change the direction."""
-        return {"turn_along": turn_heading, "bounce_along": leave_wall, "draws": 1}
+        return {"turn_along": turn_heading, "bounce_along": leave_wall}
 
     def begin(self, p: Particles) -> None:
         """Set the directions of the particles that have none."""

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import reach
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
@@ -79,12 +78,12 @@ from foamprb.cloud.surroundings.base import (
     thermal_force,
     volume_at_rest,
 )
-from foamprb.compile.link import link, read_by
+from foamprb.compile.link import separate, slot, traced
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.dictionary.patterns import matches
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.analytic import walls_free as walls
 from foamprb.flow.base import Floats, Flow, Ints, Patch
+from foamprb.flow.kernels import linked_with, walls
 from foamprb.flow.patches import PatchKind
 
 CLOSE = 2.0
@@ -132,14 +131,15 @@ def find_walls(
     cut_off, least_gap, _, _, patch_mask = coefficients
     block = s.block
     R = block[at.R * LANES + i]
-    p = walls(flow, s.host[i], load3(block, at.x, i), cut_off * R, patch_mask)
+    t = block[at.t * LANES + i]
+    p = walls(flow, s.host[i], load3(block, at.x, i), cut_off * R, patch_mask, t)
     store3(block, near.wall_distance, i, (min(p.h1, _FAR * R), min(p.h2, _FAR * R), min(p.h3, _FAR * R)))
     block[near.least_gap * LANES + i] = least_gap
     store3(block, near.wall_normal, i, p.n1)
     store3(block, near.wall_normal + 3, i, p.n2)
     store3(block, near.wall_normal + 6, i, p.n3)
     if min(p.h1, p.h2, p.h3) < CLOSE * R and remaining > 0.0:
-        t, h = block[at.t * LANES + i], block[at.dt * LANES + i]
+        h = block[at.dt * LANES + i]
         # A step that is repeated counts once.
         before = block[near.counted_for * LANES + i] if block[near.counted * LANES + i] == t else 0.0
         block[near.counted * LANES + i], block[near.counted_for * LANES + i] = t, h
@@ -154,7 +154,8 @@ def stays_by_planes(flow: Any, s: Scratch, i: int, _medium: Medium, coefficients
     for k in range(3):
         h, n = block[(near.wall_distance + k) * LANES + i], load3(block, near.wall_normal + 3 * k, i)
         expected = min(expected, h + inner(way, n))
-    p = walls(flow, s.ahead[i], x, cut, coefficients[4])
+    t = block[at.t * LANES + i] + block[at.dt * LANES + i]
+    p = walls(flow, s.ahead[i], x, cut, coefficients[4], t)
     distance = min(p.h1, p.h2, p.h3, cut)
     return 0.5 if abs(expected - distance) > _OFF_PLANE * distance else 1.0
 
@@ -173,40 +174,93 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         most = max(most, (h[0] < far) + (h[1] < far) + (h[2] < far))
     if most == 0:
         return
+    clear_stage(block)
+    if hindered > 0.0:
+        before_lift(block, medium, share, least_gap, strain, most)
+    free_stage(block, medium, share)
+    for _ in range(_REPEATS):
+        start_reflection(block)
+        for wall in range(most):
+            select_wall(block, wall, share, least_gap)
+            reflection_stage(block, medium, 1.0)
+        response_stage(block, medium, strain)
+    for wall in range(most):
+        select_wall(block, wall, share, least_gap)
+        velocity_stage(block, medium)
+        if hindered > 0.0:
+            hindrance_stage(block, medium)
+    if hindered > 0.0:
+        after_lift(block, medium, share, least_gap, strain, most)
+    end_lift(block, strain)
+
+
+@traced
+def clear_stage(block: Any) -> None:
+    """Start without hindrance and without the gradient of a load."""
     for i in range(LANES):
         nothing = scale(0.0, load9(block, at.l, i))
         store9(block, near.hindrance, i, nothing)
         store9(block, near.load_gradient, i, nothing)
-    if hindered > 0.0:
-        before_lift(block, medium, share, least_gap, strain, most)
+
+
+@traced
+def free_stage(block: Any, medium: Medium, share: float) -> None:
+    """Compute the stresslet without walls."""
     for i in range(LANES):
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
         S = stresslet(block, i, medium, load9(block, at.l, i), body_gradient(block, i, medium, share))
         store9(block, near.free_stresslet, i, S)
         store9(block, near.stresslet, i, S)
-    for _ in range(_REPEATS):
-        for i in range(LANES):
-            store9(block, near.reflected, i, scale(0.0, load9(block, at.l, i)))
-        for wall in range(most):
-            add_reflection(block, wall, share, least_gap, medium, 1.0)
-        for i in range(LANES):
-            E = scale(strain, load9(block, near.reflected, i))
-            S = stresslet(block, i, medium, E, body_response(block, i, medium, E))
-            store9(block, near.stresslet, i, add(load9(block, near.free_stresslet, i), S))
-    for wall in range(most):
-        select_wall(block, wall, share, least_gap)
-        for i in range(LANES):
-            n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-            S, mu_f = load9(block, near.stresslet, i), viscosity_at(block, i, medium)
-            v = stresslet_velocity(S, shape_of(block, i), n, d, mu_f)
-            add3(block, near.wall_lift, i, scale_vector(block[near.present * LANES + i], v))
-        if hindered > 0.0:
-            for i in range(LANES):
-                n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-                W = hindrance_of(block, i, n, d, block[near.one_gap * LANES + i])
-                add9(block, near.hindrance, i, scale(block[near.present * LANES + i], W))
-    if hindered > 0.0:
-        after_lift(block, medium, share, least_gap, strain, most)
+
+
+@traced
+def start_reflection(block: Any) -> None:
+    """Start without a reflected gradient."""
+    for i in range(LANES):
+        store9(block, near.reflected, i, scale(0.0, load9(block, at.l, i)))
+
+
+@traced
+def reflection_stage(block: Any, medium: Medium, factor: float) -> None:
+    """Add the reflection of the stresslets by the selected wall, times a factor, to ``reflected``."""
+    for i in range(LANES):
+        n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+        S, mu_f = load9(block, near.stresslet, i), viscosity_at(block, i, medium)
+        E = stresslet_gradient(S, shape_of(block, i), n, d, mu_f)
+        add9(block, near.reflected, i, scale(factor * block[near.present * LANES + i], E))
+
+
+@traced
+def response_stage(block: Any, medium: Medium, strain: float) -> None:
+    """Compute the stresslet in the flow with the reflected gradient."""
+    for i in range(LANES):
+        E = scale(strain, load9(block, near.reflected, i))
+        S = stresslet(block, i, medium, E, body_response(block, i, medium, E))
+        store9(block, near.stresslet, i, add(load9(block, near.free_stresslet, i), S))
+
+
+@traced
+def velocity_stage(block: Any, medium: Medium) -> None:
+    """Add the velocity that the selected wall reflects."""
+    for i in range(LANES):
+        n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+        S, mu_f = load9(block, near.stresslet, i), viscosity_at(block, i, medium)
+        v = stresslet_velocity(S, shape_of(block, i), n, d, mu_f)
+        add3(block, near.wall_lift, i, scale_vector(block[near.present * LANES + i], v))
+
+
+@traced
+def hindrance_stage(block: Any, medium: Medium) -> None:  # noqa: ARG001
+    """Add the resistance by the selected wall."""
+    for i in range(LANES):
+        n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+        W = hindrance_of(block, i, n, d, block[near.one_gap * LANES + i])
+        add9(block, near.hindrance, i, scale(block[near.present * LANES + i], W))
+
+
+@traced
+def end_lift(block: Any, strain: float) -> None:
+    """Add what the walls reflect to u and l."""
     for i in range(LANES):
         some = any_near(block, i)
         l, u, w = load9(block, at.l, i), load3(block, at.u, i), load3(block, near.wall_lift, i)
@@ -221,35 +275,14 @@ def any_near(block: Any, i: int) -> Any:
     return (h[0] < far) | (h[1] < far) | (h[2] < far)
 
 
-def strain_by_load(
-    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
-) -> None:
-    """Store the gradient of the image of a load and of the resulting stresslet of a rigid body."""
-    for i in range(LANES):
-        store3(block, near.load, i, load_of(block, i, medium, share))
-    for wall in range(most):
-        select_wall(block, wall, share, least_gap)
-        for i in range(LANES):
-            n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-            f, mu_f = load3(block, near.load, i), viscosity_at(block, i, medium)
-            E = force_gradient(f, shape_of(block, i), n, d, mu_f)
-            add9(block, near.load_gradient, i, scale(strain * block[near.present * LANES + i], E))
-    for i in range(LANES):
-        E = load9(block, near.load_gradient, i)
-        store9(block, near.reflected, i, E)
-        store9(block, near.stresslet, i, stresslet(block, i, medium, E, scale(0.0, E)))
-    for wall in range(most):
-        add_reflection(block, wall, share, least_gap, medium, strain)
-    for i in range(LANES):
-        store9(block, near.load_gradient, i, load9(block, near.reflected, i))
+@slot
+def before_lift(block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int) -> None:
+    """Store the gradient of the image of a load and of the resulting stresslet of a rigid body.
 
-
-def hinder_load(
-    block: Any, medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
-) -> None:
-    """Add the velocity that a load loses by the walls to the reflected one."""
-    for i in range(LANES):
-        add3(block, near.wall_lift, i, velocity_loss(block, i, medium))
+    ``most`` is the largest number of walls near a lane.
+    """
+    load_stage(block, medium, share)
+    strain_by_load(block, medium, share, least_gap, strain, most)
 
 
 def no_load_before_lift(
@@ -258,32 +291,86 @@ def no_load_before_lift(
     """No-op: the drag on a body with inertia depends on the lift."""
 
 
+@slot
+def after_lift(
+    block: Any, medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
+) -> None:
+    """Add the velocity that a load loses by the walls to the reflected one."""
+    loss_stage(block, medium)
+
+
 def strain_by_drag(
     block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
 ) -> None:
-    """See :func:`strain_by_load`, for a body with inertia; hinder the force of molecules."""
+    """See :func:`before_lift`, for a body with inertia; hinder the force of molecules."""
     for i in range(LANES):
         # The rows of free_stresslet are free again.
         store9(block, near.free_stresslet, i, load9(block, near.reflected, i))
+    load_stage(block, medium, share)
     strain_by_load(block, medium, share, least_gap, strain, most)
     for i in range(LANES):
         store9(block, near.reflected, i, load9(block, near.free_stresslet, i))
-        store3(block, near.load, i, thermal_force(block, i))
-    hinder_load(block, medium, share, least_gap, strain, most)
+    molecule_stage(block)
+    loss_stage(block, medium)
 
 
-def add_reflection(
-    block: Any, wall: int, share: float, least_gap: float, medium: Medium, factor: float
+@separate
+def strain_by_load(
+    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
 ) -> None:
-    """Add the reflection of the stresslets by one of the walls, times a factor, to the reflected gradient."""
-    select_wall(block, wall, share, least_gap)
+    """Store the gradient of the image of the stored load, see :func:`before_lift`."""
+    for wall in range(most):
+        select_wall(block, wall, share, least_gap)
+        image_stage(block, medium, strain)
+    rigid_stage(block, medium)
+    for wall in range(most):
+        select_wall(block, wall, share, least_gap)
+        reflection_stage(block, medium, strain)
+    for i in range(LANES):
+        store9(block, near.load_gradient, i, load9(block, near.reflected, i))
+
+
+@traced
+def load_stage(block: Any, medium: Medium, share: float) -> None:
+    """Store the forces of the particles on the fluid."""
+    for i in range(LANES):
+        store3(block, near.load, i, load_of(block, i, medium, share))
+
+
+@traced
+def molecule_stage(block: Any) -> None:
+    """Store the forces of molecules as load."""
+    for i in range(LANES):
+        store3(block, near.load, i, thermal_force(block, i))
+
+
+@traced
+def image_stage(block: Any, medium: Medium, strain: float) -> None:
+    """Add the gradient of the image of the load in the selected wall."""
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-        S, mu_f = load9(block, near.stresslet, i), viscosity_at(block, i, medium)
-        E = stresslet_gradient(S, shape_of(block, i), n, d, mu_f)
-        add9(block, near.reflected, i, scale(factor * block[near.present * LANES + i], E))
+        f, mu_f = load3(block, near.load, i), viscosity_at(block, i, medium)
+        E = force_gradient(f, shape_of(block, i), n, d, mu_f)
+        add9(block, near.load_gradient, i, scale(strain * block[near.present * LANES + i], E))
 
 
+@traced
+def rigid_stage(block: Any, medium: Medium) -> None:
+    """Compute the stresslet of a rigid body in the gradient of the load's image."""
+    for i in range(LANES):
+        E = load9(block, near.load_gradient, i)
+        store9(block, near.reflected, i, E)
+        store9(block, near.stresslet, i, stresslet(block, i, medium, E, scale(0.0, E)))
+
+
+@traced
+def loss_stage(block: Any, medium: Medium) -> None:
+    """Add the velocity that the load loses by the walls to the reflected one."""
+    for i in range(LANES):
+        add3(block, near.wall_lift, i, velocity_loss(block, i, medium))
+
+
+@separate
 def select_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
     """Copy one of the walls of all lanes, as of ``share`` of the step, into the rows for one wall.
 
@@ -293,6 +380,12 @@ def select_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
         block[near.one_distance * LANES + i] = block[(near.wall_distance + wall) * LANES + i]
         for k in range(3):
             block[(near.one_normal + k) * LANES + i] = block[(near.wall_normal + 3 * wall + k) * LANES + i]
+    place_stage(block, share, least_gap)
+
+
+@traced
+def place_stage(block: Any, share: float, least_gap: float) -> None:
+    """Compute distance and gap of the selected wall after ``share`` of the step."""
     for i in range(LANES):
         R, h = block[at.R * LANES + i], block[near.one_distance * LANES + i]
         n, there = load3(block, near.one_normal, i), select(h < 0.5 * _FAR * R, 1.0, 0.0)
@@ -361,10 +454,8 @@ def response_to_gradient(block: Any, i: int, medium: Medium, E: Tensor) -> Tenso
 
 def moving_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
     """Return l_s of a body with inertia, from its state, in the particle frame, 1/s."""
-    Q = load9(block, at.Q, i)
-    if share > 0.0:
-        return to_frame(Q, load9(block, at.new_A, i))
-    return to_frame(Q, dot(load9(block, at.A, i), inverse(load9(block, at.F, i))))
+    start = dot(load9(block, at.A, i), inverse(load9(block, at.F, i)))
+    return to_frame(load9(block, at.Q, i), choose(share > 0.0, load9(block, at.new_A, i), start))
 
 
 def leave_moving_gradient(block: Any, i: int, Q: Tensor, l_s: Tensor, wanted: Any) -> None:
@@ -394,7 +485,7 @@ def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
     h.
     """
     Q, k = load9(block, at.Q, i), resistances(block, i)
-    v = load3(block, at.new_v, i) if share > 0.0 else load3(block, at.v, i)
+    v = choose3(share > 0.0, load3(block, at.new_v, i), load3(block, at.v, i))
     slip = dot_vector(Q, minus(minus(v, load3(block, at.u, i)), load3(block, near.wall_lift, i)))
     K = hindered_resistance(k, load9(block, near.hindrance, i))
     d = vector_dot(dot_vector(scale(viscosity_at(block, i, medium), K), slip), Q)
@@ -462,31 +553,27 @@ def velocity_loss(block: Any, i: int, medium: Medium) -> Vector:
     return vector_dot(w, Q)
 
 
-def nearest_walls(
-    p: Particles, arrays: Any, flow: Flow, cut_off: float, patch_mask: NDArray[np.int8]
-) -> Floats:
+def nearest_walls(p: Particles, arrays: Any, flow: Flow, cut_off: float, patch_mask: Floats) -> Floats:
     """Return distances of particles from the nearest wall, in radii, (n,); infinite beyond ``cut_off``."""
     nearest = np.full(p.size, np.inf)
-    run = link(_nearest_walls, read_by(_nearest_walls, flow.kernels))
-    run(arrays, p.x, p.host, cut_off * p.R, patch_mask, nearest)
+    find, packed_flow = linked_with(flow.kernels, arrays, _nearest_walls)
+    find(packed_flow, p.x, p.host, cut_off * p.R, patch_mask, nearest)
     distances: Floats = nearest / p.R
     return distances
 
 
 def _nearest_walls(
-    flow: Any, x: Floats, hosts: Ints, cuts: Floats, patch_mask: NDArray[np.int8], nearest: Floats
+    flow: Any, x: Floats, hosts: Ints, cuts: Floats, patch_mask: Floats, nearest: Floats
 ) -> None:
     for k in range(len(nearest)):
         if hosts[k] >= 0:
-            planes = walls(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), cuts[k], patch_mask)
+            planes = walls(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), cuts[k], patch_mask, 0.0)
             nearest[k] = min(planes.h1, planes.h2, planes.h3)
 
 
 body_gradient: Callable[..., Tensor] = balanced_gradient
 body_response: Callable[..., Tensor] = response_to_gradient
 load_of: Callable[..., Vector] = balanced_load
-before_lift: Callable[..., None] = strain_by_load
-after_lift: Callable[..., None] = hinder_load
 
 
 _OF_INERTIA: Mapping[str, Callable[..., Any]] = {
@@ -533,12 +620,12 @@ class WallLift(Surrounding):
                 raise InputError(text.removesuffix("."))
         return self.cutOff, [int(index) for index in np.flatnonzero(self.patch_mask(patches))]
 
-    def patch_mask(self, patches: Sequence[Patch]) -> NDArray[np.int8]:
+    def patch_mask(self, patches: Sequence[Patch]) -> Floats:
         """Return 1 for each patch that counts, else 0."""
         if self.patches is None:
-            return np.array([patch.kind is PatchKind.WALL for patch in patches], dtype=np.int8)
+            return np.array([patch.kind is PatchKind.WALL for patch in patches], dtype=np.float64)
         named = [any(matches(p, patch.name) for p in self.patches) for patch in patches]
-        return np.array(named, dtype=np.int8)
+        return np.array(named, dtype=np.float64)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:
         """Return the entries, and 1 for each patch that counts."""

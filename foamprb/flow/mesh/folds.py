@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector, inner, minus, norm, plus, vector_product
+from foamprb.compile.link import separate
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, arm, frame, point, weights
 from foamprb.flow.mesh.tree import holds_point, next_node
@@ -112,6 +113,7 @@ def _arrived(flow: MeshArrays, tet: int, x: Vector) -> int:
     return host if _depth(flow, host, x) >= -_ASTRAY else nearby(flow, host, x)
 
 
+@separate
 def nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
     """Return the tetrahedron with the largest smallest weight at x, without flat ones.
 
@@ -172,6 +174,7 @@ def _depth(flow: MeshArrays, tet: int, x: Vector) -> float:
     return min(w0, w1, w2, w3) / volume
 
 
+@separate
 def is_in_mesh(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
     """Return True if x in a tetrahedron is a point of the mesh from which a walk can go that way."""
     if is_flat(flow, tet):
@@ -179,6 +182,7 @@ def is_in_mesh(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
     return trace(flow, tet, x, plus(x, way))[2] != _FAILED
 
 
+@separate
 def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """Follow the thread of the line from x0, in the tetrahedron ``host``, to x1, in any mesh.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from foamprb.body.tensor import Vector
-from foamprb.compile.link import link
+from foamprb.compile.link import link, separate
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
 from foamprb.flow.mesh.folds import SOUND, is_in_mesh
@@ -52,6 +52,7 @@ def locate(flow: MeshArrays, x: Vector) -> int:
     return seek(flow, x, (dx, 0.1 * dy, 0.01 * dz))
 
 
+@separate
 def seek(flow: MeshArrays, x: Vector, way: Vector) -> int:
     """Return the tetrahedron that holds x and from which a walk in direction ``way`` can start, −1 for none.
 
