@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
 
-from foamprb.cloud.block import Medium
+from foamprb.cloud.block import Medium, at, idle_lanes, new_block, store3
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.adaptive import during
+from foamprb.cloud.layout import LANES, layout
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import concatenate, spheres
 from foamprb.cloud.surroundings import wall_lift
@@ -167,3 +169,19 @@ def test_walls_of_a_mesh_act_like_a_half_space():
     assert p.x[0, 2] > 0.06
     arrays = flow.arrays(0.0, (), 0.16, [0, 1, 2])
     assert walls(arrays, p.host[0], tuple(p.x[0]), 0.01, np.ones(3, np.int8)).h1 == np.inf
+
+
+def test_every_wall_counts_in_the_interpreter(monkeypatch):
+    """Sums of numpy's comparisons are no counts."""
+    rows = layout(at, during, wall_lift.near)
+    lanes = new_block(rows.rows)
+    idle_lanes(lanes, rows.initial, 1e-3)
+    for k, normal in enumerate(np.eye(3)):
+        lanes[(wall_lift.near.wall_distance + k) * LANES] = 3.0 + k
+        store3(lanes, wall_lift.near.wall_normal + 3 * k, 0, tuple(normal))
+    found = set()
+    monkeypatch.setattr(wall_lift, "select_wall", lambda _block, wall, *_: found.add(wall))
+    # Lanes without a particle have no normals.
+    with np.errstate(all="ignore"):
+        wall_lift.lift(lanes, Medium(1e-3, 1e3), 0.0, (10.0, 0.01, 1.0, 0.0, np.ones(1)))
+    assert found == {0, 1, 2}

@@ -171,7 +171,7 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
     most = 0
     for i in range(LANES):
         h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
-        most = max(most, (h[0] < far) + (h[1] < far) + (h[2] < far))
+        most = max(most, int(h[0] < far) + int(h[1] < far) + int(h[2] < far))
     if most == 0:
         return
     clear_stage(block)
