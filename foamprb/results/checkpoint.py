@@ -174,6 +174,8 @@ def write_arrays(
             if is_one_row(array):
                 rows[name] = len(array)
             _write_array(archive, name, array[:1] if name in rows else array)
+            # The next array is gathered before these names are bound again.
+            del values, array
         text = orjson.dumps({"format": VERSION, "time": time, "arrays": names, "rows": rows, **header})
         _write_array(archive, _HEADER, np.frombuffer(text, dtype=np.uint8))
     return _checksum(archive)
