@@ -1,8 +1,8 @@
-"""Names for :doc:`user-defined models </own-models>`: rows of a block, bounds of entries, traits."""
+"""Names for :doc:`user-defined models </own-models>`: rows of a block, bounds of entries, stages."""
 
 from foamprb.cloud.block import at, load3, load9, store3, store9
 from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.surroundings.base import Remarks, Survey, Traits
+from foamprb.cloud.surroundings.base import Remarks, Stage, Survey
 from foamprb.dictionary.constraints import Bounds, NonNegative, Positive
 
 __all__ = [
@@ -12,8 +12,8 @@ __all__ = [
     "Positive",
     "Remarks",
     "Row",
+    "Stage",
     "Survey",
-    "Traits",
     "at",
     "load3",
     "load9",

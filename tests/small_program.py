@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import math
+from types import FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.tensor import select
-from foamprb.compile.link import link, separate, traced
+from foamprb.compile.link import link, separate, slot, traced
 
 LANES = 10
+
+
+def renamed(function, **names):
+    """Return a copy of a function that reads other values behind some of its global names."""
+    return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
 
 
 class Numbers(NamedTuple):
@@ -45,6 +52,7 @@ def around(numbers, i):
     return float(middle(numbers, i) + inner(numbers.values[i], 0.5))
 
 
+@slot
 @traced
 def stage(values, numbers):
     for i in range(LANES):
@@ -67,10 +75,12 @@ def outer(numbers):
     return total
 
 
+@choice
 def formula(x):
     """Stands for one of a test."""
 
 
+@slot
 @traced
 def formed(values):
     for i in range(LANES):

@@ -10,6 +10,7 @@ from math import pi
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.ellipsoid import Integrals, integrals
 from foamprb.body.tensor import (
     Scalar,
@@ -52,6 +53,12 @@ def brenner_prolate(semi_axes: Vector, _g: Integrals) -> Vector:
     second = (b >= longest) & (a < longest)
     third = (a < longest) & (b < longest)
     return select(first, along, across), select(second, along, across), select(third, along, across)
+
+
+@choice
+def drag(semi_axes: Vector, g: Integrals) -> Vector:
+    """Return the principal resistances of the drag law; by default :func:`oberbeck`."""
+    return oberbeck(semi_axes, g)
 
 
 def reduced_gravity(J: Scalar, rho_s: Scalar, rho_f: Scalar, gravity: Vector) -> Vector:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.tensor import Scalar, Tensor, Vector, from_rows, norm, reciprocals, rows, select, vector_dot
 
 _DUPLICATIONS, _FEW_DUPLICATIONS = 5, 3
@@ -150,13 +151,15 @@ def reach(R: Scalar, F: Tensor, n: Vector) -> Scalar:
     return R * norm(vector_dot(n, F))
 
 
-def no_swelling(mode: Any, inverse_F: Tensor, p: Vector) -> Scalar:  # noqa: ARG001
+@choice
+def swelling(mode: Any, inverse_F: Tensor, p: Vector) -> Scalar:  # noqa: ARG001
     """Return 0: the surface is that of the ellipsoid. See :func:`foamprb.body.quadratic.swelling`."""
     return 0.0
 
 
-def no_largest_swelling(mode: Any, inverse_F: Tensor) -> Scalar:  # noqa: ARG001
-    """Return 0, the bound of :func:`no_swelling`."""
+@choice
+def largest_swelling(mode: Any, inverse_F: Tensor) -> Scalar:  # noqa: ARG001
+    """Return 0, the bound of :func:`swelling`."""
     return 0.0
 
 

@@ -30,6 +30,7 @@ import math
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, add_identity, dot, minus, norm, transpose
 
 LEAST_STRAIN = 1e-6
@@ -60,6 +61,7 @@ def largest(T: Tensor) -> Scalar:
     return np.maximum(np.maximum(p, q), abs(T[8]))
 
 
+@choice
 def strain_by(Omega: Tensor, b_e: Tensor) -> Tensor:
     """Return Ω b_e + b_e Ωᵀ, the change of b_e along Ω."""
     T = dot(Omega, b_e)

@@ -30,9 +30,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.body.material import finger_of_sphere as finger
-from foamprb.body.material import neo_hooke_derivatives as derivatives
-from foamprb.body.material import neo_hooke_dilation as dilation
+from foamprb.body.material import derivatives, dilation, finger_of_body
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -90,7 +88,7 @@ def equation(
     traction = scale(J, stress)
     S = add_identity(traction, -psi)
     D = add_identity(traction, -bulk)
-    B = add(b, scale(kappa * phi, finger(G, M)))
+    B = add(b, scale(kappa * phi, finger_of_body(G, M)))
     r = subtract(add(B, scale(-kappa, S)), dot(predictor, transpose(G)))
     return Newton(kappa, B, S, D, r)
 

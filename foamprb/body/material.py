@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.morphology import drop_derivatives, drop_energy
 from foamprb.body.tensor import (
     Scalar,
@@ -144,6 +145,20 @@ def gent_derivatives(
     """Return ½ μ k/(k − I₁ + 3), 0 and ((λ − 2μ/k) ln J − μ)/J, Pa; infinite for I₁ ≥ 3 + k."""
     room = np.maximum(k - I1 + 3.0, 0.0)
     return 0.5 * mu * k / room, 0.0 * mu, ((lame - 2.0 * mu / k) * log_ratio(J) - mu) / J
+
+
+@choice
+def derivatives(
+    I1: Scalar, I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar
+) -> tuple[Scalar, Scalar, Scalar]:
+    """Return the :attr:`Material.derivatives` of the solid, Pa."""
+    return neo_hooke_derivatives(I1, I2, J, mu, lame, k)
+
+
+@choice
+def dilation(J: Scalar, mu: Scalar, lame: Scalar) -> Scalar:
+    """Return the :attr:`Material.dilation` of the solid, Pa."""
+    return neo_hooke_dilation(J, mu, lame)
 
 
 MATERIALS: dict[str, Material] = {
@@ -315,6 +330,18 @@ def finger_of_sphere_in_frame(stretches: Vector, _G: Tensor, _M: Tensor) -> Tens
 def finger_in_frame(_stretches: Vector, G: Tensor, M: Tensor) -> Tensor:
     """Return :func:`finger` in the particle frame, where the stretches are known; G = Q·F."""
     return finger(G, M)
+
+
+@choice
+def finger_of_body(F: Tensor, M: Tensor) -> Tensor:
+    """Return b_e = F M Fᵀ; by default of a sphere at rest."""
+    return finger_of_sphere(F, M)
+
+
+@choice
+def finger_of_body_in_frame(stretches: Vector, G: Tensor, M: Tensor) -> Tensor:
+    """Return the same in the particle frame; by default of a sphere at rest."""
+    return finger_of_sphere_in_frame(stretches, G, M)
 
 
 def metric_at_rest(F0: Tensor) -> Tensor:

@@ -24,15 +24,13 @@ eta
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.ellipsoid import Integrals
-from foamprb.body.material import invariants
-from foamprb.body.material import neo_hooke_derivatives as derivatives
-from foamprb.body.material import neo_hooke_dilation as dilation
+from foamprb.body.material import derivatives, dilation, invariants
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -66,6 +64,7 @@ class Elasticity(NamedTuple):
     """s₂₃, s₁₃, s₁₂, Pa: the change of stress τ_ij along H = X F is s_ij (X_ij e_j² + X_ji e_i²)."""
 
 
+@choice
 def extra_stress(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
     """Return the Kirchhoff stress up to a pressure, 2(w₁ + I₁w₂) b − 2w₂ b², Pa, in any frame."""
     I1, I2 = invariants(b)
@@ -113,6 +112,7 @@ def _strained(J: Scalar) -> tuple[Scalar, Scalar]:
     return 1.0 + 2.0 * h + 2.0 * h * h, J * (1.0 + h + 0.5 * h * h)
 
 
+@choice
 def extra_elasticity(
     squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
 ) -> Elasticity:
@@ -140,6 +140,7 @@ def _slopes(t: Vector, tx: Vector, ty: Vector, tz: Vector, tension: Scalar) -> T
     )  # fmt: skip
 
 
+@choice
 def elasticity(
     squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
 ) -> Elasticity:
@@ -213,13 +214,10 @@ def elasticity_by_stress(
     return Elasticity(squares, slopes, (tau[5] * per + shear, tau[2] * per + shear, tau[1] * per + shear))
 
 
-solid_stress: Callable[[Tensor, Scalar, Scalar, Scalar, Scalar], Tensor] = kirchhoff
-
-
-def functions_by_stress(stress: Callable[..., Tensor]) -> dict[str, Callable[..., Any]]:
-    """Return the functions of a solid that is given by its stress, by the names that they bind."""
-    elasticities = dict.fromkeys(("elasticity", "extra_elasticity"), elasticity_by_stress)
-    return {"solid_stress": stress, "kirchhoff": stress, "extra_stress": stress, **elasticities}
+@choice
+def solid_stress(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
+    """Return the Kirchhoff stress of a solid that is given by its stress, Pa."""
+    return kirchhoff(b, J, mu, lame, k)
 
 
 def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:

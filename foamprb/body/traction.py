@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from foamprb.body.choice import choice
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.tensor import (
     Scalar,
@@ -83,6 +84,12 @@ def jeffery(semi_axes: Vector, g: Integrals, l_f: Tensor, l_s: Tensor) -> Tensor
     It is not valid for soft particles: their orientation then stays at 45° in shear (Fig. 7 of the paper).
     """
     return roscoe(semi_axes, g, l_f, skew(l_s))
+
+
+@choice
+def traction(semi_axes: Vector, g: Integrals, l_f: Tensor, l_s: Tensor) -> Tensor:
+    """Return σ̃/μ_f, 1/s, of the chosen traction; by default :func:`roscoe`."""
+    return roscoe(semi_axes, g, l_f, l_s)
 
 
 Traction = Callable[[Vector, Integrals, Tensor, Tensor], Tensor]

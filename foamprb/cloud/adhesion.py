@@ -1,13 +1,12 @@
 """Adhesion to walls by bonds: the functions of a lane that a patch with ``adhere`` calls.
 
 The formulas are those of :mod:`foamprb.body.bonds`. A body that touches the wall slides along it until a bond
-forms, and is stuck while it lasts. The names ``sample`` and ``gap`` are bound to the flow.
+forms, and is stuck while it lasts.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -15,6 +14,7 @@ import numpy as np
 
 from foamprb.body.bonds import exponential_deviate, force_on_held_sphere, off_rate
 from foamprb.body.viscosity import shear_rate
+from foamprb.cloud import lanes, motion
 from foamprb.cloud.block import Scratch, at, load3, store3
 from foamprb.cloud.instants import capture_at_rest
 from foamprb.cloud.layout import LANES, Row, offsets
@@ -32,7 +32,7 @@ from foamprb.cloud.motion import (
     settle,
 )
 from foamprb.cloud.patches import STICK
-from foamprb.cloud.surroundings.base import Surrounding, Traits
+from foamprb.cloud.surroundings.base import Slots, Surrounding
 from foamprb.flow.kernels import sample
 
 _KIND = np.uint64(5)
@@ -128,9 +128,9 @@ def let_go(flow: Any, s: Scratch, i: int, t: float, dt: float) -> None:
 class Adhesion(Surrounding):
     """Bonds of bodies with the walls on which they adhere; a cloud adds it if a patch has ``adhere``."""
 
-    rows: ClassVar = {"bonds": BondRows}
-    traits: ClassVar = Traits(each_step=False)
+    rows: ClassVar = (BondRows,)
+    each_step: ClassVar = False
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return the functions for bodies that touch a wall or stick to it."""
-        return {"form_bond": form_bond, "hold": hold}
+        return {motion.form_bond: form_bond, lanes.hold: hold}

@@ -11,6 +11,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.choice import choice
 from foamprb.body.ellipsoid import COMPACT, Integrals, integrals, integrals_of_compact
 from foamprb.body.material import metric_at_rest
 from foamprb.body.tensor import (
@@ -23,7 +24,7 @@ from foamprb.body.tensor import (
     select,
     stretches_in_frame,
 )
-from foamprb.cloud.layout import IDENTITY, LANES, Layout, Row, end, load_rows, offsets, save_rows
+from foamprb.cloud.layout import IDENTITY, LANES, Block, Layout, Row, end, load_rows, offsets, save_rows
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.state import Particles, Reason
 from foamprb.compile.link import packed, traced
@@ -127,8 +128,9 @@ class Medium(NamedTuple):
     """Coefficients of the models of the surroundings, (n,), likewise."""
 
 
-def viscosity_at(_block: Any, _i: int, medium: Medium) -> Scalar:
-    """Return μ_f at the barycentre of lane i, Pa s: a constant; a model of it binds its own function."""
+@choice
+def viscosity_at(_block: Block, _i: int, medium: Medium) -> Scalar:
+    """Return μ_f at the barycentre of lane i, Pa s: a constant, unless a model of it replaces this."""
     return medium.mu
 
 
@@ -141,7 +143,8 @@ class LocalMedium(NamedTuple):
     forces: Any = ()
 
 
-def local_medium(_block: Any, _i: int, medium: Medium) -> LocalMedium:
+@choice
+def local_medium(_block: Block, _i: int, medium: Medium) -> LocalMedium:
     """Return the medium with the density at lane i, a constant; see :func:`viscosity_at`."""
     return LocalMedium(medium.mu, medium.rho, medium.gravity, medium.forces)
 
@@ -211,7 +214,7 @@ class Scratch(NamedTuple):
     Neighbours in the cloud's arrays may belong to other threads, and writing to shared cache lines is slow.
     """
 
-    block: Any
+    block: Block
     """Rows × LANES numbers, flat."""
     status: Any
     """Status of each lane, (LANES,) integers as all up to ``step``."""
@@ -340,31 +343,31 @@ def new_block(rows: int) -> NDArray[np.float64]:
     return room[first : first + rows * LANES]
 
 
-def load3(block: Any, row: int, i: int) -> Vector:
+def load3(block: Block, row: int, i: int) -> Vector:
     """Return the vector in three rows of lane i."""
     k = row * LANES + i
     return block[k], block[k + LANES], block[k + 2 * LANES]
 
 
-def store3(block: Any, row: int, i: int, v: Vector) -> None:
+def store3(block: Block, row: int, i: int, v: Vector) -> None:
     """Store a vector in three rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES] = v[0], v[1], v[2]
 
 
-def load4(block: Any, row: int, i: int) -> tuple[Any, Any, Any, Any]:
+def load4(block: Block, row: int, i: int) -> tuple[Any, Any, Any, Any]:
     """Return the numbers in four rows of lane i."""
     k = row * LANES + i
     return block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES]
 
 
-def store4(block: Any, row: int, i: int, v: tuple[Any, Any, Any, Any]) -> None:
+def store4(block: Block, row: int, i: int, v: tuple[Any, Any, Any, Any]) -> None:
     """Store four numbers in four rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES] = v[0], v[1], v[2], v[3]
 
 
-def load9(block: Any, row: int, i: int) -> Tensor:
+def load9(block: Block, row: int, i: int) -> Tensor:
     """Return the tensor in nine rows of lane i."""
     k = row * LANES + i
     return (
@@ -374,7 +377,7 @@ def load9(block: Any, row: int, i: int) -> Tensor:
     )  # fmt: skip
 
 
-def store9(block: Any, row: int, i: int, T: Tensor) -> None:
+def store9(block: Block, row: int, i: int, T: Tensor) -> None:
     """Store a tensor in nine rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES] = T[0], T[1], T[2]
@@ -382,7 +385,7 @@ def store9(block: Any, row: int, i: int, T: Tensor) -> None:
     block[k + 6 * LANES], block[k + 7 * LANES], block[k + 8 * LANES] = T[6], T[7], T[8]
 
 
-def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None:
+def store_fluid(block: Block, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None:
     """Store the fluid's u, its gradient and its acceleration Du/Dt = ∂u/∂t + l·u in lane i."""
     store3(block, at.u, i, u)
     store9(block, at.l, i, l_f)
@@ -390,7 +393,7 @@ def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None
     store3(block, at.DuDt, i, (u_t[0] + c[0], u_t[1] + c[1], u_t[2] + c[2]))
 
 
-def load_integrals(block: Any, i: int) -> Integrals:
+def load_integrals(block: Block, i: int) -> Integrals:
     """Return Jeffery's integrals of lane i."""
     return Integrals(
         alpha=load3(block, at.alpha, i),
@@ -400,7 +403,7 @@ def load_integrals(block: Any, i: int) -> Integrals:
     )
 
 
-def store_integrals(block: Any, i: int, g: Integrals) -> None:
+def store_integrals(block: Block, i: int, g: Integrals) -> None:
     """Store Jeffery's integrals in lane i."""
     store3(block, at.alpha, i, g.alpha)
     store3(block, at.ring, i, g.ring)
@@ -408,14 +411,14 @@ def store_integrals(block: Any, i: int, g: Integrals) -> None:
     block[at.chi * LANES + i] = g.chi
 
 
-def new_frames(block: Any) -> None:
+def new_frames(block: Block) -> None:
     """Compute frame and stretches of the new deformation gradient, from the frame of the last one."""
     frame_stage(block)
     stretch_stage(block)
     straighten(block, _SKEWNESS)
 
 
-def resume_frames(block: Any) -> None:
+def resume_frames(block: Block) -> None:
     """Restore the frames and stretches of loaded particles."""
     for i in range(LANES):
         store9(block, at.Q, i, load9(block, at.frame, i))
@@ -425,7 +428,7 @@ def resume_frames(block: Any) -> None:
     straighten(block, _STORED_SKEWNESS)
 
 
-def renew_frames(block: Any) -> None:
+def renew_frames(block: Block) -> None:
     """Restore frames and stretches of the lanes whose state was loaded or turned since the last step."""
     renewed = 0
     for i in range(LANES):
@@ -441,14 +444,14 @@ def renew_frames(block: Any) -> None:
 
 
 @traced
-def frame_stage(block: Any) -> None:
+def frame_stage(block: Block) -> None:
     """Compute the frame of the new deformation gradient, from the frame of the last one."""
     for i in range(LANES):
         store9(block, at.Q, i, refined_frame(load9(block, at.new_F, i), load9(block, at.frame, i)))
 
 
 @traced
-def stretch_stage(block: Any) -> None:
+def stretch_stage(block: Block) -> None:
     """Compute the stretches of the new deformation gradient along its frame, and the frame's skewness."""
     for i in range(LANES):
         stretches, skewness = stretches_in_frame(load9(block, at.new_F, i), load9(block, at.Q, i))
@@ -456,7 +459,7 @@ def stretch_stage(block: Any) -> None:
         block[at.skewness * LANES + i] = skewness
 
 
-def straighten(block: Any, allowed: float) -> None:
+def straighten(block: Block, allowed: float) -> None:
     """Repeat the refinement of frames that turned too far for one pass."""
     for _ in range(_MOST_REPEATS):
         skewed = 0
@@ -470,7 +473,7 @@ def straighten(block: Any, allowed: float) -> None:
 
 
 @traced
-def straighten_stage(block: Any, allowed: float) -> None:
+def straighten_stage(block: Block, allowed: float) -> None:
     """Refine the frames that are more skew than ``allowed``."""
     for i in range(LANES):
         Q = load9(block, at.Q, i)
@@ -478,17 +481,19 @@ def straighten_stage(block: Any, allowed: float) -> None:
         store9(block, at.Q, i, choose(block[at.skewness * LANES + i] > allowed, refined, Q))
 
 
-def limit_next_step(_block: Any, _i: int, _tolerance: float) -> None:
+@choice
+def limit_next_step(_block: Block, _i: int, _tolerance: float) -> None:
     """No-op for integrators without step control."""
 
 
-def judge(_block: Any, _i: int, verdict: Scalar) -> Scalar:
-    """Return the verdict on a step; a model of the surroundings binds its own function."""
+@choice
+def judge(_block: Block, _i: int, verdict: Scalar) -> Scalar:
+    """Return the verdict on a step as it is; a model of the surroundings may replace this."""
     return verdict
 
 
 @traced
-def accept_stage(block: Any, tolerance: float) -> None:
+def accept_stage(block: Block, tolerance: float) -> None:
     """Judge the new shapes and velocities of the moving lanes, and accept the sound ones."""
     for i in range(LANES):
         block[at.taken * LANES + i] += block[at.moving * LANES + i]
@@ -532,7 +537,7 @@ def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
     )  # fmt: skip
 
 
-def new_integrals(block: Any) -> None:
+def new_integrals(block: Block) -> None:
     """Compute Jeffery's integrals of the stretches."""
     elongated = 0
     for i in range(LANES):
@@ -551,14 +556,14 @@ def is_elongated(stretches: Vector) -> Any:
 
 
 @traced
-def compact_stage(block: Any) -> None:
+def compact_stage(block: Block) -> None:
     """Compute Jeffery's integrals with the formulas for compact bodies."""
     for i in range(LANES):
         store_integrals(block, i, integrals_of_compact(load3(block, at.stretch, i)))
 
 
 @traced
-def elongated_stage(block: Any) -> None:
+def elongated_stage(block: Block) -> None:
     """Replace the integrals of elongated bodies."""
     for i in range(LANES):
         stretches, compact = load3(block, at.stretch, i), load_integrals(block, i)
@@ -595,7 +600,7 @@ def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     save_rows(p, k, s.block, i)
 
 
-def idle_lanes(block: Any, initial: Any, dt: float) -> None:
+def idle_lanes(block: Block, initial: Any, dt: float) -> None:
     """Fill every lane with the initial values, a sphere at rest, and steps of Δt."""
     for row in range(len(initial)):
         for i in range(LANES):

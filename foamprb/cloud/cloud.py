@@ -165,7 +165,7 @@ class Cloud:
         around = (*model_of(self.medium.mu), *self.models.surroundings)
         for model in around:
             model.walls(self.flow.patches)
-            for kernel in model.traits.kernels:
+            for kernel in model.kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
         self.map_ranks(_begin, around)

@@ -1,24 +1,21 @@
-"""Contacts with patches: when they happen, records of rebounds and passages, and normals of walls.
-
-In the functions behind :func:`gap_of_lane` and :func:`gap_of_particle` the name ``gap`` is bound to that of
-the flow (:class:`foamprb.flow.base.Flow`), ``mode_in`` and ``mode_of`` to the quadratic mode.
-"""
+"""Contacts with patches: when they happen, records of rebounds and passages, and normals of walls."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.choice import choice
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.block import REBOUND_NUMBERS, Scratch, at, load3, load9
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.state import Particles
-from foamprb.compile.link import bound, kernel, separate
-from foamprb.flow.analytic import gap_free as gap
+from foamprb.compile.link import kernel, separate
+from foamprb.flow.analytic import gap_free
 from foamprb.flow.kernels import normal, walk
 
 Contact: TypeAlias = tuple[float, int, int]
@@ -61,20 +58,26 @@ def first_contact(before: float, after: float, a: float, b: float) -> float:
     return low
 
 
-def no_mode(_source: Any, _k: int, _F: Tensor) -> tuple[()]:
-    """Return nothing: bodies are ellipsoids.
-
-    Otherwise the mode of lane or particle k of a block or a cloud; see
-    :func:`foamprb.body.quadratic.swelling`.
-    """
+@choice
+def mode_in(_block: Block, _i: int, _F: Tensor) -> Any:
+    """Return the mode of lane i for :func:`foamprb.body.quadratic.swelling`; nothing for ellipsoids."""
     return ()
 
 
-mode_in = mode_of = no_mode
+@choice
+def mode_of(_p: Particles, _k: int, _F: Tensor) -> Any:
+    """Return the same of particle k."""
+    return ()
+
+
+@choice
+def gap(flow: Any, host: int, x: Vector, F: Tensor, R: float, mode: Any) -> tuple[float, int, int]:
+    """Return gap, m, patch and triangle of the wall nearest to a body, of a flow's unpacked arrays."""
+    return gap_free(flow, host, x, F, R, mode)
 
 
 @kernel
-def gap_of_lane(_flow: Any, _block: Any, _i: int, _host: int, _x: Vector, _F: Tensor, _t: float) -> Contact:
+def gap_of_lane(_flow: Any, _block: Block, _i: int, _host: int, _x: Vector, _F: Tensor, _t: float) -> Contact:
     """Return gap, patch and triangle of the wall nearest to the body in lane i, at x in a host with F."""
     return math.inf, -1, -1
 
@@ -87,7 +90,7 @@ def gap_of_particle(
     return math.inf, -1, -1
 
 
-def _gap_of_lane(flow: Any, block: Any, i: int, host: int, x: Vector, F: Tensor, _t: float) -> Contact:
+def _gap_of_lane(flow: Any, block: Block, i: int, host: int, x: Vector, F: Tensor, _t: float) -> Contact:
     clearance, patch, triangle = gap(flow, host, x, F, block[at.R * LANES + i], mode_in(block, i, F))
     return clearance, int(patch), int(triangle)
 
@@ -97,14 +100,11 @@ def _gap_of_particle(flow: Any, p: Particles, k: int, host: int, x: Vector, F: T
     return clearance, int(patch), int(triangle)
 
 
-def gaps(
-    gap: Callable[..., Any], mode_in: Callable[..., Any] = no_mode, mode_of: Callable[..., Any] = no_mode
-) -> dict[Callable[..., Any], Callable[..., Any]]:
-    """Return the functions behind both slots for the gap of a flow and the mode of lanes and particles."""
-    return {
-        gap_of_lane: bound(_gap_of_lane, gap=gap, mode_in=mode_in),
-        gap_of_particle: bound(_gap_of_particle, gap=gap, mode_of=mode_of),
-    }
+GAPS: Mapping[Callable[..., Any], Callable[..., Any]] = {
+    gap_of_lane: _gap_of_lane,
+    gap_of_particle: _gap_of_particle,
+}
+"""The functions behind both slots, where bodies meet walls by their surface or their centre (:func:`gap`)."""
 
 
 class Rebounds(NamedTuple):

@@ -2,34 +2,101 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
-from foamprb.body.rosenbrock import Elasticity, elasticity, extra_elasticity
-from foamprb.body.rosenbrock import extra_stress_in_frame as extra_stress
-from foamprb.body.rosenbrock import kirchhoff_in_frame as kirchhoff
+from foamprb.body import rosenbrock
+from foamprb.body.choice import choice
+from foamprb.body.error_control import strain_by, strain_in_frame
+from foamprb.body.material import (
+    Material,
+    derivatives,
+    dilation,
+    finger,
+    finger_in_frame,
+    finger_of_body,
+    finger_of_body_in_frame,
+)
+from foamprb.body.rosenbrock import (
+    Elasticity,
+    elasticity,
+    elasticity_by_dilation,
+    elasticity_by_stress,
+    extra_elasticity,
+    extra_elasticity_by_dilation,
+    extra_stress_in_frame,
+    kirchhoff_in_frame,
+    solid_stress,
+)
 from foamprb.body.stokes import Mobility, mobility
-from foamprb.body.surface_tension import no_stress as interface
-from foamprb.body.tensor import Tensor, Vector, diagonal
+from foamprb.body.surface_tension import laplace_stress, no_stress
+from foamprb.body.tensor import Scalar, Tensor, Vector, diagonal
 from foamprb.cloud.block import Medium, at, load_integrals, viscosity_at
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.layout import LANES, Block
 
 
-def solid(block: Any, i: int) -> tuple[Any, Any, Any]:
+def solid(block: Block, i: int) -> tuple[Any, Any, Any]:
     """Return μ_s and λ_s, Pa, and the third parameter of the solid."""
     return block[at.mu * LANES + i], block[at.lame * LANES + i], block[at.k * LANES + i]
 
 
-def conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:
+@choice
+def kirchhoff(b_e: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
+    """Return the Kirchhoff stress of the solid, Pa, in the particle frame; by default of a sphere at rest."""
+    return kirchhoff_in_frame(b_e, J, mu, lame, k)
+
+
+@choice
+def extra_stress(b_e: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
+    """Return the same up to a pressure."""
+    return extra_stress_in_frame(b_e, J, mu, lame, k)
+
+
+@choice
+def interface(stretches: Vector, tension: Scalar) -> Vector:
+    """Return the principal Kirchhoff stresses by surface tension, Pa; by default none."""
+    return no_stress(stretches, tension)
+
+
+def functions_of_solid(
+    material: Material, general: bool, tense: bool
+) -> dict[Callable[..., Any], Callable[..., Any]]:
+    """Return what a solid puts behind choices.
+
+    ``general`` tells that its elastic strain is not diagonal in the particle frame: its shape at rest is no
+    sphere, or it has memory. ``tense`` tells that it has surface tension.
+    """
+    slots: dict[Callable[..., Any], Callable[..., Any]] = {derivatives: material.derivatives}
+    if material.dilation is not None:
+        slots |= {
+            dilation: material.dilation,
+            elasticity: elasticity_by_dilation,
+            extra_elasticity: extra_elasticity_by_dilation,
+        }
+    if general:
+        slots |= {finger_of_body: finger, finger_of_body_in_frame: finger_in_frame}
+        slots |= {kirchhoff: rosenbrock.kirchhoff, extra_stress: rosenbrock.extra_stress}
+    else:
+        slots[strain_by] = strain_in_frame
+    if material.stress is not None:
+        slots |= dict.fromkeys((elasticity, extra_elasticity), elasticity_by_stress)
+        slots |= dict.fromkeys(
+            (kirchhoff, extra_stress, rosenbrock.extra_stress, solid_stress), material.stress
+        )
+    return slots | ({interface: laplace_stress} if tense else {})
+
+
+def conservative_stress(block: Block, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:
     """Kirchhoff stress of the solid and of its surface tension, Pa, in the particle frame."""
     return _with_interface(block, i, stretches, kirchhoff(b_e, J, *solid(block, i)))
 
 
-def incompressible_stress(block: Any, i: int, stretches: Vector, b_e: Tensor) -> Tensor:
+def incompressible_stress(block: Block, i: int, stretches: Vector, b_e: Tensor) -> Tensor:
     """Return the same stress of an incompressible body, without its pressure."""
     return _with_interface(block, i, stretches, extra_stress(b_e, 1.0, *solid(block, i)))
 
 
-def _with_interface(block: Any, i: int, stretches: Vector, tau: Tensor) -> Tensor:
+def _with_interface(block: Block, i: int, stretches: Vector, tau: Tensor) -> Tensor:
     s = interface(stretches, block[at.tension * LANES + i])
     return (
         tau[0] + s[0], tau[1], tau[2],
@@ -38,25 +105,27 @@ def _with_interface(block: Any, i: int, stretches: Vector, tau: Tensor) -> Tenso
     )  # fmt: skip
 
 
-def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor) -> Elasticity:
+def solid_elasticity(block: Block, i: int, stretches: Vector, b_e: Tensor) -> Elasticity:
     """Return the elasticity of the solid."""
     J = stretches[0] * stretches[1] * stretches[2]
     return elasticity(diagonal(b_e), J, *solid(block, i), block[at.tension * LANES + i])
 
 
-def incompressible_elasticity(block: Any, i: int, b_e: Tensor) -> Elasticity:
+def incompressible_elasticity(block: Block, i: int, b_e: Tensor) -> Elasticity:
     """Return the same elasticity without resistance to dilation."""
     mu, _, k = solid(block, i)
     return extra_elasticity(diagonal(b_e), 1.0, mu, 0.0, k, block[at.tension * LANES + i])
 
 
-def body_mobility(block: Any, i: int, medium: Medium, stretches: Vector) -> Mobility:
+@choice
+def body_mobility(block: Block, i: int, medium: Medium, stretches: Vector) -> Mobility:
     """Return the mobility of an affinely deforming solid; :mod:`foamprb.cloud.drops` binds that of a drop."""
     return mobility(
         stretches, load_integrals(block, i), block[at.eta * LANES + i] / viscosity_at(block, i, medium)
     )
 
 
-def mobility_deficit(block: Any, i: int, medium: Medium) -> Any:
+@choice
+def mobility_deficit(block: Block, i: int, medium: Medium) -> Any:
     """Return the ``deficit`` of that mobility."""
     return 1.0 - block[at.eta * LANES + i] / viscosity_at(block, i, medium)

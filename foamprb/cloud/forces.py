@@ -1,7 +1,7 @@
 """Forces on the barycentre beside drag, and their sum, which the stages of every integrator call.
 
 A new force is a class below, which declares its entries and names a plain function, and a line in
-:data:`FORCES`. The name ``sum_of_forces`` is bound to the sum (:func:`compose`) when the loop is compiled.
+:data:`FORCES`. :func:`compose` puts the sum behind :func:`sum_of_forces`.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.choice import choice
 from foamprb.body.drag import reduced_gravity
 from foamprb.body.lift import (
     DUCTS,
@@ -33,8 +34,8 @@ from foamprb.body.lift import (
 )
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, plus, scale_vector
 from foamprb.cloud.block import LocalMedium, Medium, at, choose3, load3, local_medium
-from foamprb.cloud.layout import LANES, compose_function, text_of
-from foamprb.compile.link import bound, kernel
+from foamprb.cloud.layout import LANES, Block, compose_function, text_of
+from foamprb.compile.link import kernel
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
@@ -46,6 +47,8 @@ from foamprb.dictionary.constraints import (
     Vector3,
 )
 from foamprb.errors import InputError
+
+T = TypeVar("T")
 
 _FLUID_VELOCITY = Only("U", "the flow's velocity")
 _TINY = 1e-300
@@ -354,33 +357,58 @@ def add_force(
     """
     if name in FORCES:
         raise ValueError(f"the force {name} exists already")
-    if not isinstance(evaluate, FunctionType) or evaluate.__closure__:
-        raise ValueError(f"force {name}: {evaluate!r} is not a plain function of module level")
-    hints = get_type_hints(evaluate, include_extras=True)
-    _, *parameters = signature(evaluate).parameters.values()
     for need in needs:
         if need in Inputs._fields:
             raise ValueError(f"force {name}: it needs {need}, which is inputs.{need}")
         if not re.fullmatch(r"[\w.:]+|grad\([\w.:]+\)", need):
             raise ValueError(f"force {name}: it needs {need!r}. Allowed: names, and gradients as grad(E)")
-    if len(parameters) < len(needs):
-        raise ValueError(f"force {name}: it needs {len(needs)} values and has {len(parameters)} parameters")
-    parameters = parameters[len(needs) :]
-    entries: list[Any] = []
-    for p in parameters:
-        hint = hints.get(p.name, float)
-        if getattr(hint, "__origin__", hint) is not float:
-            raise ValueError(f"force {name}: the entry {p.name} is no float")
-        default: Any = field() if p.default is p.empty else field(default=float(p.default))
-        entries.append((p.name, hint, default))
-    kind: type[Force] = make_dataclass(
-        name, entries, bases=(UserForce,), frozen=True, kw_only=True,
-        namespace={"evaluate": staticmethod(evaluate), "name": name, "needs": tuple(needs)},
-    )  # fmt: skip
+    namespace = {"evaluate": staticmethod(evaluate), "name": name, "needs": tuple(needs)}
+    kind: type[Force] = class_of_entries(f"force {name}", evaluate, ("inputs", *needs), UserForce, namespace)
     if STATE.keys() >= set(needs):
         _try(name, tried(kind))
     FORCES[name] = kind
     return kind
+
+
+def class_of_entries(
+    model: str,
+    evaluate: Callable[..., Any],
+    given: Sequence[str],
+    base: type[T],
+    namespace: dict[str, Any],
+) -> type[T]:
+    """Return the class of a user's model, whose entries are the parameters of a function.
+
+    Parameters
+    ----------
+    model
+        What it is, and its name: ``force trap``.
+    evaluate
+        The function; its first parameters are what it is ``given``.
+    base, namespace
+        As of :func:`dataclasses.make_dataclass`.
+
+    Raises
+    ------
+    ValueError
+        If the function is not plain, or has too few parameters or other entries than numbers.
+    """
+    if not isinstance(evaluate, FunctionType) or evaluate.__closure__:
+        raise ValueError(f"{model}: {evaluate!r} is not a plain function of module level")
+    hints = get_type_hints(evaluate, include_extras=True)
+    parameters = [*signature(evaluate).parameters.values()]
+    if len(parameters) < len(given):
+        raise ValueError(f"{model}: it has {len(parameters)} parameters for {', '.join(given)}")
+    entries: list[Any] = []
+    for p in parameters[len(given) :]:
+        hint = hints.get(p.name, float)
+        if getattr(hint, "__origin__", hint) is not float:
+            raise ValueError(f"{model}: the entry {p.name} is no float")
+        default: Any = field() if p.default is p.empty else field(default=float(p.default))
+        entries.append((p.name, hint, default))
+    return make_dataclass(
+        model.split()[-1], entries, bases=(base,), frozen=True, kw_only=True, namespace=namespace
+    )
 
 
 def _try(name: str, force: Force) -> None:
@@ -392,9 +420,6 @@ def _try(name: str, force: Force) -> None:
         raise ValueError(f"force {name}: {type(error).__name__}: {error}") from error
     if not all(isinstance(number, Real) and math.isfinite(number) for number in (x, y, z, inertia)):
         raise ValueError(f"force {name}: it returns {result}, not ((x, y, z), inertia) of finite numbers")
-
-
-T = TypeVar("T")
 
 
 def tried(kind: type[T]) -> T:
@@ -413,7 +438,7 @@ def tried(kind: type[T]) -> T:
 # Their sum
 
 
-def acceleration(block: Any, i: int, medium: Medium, J: Scalar) -> tuple[Vector, Scalar]:
+def acceleration(block: Block, i: int, medium: Medium, J: Scalar) -> tuple[Vector, Scalar]:
     """Return the acceleration of lane i by every force but drag, m/s², and the inertia in particle masses.
 
     m (1 + Σ C) dv/dt = Σ f + f_D with the forces f and the inertia m C that each adds.
@@ -422,7 +447,9 @@ def acceleration(block: Any, i: int, medium: Medium, J: Scalar) -> tuple[Vector,
     return scale_vector(1.0 / inertia, f), inertia
 
 
-def forces_on(block: Any, i: int, medium: Medium, J: Scalar, Du_Dt: Vector) -> tuple[Vector, Vector, Scalar]:
+def forces_on(
+    block: Block, i: int, medium: Medium, J: Scalar, Du_Dt: Vector
+) -> tuple[Vector, Vector, Scalar]:
     """Return the forces on lane i without and with the fluid's acceleration, m/s², and the inertia.
 
     The arguments of :func:`foamprb.body.slip.balanced_slip`.
@@ -437,17 +464,17 @@ def forces_on(block: Any, i: int, medium: Medium, J: Scalar, Du_Dt: Vector) -> t
 
 def compose(
     forces: Sequence[Force], reader_of: Callable[[Force], Callable[..., Any]] | None = None
-) -> dict[str, Callable[..., Any]]:
-    """Return the sum of these forces, by the name to which it is bound.
+) -> Callable[..., Any]:
+    """Return the sum of these forces, for :func:`sum_of_forces`.
 
     ``reader_of`` returns a function that reads what a force needs, see :mod:`foamprb.cloud.needs`.
     """
     total: Callable[..., Any] = no_force
     for force, text in zip(forces, _placed(forces)[0], strict=True):
         read = reader_of(force) if reader_of else no_values
-        numbers = compose_function("entries", f"def entries(numbers):\n    return {text}\n", {})
-        total = bound(_add_force, others=total, force=type(force).evaluate, read=read, entries=numbers)
-    return {"sum_of_forces": total}
+        entries = compose_function("entries", f"def entries(numbers):\n    return {text}\n", {})
+        total = _with_force(total, type(force).evaluate, read, entries)
+    return total
 
 
 def coefficients(forces: Sequence[Force]) -> NDArray[np.float64]:
@@ -466,7 +493,7 @@ def _placed(forces: Sequence[Force]) -> tuple[list[str], NDArray[np.float64]]:
     return texts, np.array(numbers)
 
 
-def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
+def _inputs_of(block: Block, i: int, medium: Medium, J: Scalar) -> Inputs:
     gone = block[at.gone * LANES + i]
     x = choose3(gone > 0.0, load3(block, at.new_x, i), load3(block, at.x, i))
     t = block[at.t * LANES + i] + gone * block[at.dt * LANES + i]
@@ -476,37 +503,38 @@ def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on its loads: without these,
 # last bits of the shape would depend on whether one of the forces reads them.
-def no_force(_block: Any, _i: int, inputs: Inputs) -> tuple[Vector, Scalar]:
+def no_force(_block: Block, _i: int, inputs: Inputs) -> tuple[Vector, Scalar]:
     """Return a force of zero, and the inertia of the particle alone."""
     return scale_vector(0.0, inputs.Du_Dt), 1.0 + 0.0 * displaced(inputs)
 
 
 @kernel
-def store_fields(_fields: Any, _block: Any, _i: int, _row: int, _host: int, _x: Vector, _t: float) -> None:
+def store_fields(_fields: Any, _block: Block, _i: int, _row: int, _host: int, _x: Vector, _t: float) -> None:
     """No-op: no force reads a field."""
 
 
-def no_values(_block: Any, _i: int, _medium: Medium) -> tuple[()]:
+def no_values(_block: Block, _i: int, _medium: Medium) -> tuple[()]:
     """Return no values: a force needs none beside its inputs."""
     return ()
 
 
-def no_entries(_numbers: Any) -> tuple[()]:
-    """Return no numbers: a force has no entries."""
-    return ()
+def _with_force(
+    others: Callable[..., Any],
+    force: Callable[..., Any],
+    read: Callable[..., Any],
+    entries: Callable[..., Any],
+) -> Callable[..., Any]:
+    """Return the sum of others and of a force, with functions that read what it needs and its entries."""
 
+    def total(block: Block, i: int, inputs: Inputs) -> tuple[Vector, Scalar]:
+        a, m = others(block, i, inputs)
+        b, n = force(inputs, *read(block, i, inputs.medium), *entries(inputs.medium.forces))
+        return plus(a, b), m + n
 
-def _add_force(block: Any, i: int, inputs: Inputs) -> tuple[Vector, Scalar]:
-    a, m = others(block, i, inputs)
-    b, n = force(inputs, *read(block, i, inputs.medium), *entries(inputs.medium.forces))
-    return plus(a, b), m + n
+    return total
 
-
-others: Any = no_force
-force: Any = no_force
-read: Any = no_values
-entries: Any = no_entries
 
 DEFAULT: tuple[Force, ...] = (Gravity(),)
 """The forces of a cloud for which none are chosen, and of the uncompiled functions."""
-sum_of_forces: Callable[[Any, int, Inputs], tuple[Vector, Scalar]] = compose(DEFAULT)["sum_of_forces"]
+sum_of_forces: Callable[[Any, int, Inputs], tuple[Vector, Scalar]] = choice(compose(DEFAULT))
+"""The forces on lane i, m/s², and the inertia, in masses of the particle."""

@@ -13,13 +13,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import accumulate
 from types import MappingProxyType
-from typing import Any, NamedTuple, TypeVar, get_type_hints
+from typing import Any, NamedTuple, TypeAlias, TypeVar, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.compile.link import separate, slot
 
+Block: TypeAlias = NDArray[np.float64]
+"""A working block: rows × :data:`LANES` numbers, flat."""
 LANES = 16
 """Number of particles of a block, side by side: so few that its rows stay in the first level of the cache."""
 
@@ -47,6 +49,8 @@ class Row(NamedTuple):
     """True if its array has columns even where the quantity has one component."""
 
 
+MOST_TIMES, MOST_FIELDS = 60, 60
+"""Relaxation times of a solid, and components of the fields that forces need, at most."""
 _ROOMS: tuple[tuple[int, tuple[str, ...]], ...] = (
     (160, ("Rows",)),
     (80, ("StepRows",)),
@@ -63,6 +67,9 @@ _ROOMS: tuple[tuple[int, tuple[str, ...]], ...] = (
     (8, ("FrameRows",)),
     (8, ("FateRows",)),
     (4, ("BondRows",)),
+    (22, ("MemoryRows",)),
+    (8 * MOST_TIMES, ("TimesRows",)),
+    (2 * (12 + MOST_FIELDS), ("NeededRows",)),
 )
 """Numbers of rows that are reserved, in this order, for declarations by name; one room for alternatives."""
 _FIRST: dict[str, tuple[int, int]] = {
@@ -72,7 +79,9 @@ _FIRST: dict[str, tuple[int, int]] = {
 }
 """First row and size of the room of a declaration."""
 FURTHER = sum(size for size, _ in _ROOMS)
-"""First row behind all rooms: of declarations whose size depends on the settings, and of users' models."""
+"""First row behind all rooms: of users' models."""
+_further: dict[type[tuple[int, ...]], int] = {}
+"""First row of each of their declarations, in the order in which they were met."""
 
 
 class Layout(NamedTuple):
@@ -105,14 +114,14 @@ def rows_of(declaration: type[tuple[int, ...]]) -> Mapping[str, Row]:
 
 
 def offsets(declaration: type[Declared], first: int | None = None) -> Declared:
-    """Return the index of the first row of each quantity.
+    """Return the index of the first row of each quantity, the same in every block.
 
     Parameters
     ----------
     declaration
         NamedTuple class with a :class:`Row` in the annotation of each field.
     first
-        Index of the first row; None for the place that is reserved for the declaration.
+        Index of the first row of another table than a block.
 
     Raises
     ------
@@ -120,10 +129,13 @@ def offsets(declaration: type[Declared], first: int | None = None) -> Declared:
         If it has more rows than are reserved.
     """
     components = [row.components for row in rows_of(declaration).values()]
-    if first is None:
-        first, size = _FIRST[declaration.__name__] if is_reserved(declaration) else (0, sum(components))
+    if first is None and _is_reserved(declaration):
+        first, size = _FIRST[declaration.__name__]
         if sum(components) > size:
             raise ValueError(f"{declaration.__name__} has {sum(components)} rows, and room for {size}")
+    elif first is None:
+        sizes = (sum(row.components for row in rows_of(other).values()) for other in _further)
+        first = _further.setdefault(declaration, FURTHER + sum(sizes))
     make: Any = declaration
     rows: Declared = make(*accumulate(components[:-1], initial=first))
     return rows
@@ -163,8 +175,8 @@ def layout(*parts: tuple[int, ...]) -> Layout:
     loaded_only = Layout(
         rows=len(initial),
         initial=initial,
-        load=sequence("load_rows", "p, k, block, i", [_copier("load", type(at), at[0]) for at in parts]),
-        save=sequence("save_rows", "p, k, block, i", [_copier("save", type(at), at[0]) for at in parts]),
+        load=sequence("load_rows", "p, k, block, i", [_copier("load", type(at)) for at in parts]),
+        save=sequence("save_rows", "p, k, block, i", [_copier("save", type(at)) for at in parts]),
         parts=parts,
         lasting=np.array(loaded, dtype=np.int64),
         fresh=np.empty(0),
@@ -173,12 +185,12 @@ def layout(*parts: tuple[int, ...]) -> Layout:
 
 
 @slot
-def load_rows(_p: Any, _k: int, _block: Any, _i: int) -> None:
+def load_rows(_p: Any, _k: int, _block: Block, _i: int) -> None:
     """See :attr:`Layout.load`."""
 
 
 @slot
-def save_rows(_p: Any, _k: int, _block: Any, _i: int) -> None:
+def save_rows(_p: Any, _k: int, _block: Block, _i: int) -> None:
     """See :attr:`Layout.save`."""
 
 
@@ -200,7 +212,7 @@ def _numbers(placed: Iterable[tuple[int, Row]]) -> list[int]:
     return [first + c for first, row in placed for c in range(row.components)]
 
 
-def is_reserved(declaration: type[tuple[int, ...]]) -> bool:
+def _is_reserved(declaration: type[tuple[int, ...]]) -> bool:
     """Return True if a place is reserved for the rows of a declaration, which is one of this package."""
     return declaration.__name__ in _FIRST and declaration.__module__.startswith("foamprb.")
 
@@ -266,9 +278,9 @@ def text_of(values: Any, first: int, numbers: list[float], tail: list[float]) ->
 
 
 @cache
-def _copier(kind: str, declaration: type[tuple[int, ...]], first: int) -> Callable[..., Any]:
+def _copier(kind: str, declaration: type[tuple[int, ...]]) -> Callable[..., Any]:
     """Return the function that loads or saves the rows of one declaration."""
-    at = offsets(declaration, first)
+    at = offsets(declaration)
     rows = {name: (row, each) for row, (name, each) in zip(at, rows_of(declaration).items(), strict=True)}
     name = f"{kind}_{declaration.__name__}"
     lines = _load(rows) if kind == "load" else _save(rows)

@@ -58,7 +58,7 @@ from foamprb.cloud.block import (
     store3,
     store9,
 )
-from foamprb.cloud.layout import LANES, Row, end, offsets
+from foamprb.cloud.layout import LANES, Block, Row, end, offsets
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.viscosity import VaryingViscosity, viscosity_of
 from foamprb.compile.link import link
@@ -229,7 +229,7 @@ def circulation(l: Tensor) -> Scalar:
     return np.sqrt(np.maximum(inner(n, dot_vector(cofactor(l), n)), 0.0) / np.maximum(n_2, 1e-300))
 
 
-def sort_stage(block: Any) -> None:
+def sort_stage(block: Block) -> None:
     """Sort the axes of the frames by length, the longest first."""
     for i in range(LANES):
         Q, stretches = sorted_frame(load9(block, at.Q, i), load3(block, at.stretch, i))
@@ -237,7 +237,7 @@ def sort_stage(block: Any) -> None:
         store3(block, at.stretch, i, stretches)
 
 
-def report_stage(block: Any) -> None:
+def report_stage(block: Block) -> None:
     """Compute the values that need frames, stretches and their integrals.
 
     The stresslet is S = V μ_f dev sym s̃(d, w), the body's extra stress times volume (Batchelor 1970), where
@@ -265,7 +265,7 @@ def report_stage(block: Any) -> None:
         store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))
 
 
-def drop_stage(block: Any) -> None:
+def drop_stage(block: Block) -> None:
     """Replace the stresslet by that of drops."""
     for i in range(LANES):
         l, R = load9(block, at.l, i), block[at.R * LANES + i]

@@ -42,7 +42,7 @@ from foamprb.cloud.block import (
     store9,
 )
 from foamprb.cloud.contact import first_contact, gap_of_lane, on_cubic, record_contact, slope_on_cubic
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Reason, Status
 from foamprb.compile.link import separate, slot
@@ -119,7 +119,7 @@ def conclude(s: Scratch, i: int, code: int) -> None:
     s.status[i], s.reason[i] = code // _CODE, code % _CODE
 
 
-def are_finite(block: Any, i: int, row: int, end: int) -> bool:
+def are_finite(block: Block, i: int, row: int, end: int) -> bool:
     """Return True if lane i has finite numbers in the rows from ``row`` to before ``end``."""
     total = 0.0
     for k in range(row, end):
@@ -133,12 +133,12 @@ def fail_small_step(s: Scratch, i: int) -> None:
 
 
 @slot
-def turn_along(_block: Any, _i: int, _turn: Tensor) -> None:
+def turn_along(_block: Block, _i: int, _turn: Tensor) -> None:
     """No-op: no further quantity of lane i turns with the particle."""
 
 
 @slot
-def bounce_along(_block: Any, _i: int, _n: Vector) -> None:
+def bounce_along(_block: Block, _i: int, _n: Vector) -> None:
     """No-op: no further quantity of lane i is reflected by a wall of normal n."""
 
 
@@ -150,7 +150,7 @@ def form_bond(
 
 
 @slot
-def rewind(_block: Any, _i: int, _f: float) -> None:
+def rewind(_block: Block, _i: int, _f: float) -> None:
     """No-op: the shape in lane i stays that at the end of the step, not after the fraction f of it."""
 
 
@@ -392,11 +392,11 @@ def note_passage(crossed: Any, i: int, t: float, x: Vector, y: Vector) -> None:
 
 
 @slot
-def mirror_memory(_block: Any, _i: int, _turn: Tensor) -> None:
+def mirror_memory(_block: Block, _i: int, _turn: Tensor) -> None:
     """No-op: the solid has no memory."""
 
 
-def mirror_body(block: Any, i: int, n: Vector) -> Tensor:
+def mirror_body(block: Block, i: int, n: Vector) -> Tensor:
     """Mirror the shape of lane i in a plane of normal n; return the reflection."""
     turn = (
         1.0 - 2.0 * n[0] * n[0], -2.0 * n[0] * n[1], -2.0 * n[0] * n[2],
@@ -414,7 +414,7 @@ def mirror_body(block: Any, i: int, n: Vector) -> Tensor:
     return turn
 
 
-def turn_body(block: Any, i: int, turn: Tensor, F: Tensor, A: Tensor) -> None:
+def turn_body(block: Block, i: int, turn: Tensor, F: Tensor, A: Tensor) -> None:
     """Store turn·F and turn·A in lane i."""
     store9(block, at.F, i, dot(turn, F))
     store9(block, at.A, i, dot(turn, A))

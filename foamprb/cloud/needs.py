@@ -6,18 +6,16 @@ linear in time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, between, scale
 from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, viscosity_at
 from foamprb.cloud.forces import SAMPLE, STATE, Force, no_values, store_fields
 from foamprb.cloud.integrators.adaptive import during
-from foamprb.cloud.layout import LANES, Row
-from foamprb.cloud.surroundings.base import Surrounding, Traits
-from foamprb.compile.link import bound
+from foamprb.cloud.layout import LANES, MOST_FIELDS, Block, Row, offsets
+from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.fields import FieldArrays, FieldColumns, blend_fields, width
 from foamprb.flow.walk import blend
@@ -27,16 +25,14 @@ _FIRST = {"u": (0, 3), "grad(u)": (3, 9)}
 _FLUID_ROWS = 12
 
 
-class _Offsets(NamedTuple):
-    """Rows at the start and at the end of a step, as :class:`Needed` declares them."""
+class NeededRows(NamedTuple):
+    """The fluid's u and ∇u, and fields of the case, on a step."""
 
-    start: int
-    end: int
+    start: Annotated[int, Row(_FLUID_ROWS + MOST_FIELDS, "", "at the start")]
+    end: Annotated[int, Row(_FLUID_ROWS + MOST_FIELDS, "", "at the predicted end")]
 
 
-needed = _Offsets(0, 0)
-FIRST = 0
-"""First row of one value, behind those offsets; bound with its reader."""
+needed = offsets(NeededRows)
 
 
 def sample_start(
@@ -66,7 +62,7 @@ def _store(s: Scratch, i: int, row: int, host: int, x: Vector, t: float, u: Vect
 
 
 def store_case_fields(
-    fields: FieldArrays, block: Any, i: int, row: int, host: int, x: Vector, t: float
+    fields: FieldArrays, block: Block, i: int, row: int, host: int, x: Vector, t: float
 ) -> None:
     """Store the fields of the case at x and t."""
     before, after, w, share = blend_fields(fields, host, x, t)
@@ -80,42 +76,54 @@ def store_case_fields(
 # Values for the force, at the share ``gone`` of the step
 
 
-def _scalar(block: Any, i: int, _medium: Medium) -> Scalar:
-    a, b = block[(needed.start + FIRST) * LANES + i], block[(needed.end + FIRST) * LANES + i]
-    return a + block[at.gone * LANES + i] * (b - a)
+def _scalar(a: int, b: int) -> Callable[..., Any]:
+    """Return a function that reads a number from rows a and b, and so on."""
+
+    def read(block: Block, i: int, _medium: Medium) -> Scalar:
+        start, end = block[a * LANES + i], block[b * LANES + i]
+        return start + block[at.gone * LANES + i] * (end - start)
+
+    return read
 
 
-def _vector(block: Any, i: int, _medium: Medium) -> Vector:
-    a, b = load3(block, needed.start + FIRST, i), load3(block, needed.end + FIRST, i)
-    return between(a, b, block[at.gone * LANES + i])
+def _vector(a: int, b: int) -> Callable[..., Any]:
+    def read(block: Block, i: int, _medium: Medium) -> Vector:
+        return between(load3(block, a, i), load3(block, b, i), block[at.gone * LANES + i])
+
+    return read
 
 
-def _tensor(block: Any, i: int, _medium: Medium) -> Tensor:
-    a, b = load9(block, needed.start + FIRST, i), load9(block, needed.end + FIRST, i)
-    return add(a, scale(block[at.gone * LANES + i], add(b, scale(-1.0, a))))
+def _tensor(a: int, b: int) -> Callable[..., Any]:
+    def read(block: Block, i: int, _medium: Medium) -> Tensor:
+        start, end = load9(block, a, i), load9(block, b, i)
+        return add(start, scale(block[at.gone * LANES + i], add(end, scale(-1.0, start))))
+
+    return read
 
 
-def _symmetric(block: Any, i: int, _medium: Medium) -> Tensor:
-    a, b = needed.start + FIRST, needed.end + FIRST
-    gone = block[at.gone * LANES + i]
-    xx, yy, zz = between(load3(block, a, i), load3(block, b, i), gone)
-    xy, yz, xz = between(load3(block, a + 3, i), load3(block, b + 3, i), gone)
-    return xx, xy, xz, xy, yy, yz, xz, yz, zz
+def _symmetric(a: int, b: int) -> Callable[..., Any]:
+    def read(block: Block, i: int, _medium: Medium) -> Tensor:
+        gone = block[at.gone * LANES + i]
+        xx, yy, zz = between(load3(block, a, i), load3(block, b, i), gone)
+        xy, yz, xz = between(load3(block, a + 3, i), load3(block, b + 3, i), gone)
+        return xx, xy, xz, xy, yy, yz, xz, yz, zz
+
+    return read
 
 
-def _velocity(block: Any, i: int, _medium: Medium) -> Vector:
+def _velocity(block: Block, i: int, _medium: Medium) -> Vector:
     return choose3(block[at.gone * LANES + i] > 0.0, load3(block, at.new_v, i), load3(block, at.v, i))
 
 
-def _last_velocity(block: Any, i: int, _medium: Medium) -> Vector:
+def _last_velocity(block: Block, i: int, _medium: Medium) -> Vector:
     return load3(block, at.v, i)
 
 
-def _viscosity(block: Any, i: int, medium: Medium) -> Scalar:
+def _viscosity(block: Block, i: int, medium: Medium) -> Scalar:
     return viscosity_at(block, i, medium)
 
 
-def _shape(block: Any, i: int, _medium: Medium) -> Tensor:
+def _shape(block: Block, i: int, _medium: Medium) -> Tensor:
     return load9(block, at.new_F, i)
 
 
@@ -123,12 +131,11 @@ _READERS = {1: _scalar, 3: _vector, 6: _symmetric, 9: _tensor}
 """By the number of rows."""
 
 
-def _then_read(block: Any, i: int, medium: Medium) -> tuple[Any, ...]:
-    return *others(block, i, medium), value(block, i, medium)
+def _then(others: Callable[..., Any], value: Callable[..., Any]) -> Callable[..., Any]:
+    def read(block: Block, i: int, medium: Medium) -> tuple[Any, ...]:
+        return *others(block, i, medium), value(block, i, medium)
 
-
-others: Any = no_values
-value: Any = _scalar
+    return read
 
 
 def reader_of(force: Force, columns: Sequence[FieldColumns], inertia: bool) -> Callable[..., Any]:
@@ -144,8 +151,8 @@ def reader_of(force: Force, columns: Sequence[FieldColumns], inertia: bool) -> C
             one = of_body[name]
         else:
             first, n = places[name]
-            one = bound(_READERS[n], FIRST=first)
-        read = bound(_then_read, others=read, value=one)
+            one = _READERS[n](needed.start + first, needed.end + first)
+        read = _then(read, one)
     return read
 
 
@@ -155,26 +162,23 @@ class Needed(Surrounding):
 
     columns: tuple[FieldColumns, ...]
 
-    traits: ClassVar = Traits(each_step=False)
-    update: ClassVar = staticmethod(sample_start)
-    look: ClassVar = staticmethod(sample_end)
+    each_step: ClassVar = False
+    stages: ClassVar = (
+        Stage("start", sample_start, writes=(needed.start,), before=(at.u, at.l)),
+        Stage("ahead", sample_end, writes=(needed.end,)),
+    )
 
-    @property
-    def rows(self) -> Mapping[str, type[tuple[int, ...]]]:  # type: ignore[override]
-        """The same number of rows at the start and at the end of a step."""
-        return {"needed": _declaration(_FLUID_ROWS + width(self.columns))}
+    rows: ClassVar = (NeededRows,)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+    def __post_init__(self) -> None:
+        if width(self.columns) > MOST_FIELDS:
+            raise InputError(
+                f"forces need {width(self.columns)} components of fields of the case. Allowed: {MOST_FIELDS}"
+            )
+
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return the function that samples fields, if there are some."""
-        return {"store_fields": store_case_fields} if self.columns else {}
-
-
-@cache
-def _declaration(n: int) -> type[tuple[int, ...]]:
-    meaning = "fluid's u and grad u, and fields of the case, at the {} of a step"
-    fields = [(name, Annotated[int, Row(n, "", meaning.format(name))]) for name in _Offsets._fields]
-    made: Any = NamedTuple("NeededRows", fields)  # type: ignore[misc]
-    return made
+        return {store_fields: store_case_fields} if self.columns else {}
 
 
 def needed_by(forces: Sequence[Force], columns: Sequence[FieldColumns]) -> tuple[Needed, ...]:

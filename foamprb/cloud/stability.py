@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import integrals
 from foamprb.body.explicit_limit import is_stable, safe_step
-from foamprb.body.material import MATERIALS, finger, metric_at_rest
+from foamprb.body.material import MATERIALS, derivatives, finger, metric_at_rest
 from foamprb.body.rosenbrock import elasticity, kirchhoff
 from foamprb.body.tensor import (
     Tensor,
@@ -80,7 +80,7 @@ def _limits(p: Particles, mu_f: Floats, dt: float, material: str) -> Floats:
         if len(rows):
             part, longest = p.take(rows), np.empty(len(rows))
             shapes = part.F + steps * dt * part.A
-            loop = link(_find_limits, {"derivatives": MATERIALS[material].derivatives})
+            loop = link(_find_limits, {derivatives: MATERIALS[material].derivatives})
             loop(shapes, part.F0, part.R, part.rho, part.mu, part.lame, part.k, part.eta,
                  mu_f[rows], dt, longest)  # fmt: skip
             limits[rows] = np.minimum(limits[rows], longest)

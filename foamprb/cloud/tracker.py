@@ -12,24 +12,16 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.drag import DRAGS
+from foamprb.body.drag import DRAGS, drag
 from foamprb.body.ellipsoid import COMPACT
-from foamprb.body.error_control import strain_in_frame
-from foamprb.body.material import MATERIALS, finger, finger_in_frame
-from foamprb.body.rosenbrock import (
-    elasticity_by_dilation,
-    extra_elasticity_by_dilation,
-    extra_stress,
-    functions_by_stress,
-    kirchhoff,
-)
-from foamprb.body.surface_tension import laplace_stress
-from foamprb.body.traction import TRACTIONS
+from foamprb.body.material import MATERIALS
+from foamprb.body.traction import TRACTIONS, traction
 from foamprb.cloud.adhesion import Adhesion
 from foamprb.cloud.block import Medium, Scratch, new_scratch
-from foamprb.cloud.contact import CROWDED, contact_normals, gaps, in_order, no_mode
-from foamprb.cloud.drops import DROP_BINDINGS
-from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
+from foamprb.cloud.contact import CROWDED, GAPS, contact_normals, gap, in_order
+from foamprb.cloud.drops import DROP
+from foamprb.cloud.elastic import functions_of_solid
+from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose, sum_of_forces
 from foamprb.cloud.instants import Moments, instants_of
 from foamprb.cloud.integrators.adaptive import sampling, stretch_of
 from foamprb.cloud.integrators.registry import INTEGRATORS
@@ -48,8 +40,8 @@ from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticRows, QuadraticSolid
 from foamprb.cloud.viscosity import model_of
-from foamprb.compile.link import is_compiled, link, linked, packed, read_by
-from foamprb.errors import InputError, closest
+from foamprb.compile.link import is_compiled, link, packed
+from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
 from foamprb.flow.fields import FieldColumns, Fields, fields_on, width
@@ -178,27 +170,7 @@ class Tracker:
         end: float = np.inf,
     ) -> None:
         self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches, columns, end
-        bindings: dict[str, Any] = {}
-        bindings["traction"] = TRACTIONS[models.traction]
-        bindings["drag"] = DRAGS[models.drag]
         material = MATERIALS[models.material]
-        bindings["derivatives"] = material.derivatives
-        if material.dilation is not None:
-            bindings["dilation"] = material.dilation
-            bindings["elasticity"] = elasticity_by_dilation
-            bindings["extra_elasticity"] = extra_elasticity_by_dilation
-        # The elastic strain of a sphere without memory is diagonal in its particle frame.
-        if shaped or models.has_memory:
-            bindings |= {"finger": finger, "finger_in_frame": finger_in_frame}
-            bindings |= {"kirchhoff": kirchhoff, "extra_stress": extra_stress}
-        else:
-            bindings["strain_by"] = strain_in_frame
-        if material.stress is not None:
-            bindings |= functions_by_stress(material.stress)
-        if tense:
-            bindings["interface"] = laplace_stress
-        if material.liquid:
-            bindings |= DROP_BINDINGS
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.mu = medium.mu
         adheres = any(isinstance(interaction, Adhere) for interaction in interactions)
@@ -215,18 +187,16 @@ class Tracker:
         around = (*model_of(medium.mu), *needed, largest, *others)
         self.layout = layout = surroundings.with_rows(integrator.layout, around)
         composed = surroundings.compose(around, patches, integrator.inertia)
-        bindings |= integrator.bindings
-        bindings |= compose(models.forces, partial(reader_of, columns=columns, inertia=integrator.inertia))
-        bindings |= composed.bindings
-        gap = gap_free if models.touching == "centre" else kernels["gap"]
-        mode_in, mode_of = bindings.pop("mode_in", no_mode), bindings.pop("mode_of", no_mode)
-        self.slots = {
-            load_rows: layout.load, save_rows: layout.save, **behind(kernels), **gaps(gap, mode_in, mode_of),
-            **sampling(kernels), **integrator.slots, **composed.slots,
+        # The elastic strain of a sphere without memory is diagonal in its particle frame.
+        general = shaped or models.has_memory
+        reader = partial(reader_of, columns=columns, inertia=integrator.inertia)
+        self.slots: dict[Callable[..., Any], Callable[..., Any]] = {
+            load_rows: layout.load, save_rows: layout.save, **behind(kernels), **sampling(kernels), **GAPS,
+            gap: gap_free if models.touching == "centre" else kernels["gap"],
+            traction: TRACTIONS[models.traction], drag: DRAGS[models.drag],
+            **functions_of_solid(material, general, tense), **(DROP if material.liquid else {}),
+            sum_of_forces: compose(models.forces, reader), **integrator.slots, **composed.slots,
         }  # fmt: skip
-        # The models offer more than every loop reads.
-        self.bindings = read_by(integrator.track, bindings, self.slots)
-        self._of_normals = read_by(contact_normals, bindings, self.slots)
         self.kernels = kernels
         self.switches = integrator.switches._replace(**composed.switches)
         self.table = _patch_table(interactions, medium.mu)
@@ -245,7 +215,7 @@ class Tracker:
         self.dt, self.start, self.end = dt, start, end
         # Surroundings may change, or draw random numbers, in each tracking step.
         free = integrator.adaptive and models.tolerance < np.inf
-        self.stride = models.stride if free and not any(m.traits.each_step for m in around) else 1
+        self.stride = models.stride if free and not any(m.each_step for m in around) else 1
         """Longest step in tracking steps; None for any."""
         self.stretch_steps = stretch_of(self.stride)
         """Multiple of steps at which a run may be cut into calls without any change of its results."""
@@ -271,7 +241,7 @@ class Tracker:
         rows = [row for part in self.layout.parts for row in rows_of(type(part)).values()]
         saved = {row.of for row in rows if row.saved} | {"status", "reason", "patch", "host"}
         # Only mirrors change shapes at rest.
-        mirrors = MIRROR in self.table.code or any(m.traits.mirrors for m in self._made_of[0].surroundings)
+        mirrors = MIRROR in self.table.code or any(m.mirrors for m in self._made_of[0].surroundings)
         return frozenset(saved if mirrors else saved - {"F0"})
 
     def linked(self, flow: Any, fields: Any) -> Any:
@@ -280,7 +250,7 @@ class Tracker:
         # Linking costs as much as some thousands of steps.
         if self._loop is None or layouts != self._layouts:
             self._layouts = layouts
-            self._loop = link(self.integrator.track, self.bindings, self.slots, **layouts)
+            self._loop = link(self.integrator.track, self.slots, **layouts)
         return self._loop
 
     @property
@@ -455,7 +425,7 @@ class Tracker:
         normals = np.empty((len(rows), 3))
         flow = packed(flow)
         layout = getattr(flow, "layout", None)
-        link(contact_normals, self._of_normals, self.slots, flow=layout)(flow, p, rows, normals)
+        link(contact_normals, self.slots, flow=layout)(flow, p, rows, normals)
         return normals
 
     def take_rebounds(self) -> NDArray[np.float64]:
@@ -596,22 +566,6 @@ def check(models: Models, tense: bool) -> None:
     for model in models.surroundings:
         if reason := model.refuses(integrator, liquid):
             raise InputError(reason)
-        _check_names(model)
-
-
-def _check_names(model: Surrounding) -> None:
-    """Raise NameError if a model binds a name that no loop reads, and whose function no loop would call."""
-    bound, names_read = set[str](), set[str]()
-    for integrator in INTEGRATORS.values():
-        composed = surroundings.compose([model], (), integrator.inertia)
-        slots = {**integrator.slots, **composed.slots}
-        functions = linked(integrator.track, {**integrator.bindings, **composed.bindings}, slots)
-        bound.update(composed.bindings.keys() - model.rows.keys())
-        names_read.update(*(function.__globals__ for function in functions))
-    for name in sorted(bound - names_read - {"mode_in", "mode_of"}):
-        meant = closest(name, names_read)
-        question = f". Did you mean {meant}?" if meant else ""
-        raise NameError(f"{type(model).__name__} binds {name}, a name that no loop reads{question}")
 
 
 def _patch_table(interactions: Sequence[Interaction], mu_f: Any) -> PatchTable:

@@ -8,7 +8,7 @@ evaluates it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
 
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import foamprb.body.viscosity as laws
+from foamprb.body.choice import choice
 from foamprb.body.tensor import (
     Scalar,
     inner,
@@ -24,10 +25,20 @@ from foamprb.body.tensor import (
     select,
 )
 from foamprb.body.viscosity import shear_rate
-from foamprb.cloud.block import LocalMedium, Medium, Scratch, at, load3, load9, store3
-from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.block import (
+    LocalMedium,
+    Medium,
+    Scratch,
+    at,
+    load3,
+    load9,
+    local_medium,
+    store3,
+    viscosity_at,
+)
+from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Surrounding, Traits
+from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding
 from foamprb.compile.link import traced
 from foamprb.flow.base import Patch, Sampled
 from foamprb.flow.kernels import viscosity
@@ -65,23 +76,24 @@ mixture = offsets(MixtureRows)
 """The same of a mixture."""
 
 
-def felt_viscosity(block: Any, i: int, _medium: Medium) -> Scalar:
+def felt_viscosity(block: Block, i: int, _medium: Medium) -> Scalar:
     """Return μ_f at the barycentre of lane i, Pa s."""
     return block[fluid.mu_f * LANES + i]
 
 
-def mixed_medium(block: Any, i: int, medium: Medium) -> LocalMedium:
+def mixed_medium(block: Block, i: int, medium: Medium) -> LocalMedium:
     """Return the medium with ρ_f at the barycentre of lane i."""
     return LocalMedium(medium.mu, block[mixture.rho_f * LANES + i], medium.gravity, medium.forces)
 
 
-def law(_rate: Scalar) -> Scalar:
-    """Stand-in of the law of a fluid."""
+@choice
+def law(_rate: Scalar, *_coefficients: Scalar) -> Scalar:
+    """Return μ_f at a shear rate by the law of the fluid, Pa s."""
     raise NotImplementedError
 
 
 @traced
-def evaluate_law(block: Any, _medium: Medium, _share: float, coefficients: Any) -> None:
+def evaluate_law(block: Block, _medium: Medium, _share: float, coefficients: Any) -> None:
     """Compute μ_f of all lanes from the velocity gradient of the flow."""
     for i in range(LANES):
         rate = shear_rate(load9(block, at.l, i))
@@ -105,13 +117,13 @@ def sample_field(
     store3(block, fluid.mu_slope, i, scale_vector(coefficients[0], slope))
 
 
-def _middle(block: Any, i: int, remaining: float) -> float:
+def _middle(block: Block, i: int, remaining: float) -> float:
     """Return the middle of the time of a step, so that the error of a constant value is of second order."""
     return block[at.t * LANES + i] + (0.5 * block[at.dt * LANES + i] if remaining > 0.0 else 0.0)  # type: ignore[no-any-return]
 
 
 @traced
-def evaluate_field(block: Any, _medium: Medium, share: float, _coefficients: Any) -> None:
+def evaluate_field(block: Block, _medium: Medium, share: float, _coefficients: Any) -> None:
     """Compute μ_f of all lanes on their way, from the field where their steps start."""
     for i in range(LANES):
         mu = block[fluid.mu_there * LANES + i]
@@ -132,7 +144,7 @@ def sample_fraction(
     store_mixture(block, i, a, coefficients)
 
 
-def store_mixture(block: Any, i: int, fraction: Scalar, coefficients: Any) -> None:
+def store_mixture(block: Block, i: int, fraction: Scalar, coefficients: Any) -> None:
     """Store μ_f and ρ_f of lane i."""
     a = np.maximum(0.0, np.minimum(1.0, fraction))
     mu, other_mu, rho, other_rho = coefficients
@@ -141,7 +153,7 @@ def store_mixture(block: Any, i: int, fraction: Scalar, coefficients: Any) -> No
 
 
 @traced
-def evaluate_mixture(block: Any, _medium: Medium, share: float, coefficients: Any) -> None:
+def evaluate_mixture(block: Block, _medium: Medium, share: float, coefficients: Any) -> None:
     """Compute μ_f and ρ_f of all lanes on their way."""
     for i in range(LANES):
         # At the start of a step new_x is not known.
@@ -154,9 +166,9 @@ def evaluate_mixture(block: Any, _medium: Medium, share: float, coefficients: An
 class VaryingViscosity(Surrounding):
     """A viscosity that varies in the flow."""
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return the functions that read its rows."""
-        return {"viscosity_at": felt_viscosity}
+        return {viscosity_at: felt_viscosity}
 
     def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:
         """Return μ_f, (n,), Pa s, at points in their hosts and the shear rates there, at time t, s."""
@@ -175,10 +187,12 @@ class VaryingViscosity(Surrounding):
 class RateViscosity(laws.RateLaw, VaryingViscosity):
     """A law of the shear rate."""
 
-    rows: ClassVar = {"fluid": ViscosityRows}
-    traits: ClassVar = Traits(each_step=False)
-    update: ClassVar = staticmethod(start_law)
-    prepare: ClassVar = staticmethod(evaluate_law)
+    rows: ClassVar = (ViscosityRows,)
+    each_step: ClassVar = False
+    stages: ClassVar = (
+        Stage("start", start_law, writes=(fluid.mu_f,), before=(at.l,)),
+        Stage("properties", evaluate_law, writes=(fluid.mu_f,), before=(at.l,)),
+    )
 
     @classmethod
     def of_kinematic(cls, coefficients: Mapping[str, float], rho: float) -> Self:
@@ -190,9 +204,9 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
         """Return the coefficients of the law."""
         return tuple(map(float, astuple(self)))
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
+    def slots(self, inertia: bool) -> Slots:
         """Return also the law."""
-        return {**super().bindings(inertia), "law": type(self).law}
+        return {**super().slots(inertia), law: type(self).law}
 
     def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:  # noqa: ARG002
         """See :meth:`VaryingViscosity.of`."""
@@ -245,10 +259,12 @@ class FieldViscosity(VaryingViscosity):
     mean: float
     """Mean over the cells, Pa s."""
 
-    rows: ClassVar = {"fluid": FieldRows}
-    traits: ClassVar = Traits(kernels=("viscosity",))
-    update: ClassVar = staticmethod(sample_field)
-    prepare: ClassVar = staticmethod(evaluate_field)
+    rows: ClassVar = (FieldRows,)
+    kernels: ClassVar = ("viscosity",)
+    stages: ClassVar = (
+        Stage("start", sample_field, writes=(fluid.mu_f,)),
+        Stage("properties", evaluate_field, writes=(fluid.mu_f,)),
+    )
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return the factor."""
@@ -278,14 +294,16 @@ class PhaseMixture(VaryingViscosity):
     mean: float
     """Mean viscosity over the cells, Pa s."""
 
-    rows: ClassVar = {"mixture": MixtureRows}
-    traits: ClassVar = Traits(kernels=("viscosity",))
-    update: ClassVar = staticmethod(sample_fraction)
-    prepare: ClassVar = staticmethod(evaluate_mixture)
+    rows: ClassVar = (MixtureRows,)
+    kernels: ClassVar = ("viscosity",)
+    stages: ClassVar = (
+        Stage("start", sample_fraction, writes=(fluid.mu_f, mixture.rho_f)),
+        Stage("properties", evaluate_mixture, writes=(fluid.mu_f, mixture.rho_f)),
+    )
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
+    def slots(self, inertia: bool) -> Slots:
         """Return also the density."""
-        return {**super().bindings(inertia), "local_medium": mixed_medium}
+        return {**super().slots(inertia), local_medium: mixed_medium}
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return viscosities and densities."""

@@ -7,8 +7,9 @@ all of them with numba. The plain functions stay callable, on floats or on numpy
 Most functions are inlined in their callers. Three kinds are machine code of their own, which callers find by
 a name, and are compiled once however many loops call them: :func:`traced` stages, :func:`separate` functions,
 and those behind a :func:`slot`. A slot is a function that another one replaces: a model, an integrator's
-stage, a kernel of a flow. Callers of a slot are not compiled again when what is behind it changes. Within a
-stage, a model (a traction, a drag law) is bound to the name by which the stage calls it.
+stage, a kernel of a flow. Callers of a slot are not compiled again when what is behind it changes. A formula
+of a stage that a model replaces (a traction, a drag law) is a :func:`foamprb.body.choice.choice`: what is
+behind it is inlined.
 
 With ``NUMBA_DISABLE_JIT=1`` nothing is compiled: the same functions run in the interpreter, for a debugger.
 """
@@ -33,6 +34,7 @@ from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar
 
 import numpy as np
 
+from foamprb.body.choice import CHOICE
 from foamprb.body.tensor import select
 from foamprb.compile.cache import Store
 from foamprb.compile.part import Keys, Part
@@ -43,7 +45,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "allocating",
-    "bound",
     "compiled",
     "conform",
     "is_compiled",
@@ -52,7 +53,6 @@ __all__ = [
     "link",
     "linked",
     "packed",
-    "read_by",
     "separate",
     "slot",
     "traced",
@@ -88,7 +88,6 @@ _OPTIONS_OF: dict[Role, dict[str, Any]] = {
 
 def link(
     entry: Callable[..., Any],
-    bindings: Mapping[str, Any] | None = None,
     slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None,
     **layouts: Any,
 ) -> Any:
@@ -97,61 +96,46 @@ def link(
     Parameters
     ----------
     entry
-        A plain function whose callees are module globals (imported by name, not as ``module.name``). What a
-        function captures from the one around it, or has as defaults, are numbers, or tuples of numbers.
-    bindings
-        Functions and constants to put under a global name that ``entry`` or its callees use, e.g.
-        ``{"traction": roscoe}``.
+        A plain function whose callees are module globals (imported by name, not as ``module.name``), or
+        captured from the function around it. What else a function captures, or has as defaults, are
+        numbers, or tuples of numbers.
     slots
-        Functions behind :func:`slot`; others have their defaults.
+        Functions behind a :func:`slot` or a :func:`foamprb.body.choice.choice`, e.g. ``{traction: jeffery}``;
+        others have their defaults. It may have more than ``entry`` reaches.
     layouts
         By the name of the first parameter of :func:`kernel` functions, the ``layout`` of the :func:`packed`
         argument with which ``entry`` will be called.
 
     Returns
     -------
-    A numba dispatcher. Equal code with equal bindings is compiled once per process; the entry and its
-    callees that are machine code of their own are saved in :mod:`foamprb.compile.cache`, under keys made of
-    the code of every function that was linked. Of callees with machine code of their own the key contains
-    the names only: an entry that differs in these alone is not compiled again.
+    A numba dispatcher. Equal code with equal functions behind its slots is compiled once per process; the
+    entry and its callees that are machine code of their own are saved in :mod:`foamprb.compile.cache`, under
+    keys made of the code of every function that was linked. Of callees with machine code of their own the key
+    contains the names only: an entry that differs in these alone is not compiled again.
 
     Raises
     ------
-    NameError
-        If no linked function reads a name in ``bindings`` (:func:`read_by` selects from a larger set).
+    ValueError
+        If a function in ``slots`` is not one that may be replaced.
     """
     from foamprb.compile.record_type import register_records
 
     register_records()
-    bindings, slots = dict(bindings or {}), dict(slots or {})
-    unread = bindings.keys() - read_by(entry, bindings, slots).keys()
-    if unread:
-        names = ", ".join(sorted(unread))
-        raise NameError(f"{entry.__qualname__} is bound to {names}, a name that no linked function reads")
-    return _link(entry, _Linkage(bindings, slots, layouts), "entry").dispatcher
+    slots = dict(slots or {})
+    for function in slots:
+        if not (hasattr(function, _SLOT) or hasattr(function, CHOICE)):
+            raise ValueError(f"{function.__module__}.{function.__qualname__} is no slot and no choice")
+    return _link(entry, _Linkage(slots, layouts), "entry").dispatcher
 
 
 @cache
 def compiled(entry: Callable[..., Any]) -> Any:
-    """Return :func:`link` of a function without bindings, once per process."""
+    """Return :func:`link` of a function with the defaults of all slots, once per process."""
     return link(entry)
 
 
-def read_by(
-    entry: Callable[..., Any],
-    bindings: Mapping[str, Any],
-    slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None,
-) -> dict[str, Any]:
-    """Return the bindings whose names ``entry`` or a function linked with it reads."""
-    functions = linked(entry, bindings, slots)
-    names_read = {name for function in functions for name in _global_names(function.__code__)}
-    return {name: value for name, value in bindings.items() if name in names_read}
-
-
 def linked(
-    entry: Callable[..., Any],
-    bindings: Mapping[str, Any],
-    slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None,
+    entry: Callable[..., Any], slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None
 ) -> Collection[Callable[..., Any]]:
     """Return ``entry`` and the functions that are linked with it."""
     slots = slots or {}
@@ -159,20 +143,14 @@ def linked(
     pending = [entry]
     while pending:
         function = pending.pop()
-        for name in _global_names(function.__code__):
-            value = bindings.get(name, function.__globals__.get(name))
+        read = [function.__globals__.get(name) for name in _global_names(function.__code__)]
+        for value in (*read, *_captured(function)):
             if _is_linked(value):
                 value = slots.get(value, value)
                 if value not in reached:
                     reached.add(value)
                     pending.append(value)
     return reached
-
-
-def bound(function: Callable[..., Any], **names: Callable[..., Any] | int) -> Callable[..., Any]:
-    """Return a copy of a plain function, with other functions or constants behind some of its names."""
-    assert isinstance(function, FunctionType)
-    return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
 
 
 def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
@@ -244,7 +222,6 @@ def is_compiled(dispatcher: Any) -> bool:
 class _Linkage:
     """Arguments of :func:`link` that hold for all functions, and the functions that are linked already."""
 
-    bindings: dict[str, Any]
     slots: dict[Callable[..., Any], Callable[..., Any]] = field(default_factory=dict)
     layouts: dict[str, Any] = field(default_factory=dict)
     """Types of packed arguments."""
@@ -290,22 +267,17 @@ def _has_another_name(keys: Keys, linkage: _Linkage) -> bool:
     )
 
 
-def _link_callee(name: str, function: Callable[..., Any], linkage: _Linkage) -> Part:
+def _link_callee(function: Callable[..., Any], linkage: _Linkage) -> Part:
     """Return a function that others call by a name."""
     called = f"{function.__module__}.{function.__qualname__}"
+    implementation = linkage.slots.get(function, function)
     if hasattr(function, _SLOT):
-        implementation = linkage.slots.get(function, function)
         # A default reads nothing of its packed argument.
         if hasattr(function, _PACKED) and implementation is not function:
             implementation = _unpacking(function, implementation, linkage.layouts)
         return _link(implementation, linkage, _role_of(implementation), called)
-    if hasattr(function, TRACED) and name in linkage.bindings:
-        # A name that is not bound may mean other functions elsewhere.
-        called = name
-    own = hasattr(function, TRACED) or hasattr(function, _SEPARATE) or hasattr(function, _ALLOCATES)
-    return (
-        _link(function, linkage, _role_of(function), called) if own else _link(function, linkage, "inlined")
-    )
+    own = any(hasattr(implementation, mark) for mark in (TRACED, _SEPARATE, _ALLOCATES))
+    return _link(implementation, linkage, *((_role_of(implementation), called) if own else ("inlined",)))
 
 
 def _role_of(function: Callable[..., Any]) -> Role:
@@ -359,17 +331,17 @@ def _link_once(
         return _link_select()
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     names: dict[str, Any] = {}
-    captured = [cell.cell_contents for cell in function.__closure__ or ()]
+    parts = [_link_callee(value, linkage) if _is_linked(value) else value for value in _captured(function)]
     is_traced = hasattr(function, TRACED)
     defaults, layout = function.__defaults__, getattr(function, "layout", "")
     identity = f"{role} {function.__module__} {function.__qualname__} {defaults!r} {layout} {apart}"
-    code = f"{_fingerprint(function.__code__).hex()} {captured!r} {is_traced}"
+    code = f"{_fingerprint(function.__code__).hex()} {is_traced}"
     described = [Keys(identity, identity), Keys(code, code)]
+    described += [part.keys if isinstance(part, Part) else Keys(repr(part), repr(part)) for part in parts]
     for name in sorted(_global_names(function.__code__)):
-        value = linkage.bindings.get(name, function.__globals__.get(name))
-        text = ""
+        value, text = function.__globals__.get(name), ""
         if _is_linked(value):
-            part = _link_callee(name, value, linkage)
+            part = _link_callee(value, linkage)
             names[name] = part.dispatcher
             described.append(Keys(*(f"{name}={key}" for key in part.keys)))
         elif isinstance(value, int | float | tuple):
@@ -380,10 +352,10 @@ def _link_once(
         described.append(Keys(text, text))
     keys = Keys(*map(key_of, zip(*described, strict=True)))
     if keys.full not in _dispatchers:
-        cells = tuple(CellType(_constant(value)) for value in captured)
+        cells = tuple(CellType(p.dispatcher if isinstance(p, Part) else _constant(p)) for p in parts)
         scope = {**function.__globals__, **names}
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, cells)
-        # Code is linked by name, and another process may have bound another model to the same name.
+        # Code is linked by name, and another process may have put another model behind the same one.
         clone.__qualname__ = f"{function.__qualname__}_{keys.full}"
         clone.__module__ = function.__module__
         if is_traced:
@@ -398,6 +370,11 @@ def key_of(texts: Iterable[str]) -> str:
     """Return a hash of texts, of the versions and options of the compiler, and of the processor."""
     compiler = _compiler(plain=_internals() is None)
     return hashlib.sha256(";".join((compiler, *texts)).encode()).hexdigest()[:24]
+
+
+def _captured(function: Callable[..., Any]) -> list[Any]:
+    """Return what a function captures from the one around it."""
+    return [cell.cell_contents for cell in function.__closure__ or ()]
 
 
 def _is_linked(value: Any) -> TypeGuard[FunctionType]:

@@ -420,7 +420,8 @@ def _plain(function: Callable[..., Any], code: Code, made: dict[Hashable, Any]) 
     text = function.__code__
     if function not in made:
         scope: dict[str, Any] = {"range": partial(_range, code)}
-        cells = tuple(CellType(cell.cell_contents) for cell in function.__closure__ or ())
+        captured = zip(text.co_freevars, function.__closure__ or (), strict=True)
+        cells = tuple(CellType(_stand_in(name, cell.cell_contents, code, made)) for name, cell in captured)
         made[function] = FunctionType(text, scope, function.__name__, function.__defaults__, cells)
         for name in text.co_names:
             if name in function.__globals__:

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, add, scale
-from foamprb.compile.link import bound
 from foamprb.errors import InputError
 from foamprb.flow import channels
 from foamprb.flow import posts as arrays_of_posts
@@ -201,52 +200,43 @@ class FunctionArrays(NamedTuple):
     time: float
 
 
-def velocity(x: float, y: float, z: float, t: float) -> tuple[float, float, float]:
-    """Placeholder for a user's function, which :func:`function` binds."""
-    raise NotImplementedError
+def _steady(of_place: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function of place and time from one of the place."""
+
+    def velocity(x: float, y: float, z: float, t: float) -> Any:
+        return of_place(x, y, z)
+
+    return velocity
 
 
-def steady(x: float, y: float, z: float, t: float) -> Any:
-    """Call a function of the place alone."""
-    return of_place(x, y, z)
+def _sample_of(velocity: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the kernel ``sample`` of a velocity, with fourth-order central differences."""
 
+    def at(x: float, y: float, z: float, t: float) -> Vector:
+        a, b, c = velocity(x, y, z, t)
+        return a + 0.0, b + 0.0, c + 0.0
 
-def of_place(x: float, y: float, z: float) -> Any:
-    """Placeholder for a user's function of the place alone."""
-    raise NotImplementedError
+    def sample(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+        h, k, (x0, x1, x2) = flow.length, flow.time, x
+        p = _difference(
+            at(x0 - 2.0 * h, x1, x2, t), at(x0 - h, x1, x2, t),
+            at(x0 + h, x1, x2, t), at(x0 + 2.0 * h, x1, x2, t), h,
+        )  # fmt: skip
+        q = _difference(
+            at(x0, x1 - 2.0 * h, x2, t), at(x0, x1 - h, x2, t),
+            at(x0, x1 + h, x2, t), at(x0, x1 + 2.0 * h, x2, t), h,
+        )  # fmt: skip
+        r = _difference(
+            at(x0, x1, x2 - 2.0 * h, t), at(x0, x1, x2 - h, t),
+            at(x0, x1, x2 + h, t), at(x0, x1, x2 + 2.0 * h, t), h,
+        )  # fmt: skip
+        rate = _difference(
+            at(x0, x1, x2, t - 2.0 * k), at(x0, x1, x2, t - k),
+            at(x0, x1, x2, t + k), at(x0, x1, x2, t + 2.0 * k), k,
+        )  # fmt: skip
+        return at(x0, x1, x2, t), (p[0], q[0], r[0], p[1], q[1], r[1], p[2], q[2], r[2]), rate
 
-
-def sample_differences(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Return velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s², by fourth-order central differences."""
-    h, (x0, x1, x2) = flow.length, x
-    p = _difference(
-        _velocity(x0 - 2.0 * h, x1, x2, t), _velocity(x0 - h, x1, x2, t),
-        _velocity(x0 + h, x1, x2, t), _velocity(x0 + 2.0 * h, x1, x2, t), h,
-    )  # fmt: skip
-    q = _difference(
-        _velocity(x0, x1 - 2.0 * h, x2, t), _velocity(x0, x1 - h, x2, t),
-        _velocity(x0, x1 + h, x2, t), _velocity(x0, x1 + 2.0 * h, x2, t), h,
-    )  # fmt: skip
-    r = _difference(
-        _velocity(x0, x1, x2 - 2.0 * h, t), _velocity(x0, x1, x2 - h, t),
-        _velocity(x0, x1, x2 + h, t), _velocity(x0, x1, x2 + 2.0 * h, t), h,
-    )  # fmt: skip
-    l = (p[0], q[0], r[0], p[1], q[1], r[1], p[2], q[2], r[2])
-    return _velocity(x0, x1, x2, t), l, _rate(flow, x, t)
-
-
-def _velocity(x: float, y: float, z: float, t: float) -> Vector:
-    a, b, c = velocity(x, y, z, t)
-    return a + 0.0, b + 0.0, c + 0.0
-
-
-def _rate(flow: FunctionArrays, x: Vector, t: float) -> Vector:
-    """Return ∂u/∂t at the fixed point."""
-    h = flow.time
-    return _difference(
-        _velocity(x[0], x[1], x[2], t - 2.0 * h), _velocity(x[0], x[1], x[2], t - h),
-        _velocity(x[0], x[1], x[2], t + h), _velocity(x[0], x[1], x[2], t + 2.0 * h), h,
-    )  # fmt: skip
+    return sample
 
 
 def _difference(a: Vector, b: Vector, c: Vector, d: Vector, h: float) -> Vector:
@@ -259,27 +249,26 @@ def _difference(a: Vector, b: Vector, c: Vector, d: Vector, h: float) -> Vector:
     )
 
 
-def sample(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Placeholder for the kernel ``sample`` of a flow."""
-    raise NotImplementedError
+def _curvature_of(sample: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the kernel ``curvature``, from the gradient by fourth-order central differences."""
 
+    def curvature(flow: FunctionArrays, host: int, x: Vector, t: float) -> Curvature:
+        h, (x0, x1, x2) = flow.length, x
+        p = _derivative(
+            sample(flow, host, (x0 - 2.0 * h, x1, x2), t)[1], sample(flow, host, (x0 - h, x1, x2), t)[1],
+            sample(flow, host, (x0 + h, x1, x2), t)[1], sample(flow, host, (x0 + 2.0 * h, x1, x2), t)[1], h,
+        )  # fmt: skip
+        q = _derivative(
+            sample(flow, host, (x0, x1 - 2.0 * h, x2), t)[1], sample(flow, host, (x0, x1 - h, x2), t)[1],
+            sample(flow, host, (x0, x1 + h, x2), t)[1], sample(flow, host, (x0, x1 + 2.0 * h, x2), t)[1], h,
+        )  # fmt: skip
+        r = _derivative(
+            sample(flow, host, (x0, x1, x2 - 2.0 * h), t)[1], sample(flow, host, (x0, x1, x2 - h), t)[1],
+            sample(flow, host, (x0, x1, x2 + h), t)[1], sample(flow, host, (x0, x1, x2 + 2.0 * h), t)[1], h,
+        )  # fmt: skip
+        return curvature_of(p, q, r)
 
-def curvature_by_differences(flow: FunctionArrays, host: int, x: Vector, t: float) -> Curvature:
-    """Return second derivatives, 1/(m s), from the gradient by fourth-order central differences."""
-    h, (x0, x1, x2) = flow.length, x
-    p = _derivative(
-        sample(flow, host, (x0 - 2.0 * h, x1, x2), t)[1], sample(flow, host, (x0 - h, x1, x2), t)[1],
-        sample(flow, host, (x0 + h, x1, x2), t)[1], sample(flow, host, (x0 + 2.0 * h, x1, x2), t)[1], h,
-    )  # fmt: skip
-    q = _derivative(
-        sample(flow, host, (x0, x1 - 2.0 * h, x2), t)[1], sample(flow, host, (x0, x1 - h, x2), t)[1],
-        sample(flow, host, (x0, x1 + h, x2), t)[1], sample(flow, host, (x0, x1 + 2.0 * h, x2), t)[1], h,
-    )  # fmt: skip
-    r = _derivative(
-        sample(flow, host, (x0, x1, x2 - 2.0 * h), t)[1], sample(flow, host, (x0, x1, x2 - h), t)[1],
-        sample(flow, host, (x0, x1, x2 + h), t)[1], sample(flow, host, (x0, x1, x2 + 2.0 * h), t)[1], h,
-    )  # fmt: skip
-    return curvature_of(p, q, r)
+    return curvature
 
 
 def _derivative(a: Tensor, b: Tensor, c: Tensor, d: Tensor, h: float) -> Tensor:
@@ -319,12 +308,8 @@ def function(
     TypeError
         u is not such a function.
     """
-    names: dict[str, Any] = {"velocity": _of_place_and_time(u)}
-    names["_velocity"] = bound(_velocity, **names)
-    names["_rate"] = bound(_rate, **names)
-    sampled = bound(sample_differences, **names)
-    curvature = bound(curvature_by_differences, **names, sample=sampled)
-    kernels = {"sample": sampled, "curvature": curvature, **_UNBOUNDED}
+    sample = _sample_of(_of_place_and_time(u))
+    kernels = {"sample": sample, "curvature": _curvature_of(sample), **_UNBOUNDED}
     return FunctionFlow(FunctionArrays(1e-3 * length, 1e-3 * time), kernels)
 
 
@@ -351,7 +336,7 @@ def _of_place_and_time(given: Any) -> Callable[..., Any]:
             raise TypeError(f"u returns {kind}. Return a tuple of three numbers.")
     if found not in (None, (3,)):
         raise TypeError(f"u returns something of shape {found}, not (3,).")
-    return given if count == 4 else bound(steady, of_place=given)
+    return given if count == 4 else _steady(given)
 
 
 def shear(rate: float) -> AnalyticFlow:

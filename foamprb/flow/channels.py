@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.ellipsoid import no_swelling as swelling
+from foamprb.body.ellipsoid import swelling
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector, inverse, norm, scale_vector, vector_dot
 from foamprb.flow.base import NO_PLANES, Planes

@@ -15,7 +15,7 @@ from typing import Any
 
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.compile.link import bound, conform, kernel, link, packed
+from foamprb.compile.link import conform, kernel, link, packed
 from foamprb.flow.base import NO_PLANES, Floats, Planes, Turbulence
 
 __all__ = [
@@ -72,22 +72,27 @@ def walk_on(
     return walk(flow, host, x0, t0, x1, t1)
 
 
-@kernel
-def sample_ahead(
-    flow: Any, host: int, x0: Vector, t0: float, x1: Vector, t1: float
-) -> tuple[int, float, int, Vector, Tensor, Vector]:
-    """Return the flow at the end of the segment from x0 at t0 to x1 at t1.
+def _ahead_by(walk: Callable[..., Any], sample: Callable[..., Any]) -> Callable[..., Any]:
+    def sample_ahead(
+        flow: Any, host: int, x0: Vector, t0: float, x1: Vector, t1: float
+    ) -> tuple[int, float, int, Vector, Tensor, Vector]:
+        """Return the flow at the end of the segment from x0 at t0 to x1 at t1.
 
-    Returns
-    -------
-    host, room, entered, u, l, u_t
-        The host of x1, or the last one on the way; the distance along each axis, m, within which this host
-        certainly holds any point around x1; the number of cells on the way; the flow there.
-    """
-    reached, _, patch, _ = walk(flow, host, x0, t0, x1, t1)
-    last = host if patch == -2 else reached
-    u, l, u_t = sample(flow, last, x1, t1)
-    return last, 0.0, 0, u, l, u_t
+        Returns
+        -------
+        host, room, entered, u, l, u_t
+            The host of x1, or the last one on the way; the distance along each axis, m, within which this
+            host certainly holds any point around x1; the number of cells on the way; the flow there.
+        """
+        reached, _, patch, _ = walk(flow, host, x0, t0, x1, t1)
+        last = host if patch == -2 else reached
+        u, l, u_t = sample(flow, last, x1, t1)
+        return last, 0.0, 0, u, l, u_t
+
+    return sample_ahead
+
+
+sample_ahead = kernel(_ahead_by(walk, sample))
 
 
 @kernel
@@ -152,14 +157,14 @@ def behind(kernels: Mapping[str, Callable[..., Any]]) -> dict[Callable[..., Any]
     return {_BY_NAME[name]: function for name, function in kernels.items() if name in _BY_NAME}
 
 
-def inlined(kernels: Mapping[str, Callable[..., Any]]) -> dict[str, Callable[..., Any]]:
-    """Return the functions of a flow with the parameters of the kernels, for a caller that inlines them.
+def inlined(kernels: Mapping[str, Callable[..., Any]]) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """Return ``sample`` and ``sample_ahead`` of a flow with the parameters of the kernels, to be inlined.
 
-    Their first argument is not packed. Those that a flow does not have are the defaults.
+    Their first argument is not packed.
     """
-    own = {name: conform(_BY_NAME[name], kernels[name]) for name in kernels.keys() & _BY_NAME.keys()}
-    defaults = {name: bound(_BY_NAME[name], **own) for name in _BY_NAME if name not in own}
-    return {**defaults, **own}
+    own = {name: conform(_BY_NAME[name], function) for name, function in kernels.items() if name in _BY_NAME}
+    start = own.get("sample", sample)
+    return start, own.get("sample_ahead") or _ahead_by(own.get("walk", walk), start)
 
 
 def linked_with(

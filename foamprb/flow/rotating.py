@@ -14,14 +14,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector, dot_vector, minus, plus, vector_product
-from foamprb.compile.link import bound
 from foamprb.compile.record import record
 from foamprb.flow.base import Floats, Ints, PatchFaces, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh, point
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with, with_velocity
-from foamprb.flow.series import SeriesFlow, sample_ahead
+from foamprb.flow.series import SeriesFlow, ahead_by
 from foamprb.flow.viscosity import viscosity as viscosity_mesh
 from foamprb.flow.walk import STEADY, parts
 from foamprb.flow.walk import curvature as curvature_mesh
@@ -100,7 +99,7 @@ class RotatingFlow(MeshFlow):
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         **SeriesFlow.kernels,
         "sample": sample,
-        "sample_ahead": bound(sample_ahead, sample=sample),
+        "sample_ahead": ahead_by(sample),
         "curvature": curvature,
         "turbulence": turbulence,
         "viscosity": viscosity,

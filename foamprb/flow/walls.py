@@ -9,8 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from foamprb.body.ellipsoid import no_largest_swelling as largest_swelling
-from foamprb.body.ellipsoid import no_swelling as swelling
+from foamprb.body.ellipsoid import largest_swelling, swelling
 from foamprb.body.tensor import (
     Tensor,
     Vector,

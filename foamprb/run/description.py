@@ -129,7 +129,7 @@ def _surveyed(cloud: Cloud) -> Particles:
     if cloud.comm.size == 1 or not cloud.models.surroundings:
         return cloud.particles
     models = [m for m in cloud.models.surroundings if type(m).remarks is not Surrounding.remarks]
-    names = {name for model in models for name in model.traits.surveys}
+    names = {name for model in models for name in model.surveys}
     if model_of(cloud.medium.mu):
         names |= {"x", "host"}
     arrays = {name: np.zeros((cloud.size, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}

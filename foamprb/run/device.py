@@ -186,11 +186,7 @@ class Device:
         self.job, self.plane, self.view, self._stop = job, plane, view, stop
         cloud, settings = job.cloud, job.settings
         kind = MATERIALS[cloud.models.material]
-        random = [
-            type(model).__name__
-            for model in cloud.models.surroundings
-            if model.hold is not None or model.traits.turbulence
-        ]
+        random = [type(model).__name__ for model in cloud.models.surroundings if hasattr(model, "seed")]
         fault = ""
         if settings.solution.transient:
             fault = "solution/transient is yes. Allowed: a steady flow"

@@ -195,13 +195,13 @@ def _with_fields(source: FlowSource, settings: Settings) -> FlowSource:
     """Return a source with the fields and operators that the settings need."""
     scale = settings.solution.scale
     curved = settings.shape != "affine" or any(
-        "curvature" in model.traits.kernels for model in settings.surroundings.values()
+        "curvature" in model.kernels for model in settings.surroundings.values()
     )
     readers: list[Any] = [*settings.functions.values(), *settings.forces.values()]
     return replace(
         source,
         scale=None if scale == 1.0 else scale,
-        turbulent=any(model.traits.turbulence for model in settings.dispersion.values()),
+        turbulent=bool(settings.dispersion),
         curved=curved,
         relative=settings.solution.rotatingZones == "relative",
         viscosity=settings.fluid.field,

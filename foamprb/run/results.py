@@ -403,7 +403,7 @@ _LARGEST_ERROR = 0.01
 def _contents_of(job: Job) -> Contents:
     """Return the arrays of the files of a run."""
     solution, cloud = job.settings.solution, job.cloud
-    of_models = [name for model in cloud.models.surroundings for name in model.traits.measures]
+    of_models = [name for model in cloud.models.surroundings for name in model.measures]
     # Of spheres the reader derives it from glyph.
     of_shapes = ["deformationGradient"] if any(cloud.map_ranks(is_shaped)) else []
     names = {

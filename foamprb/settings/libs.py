@@ -14,10 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from foamprb.body.material import MATERIALS
-from foamprb.cloud.block import ROWS, new_block
 from foamprb.cloud.forces import FORCES, SAMPLE, STATE, tried
-from foamprb.cloud.layout import IDENTITY, end, offsets
-from foamprb.cloud.surroundings.registry import SURROUNDINGS
+from foamprb.cloud.layout import IDENTITY
+from foamprb.cloud.surroundings.registry import SURROUNDINGS, UserSurrounding
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 
@@ -184,13 +183,9 @@ def _check(file: Path, kind: str, name: str) -> None:
             needed = [STATE[need] for need in force.needs]
             _compile(file, type(force).evaluate, SAMPLE, *needed, *force.coefficients)
     else:
-        model = SURROUNDINGS[name]
-        rows = sum(end(offsets(declaration)) for declaration in model.rows.values())
-        block = new_block(ROWS + rows)
-        block[:] = 1.0
-        with _one_message(file.resolve()):
-            if model.disturb is not None:
-                model.disturb(block, SAMPLE.medium, 0.0, tried(model).coefficients(()))
+        model = tried(SURROUNDINGS[name])
+        assert isinstance(model, UserSurrounding)
+        _compile(file, model.evaluate, *model.samples, *model.coefficients(()))
 
 
 def _compile(file: Path, function: Callable[..., Any], *arguments: Any) -> None:

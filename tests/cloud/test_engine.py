@@ -14,7 +14,7 @@ from foamprb.cloud.block import Medium, Scratch, at
 from foamprb.cloud.forces import Gravity, PressureGradient, VirtualMass
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.patches import Adhere
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.base import Stage, Surrounding
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.fates import FateLimits, Fates
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
@@ -57,9 +57,8 @@ class Wind(Surrounding):
     """A user's model."""
 
     speed: float = 1.0
-    rows: ClassVar = {"wind": WindRows}
-    update: ClassVar = staticmethod(look)
-    disturb: ClassVar = staticmethod(blow)
+    rows: ClassVar = (WindRows,)
+    stages: ClassVar = (Stage("start", look), Stage("fluid", blow, adds=(at.u,)))
 
     def coefficients(self, _patches: Any) -> Any:
         return (self.speed,)

@@ -55,7 +55,7 @@ def with_thrust(monkeypatch):
 def summed(*forces, Du_Dt=DU_DT):
     """Force and inertia per mass, of plain numbers."""
     inputs = Inputs(1.1, RHO, Du_Dt, LocalMedium(MU_F, RHO_F, G, coefficients(forces)))
-    push, inertia = compose(forces)["sum_of_forces"](None, 0, inputs)
+    push, inertia = compose(forces)(None, 0, inputs)
     return np.array(push), inertia
 
 
@@ -78,7 +78,7 @@ def test_slip_is_that_of_maxey_and_riley_to_first_order(with_pressure):
     block = np.zeros(ROWS * LANES)
     block[at.rho * LANES] = RHO
     medium = Medium(MU_F, RHO_F, G, coefficients(forces))
-    bound = FunctionType(forces_on.__code__, forces_on.__globals__ | compose(forces))
+    bound = FunctionType(forces_on.__code__, forces_on.__globals__ | {"sum_of_forces": compose(forces)})
     steady, push, inertia = bound(block, 0, medium, 1.1, DU_DT)
     np.testing.assert_allclose(steady, summed(*forces, Du_Dt=(0.0, 0.0, 0.0))[0], rtol=1e-14)
     rate, l = 40.0, np.array([[0.0, 3.0, 0.0], [0.0, 0.0, 1.0], [2.0, 0.0, 0.0]])

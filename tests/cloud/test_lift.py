@@ -84,7 +84,7 @@ def force_at(lift, x, radius=R, rho=1500.0):
     for k in range(3):
         block[(at.x + k) * LANES] = x[k]
     medium = Medium(MU, RHO, (0.0, 0.0, 0.0), coefficients((lift,)))
-    bound = FunctionType(forces_on.__code__, forces_on.__globals__ | compose((lift,)))
+    bound = FunctionType(forces_on.__code__, forces_on.__globals__ | {"sum_of_forces": compose((lift,))})
     steady, push, inertia = bound(block, 0, medium, 1.0, (0.0, 0.0, 0.0))
     assert steady == push
     assert inertia == 1.0

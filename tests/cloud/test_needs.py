@@ -11,12 +11,11 @@ from paths import ROOT
 
 from foamprb import Cloud, InputError, Medium, Models, analytic, spheres
 from foamprb.cloud.block import at
-from foamprb.cloud.forces import FORCES, acceleration, add_force, coefficients, compose
+from foamprb.cloud.forces import FORCES, acceleration, add_force, coefficients, compose, sum_of_forces
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.needs import needed_by, reader_of
+from foamprb.cloud.needs import needed, needed_by, reader_of
 from foamprb.cloud.patches import Rebound
-from foamprb.cloud.surroundings.registry import compose as compose_all
 from foamprb.cloud.surroundings.registry import with_rows
 from foamprb.compile.link import link
 from foamprb.flow.fields import FieldColumns
@@ -202,16 +201,15 @@ def test_values_are_those_of_the_place_in_compiled_stages_too():
     force = add_force("everything", everything, ("u", "T", "S", "F", "E", "mu"))(a=3.0)
     (model,) = needed_by((force,), columns)
     own = INTEGRATORS["stokes"].layout
-    bindings = compose((force,), lambda f: reader_of(f, columns, inertia=False))
-    bindings["needed"] = compose_all((model,), (), False).bindings["needed"]
+    total = compose((force,), lambda f: reader_of(f, columns, inertia=False))
     random, n = np.random.default_rng(1), with_rows(own, (model,)).rows
     block = random.uniform(0.5, 1.5, n * LANES)
     rows = block.reshape(n, LANES)
     gone = rows[at.gone, 5]
-    first, last = (rows[k : k + 22, 5] for k in bindings["needed"])
+    first, last = (rows[k : k + 22, 5] for k in needed)
     x = first + gone * (last - first)
     medium = Medium(MU, 1000.0, (0.0, 0.0, -9.81), coefficients((force,)))
-    f, inertia = link(acceleration, bindings)(block, 5, medium, 1.0)
+    f, inertia = link(acceleration, {sum_of_forces: total})(block, 5, medium, 1.0)
     F = rows[at.new_F : at.new_F + 9, 5]
     expected = 3.0 * x[0] + x[12] * F[1], x[16] + 2.0 * x[21], MU * x[17] + rows[at.new_x, 5]
     np.testing.assert_allclose(f, expected, rtol=1e-13)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import time
+from types import FunctionType
 
 import numpy as np
 import pytest
@@ -15,9 +16,10 @@ from paths import PIPE
 from processor import has_avx2, is_host
 
 import foamprb
+from foamprb.body.choice import choice
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.forces import coefficients, compose
+from foamprb.cloud.forces import coefficients, compose, sum_of_forces
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.integrators.rosenbrock import first_inertial, predict_inertial
 from foamprb.cloud.layout import LANES
@@ -27,7 +29,7 @@ from foamprb.cloud.surroundings.registry import numbers_of, with_rows
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.compile import link as compiling
-from foamprb.compile.link import bound, link, read_by, separate
+from foamprb.compile.link import link, separate
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
 
@@ -103,6 +105,7 @@ def arithmetic(assembly):
     return found.count("p"), found.count("s")
 
 
+@choice
 def called(*_arguments):
     """Stand-in of a stage."""
 
@@ -111,7 +114,7 @@ def caller(*arguments):
     called(*arguments)
 
 
-without_trace = separate(bound(first_inertial))
+without_trace = separate(FunctionType(first_inertial.__code__, first_inertial.__globals__, "first_inertial"))
 """A stage that is not marked to be traced."""
 
 
@@ -124,9 +127,8 @@ def test_stage_is_vectorised(stage, monkeypatch, tmp_path):
     integrator, models = INTEGRATORS["rosenbrock"], (WallLift(),)
     block = np.ones(with_rows(integrator.layout, models).rows * LANES)
     around = surrounding(models, (), integrator.inertia)
-    bindings = compose(FORCES) | integrator.bindings | around.bindings | {"called": stage}
-    slots = {**integrator.slots, **around.slots}
-    dispatcher = link(caller, read_by(caller, bindings, slots), slots)
+    slots = {**integrator.slots, **around.slots, sum_of_forces: compose(FORCES), called: stage}
+    dispatcher = link(caller, slots)
     medium = AIR._replace(forces=coefficients(FORCES), numbers=numbers_of(models, ()))
     dispatcher(block, medium)
     (assembly,) = dispatcher.py_func.__globals__["called"].inspect_asm().values()

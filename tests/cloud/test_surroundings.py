@@ -15,8 +15,8 @@ from foamprb.cloud.forces import Gravity, PressureGradient, VirtualMass
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import FURTHER, LANES, Row, end, offsets
 from foamprb.cloud.state import spheres
-from foamprb.cloud.surroundings.base import Surrounding
-from foamprb.cloud.surroundings.registry import compose, with_rows
+from foamprb.cloud.surroundings.base import Stage, Surrounding
+from foamprb.cloud.surroundings.registry import with_rows
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 
@@ -48,9 +48,8 @@ def blow(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None
 @dataclass(frozen=True, kw_only=True)
 class Wind(Surrounding):
     speed: float
-    rows: ClassVar = {"wind": WindRows}
-    update: ClassVar = staticmethod(look)
-    disturb: ClassVar = staticmethod(blow)
+    rows: ClassVar = (WindRows,)
+    stages: ClassVar = (Stage("start", look, writes=(wind.speed,)), Stage("fluid", blow, adds=(at.u,)))
 
     def coefficients(self, _patches: Any) -> Any:
         return (self.speed,)
@@ -62,7 +61,7 @@ class CalmRows(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Calm(Surrounding):
-    rows: ClassVar = {"calm": CalmRows}
+    rows: ClassVar = (CalmRows,)
 
 
 def carried(integrator, surroundings, steps=3):
@@ -103,11 +102,10 @@ def test_further_models_have_their_rows_one_after_the_other_behind_all_rooms():
     own = INTEGRATORS["stokes"].layout
     models = (Calm(), Wind(speed=0.0))
     assert with_rows(own, ()) is own
-    assert compose((), (), inertia=False).bindings == {}
-    assert with_rows(own, models).rows == FURTHER + 9 + 1 + 3
-    found = compose(models, (), inertia=False).bindings
-    assert found["calm"] == (FURTHER,)
-    assert end(found["calm"]) == found["wind"].speed
+    assert wind.speed >= FURTHER
+    assert offsets(WindRows) == wind
+    assert offsets(CalmRows).nothing >= end(wind)
+    assert with_rows(own, models).rows == end(offsets(CalmRows))
 
 
 class SwirlRows(NamedTuple):
@@ -146,9 +144,8 @@ def whirl(block: Any, _medium: Medium, share: float, coefficients: Any) -> None:
 class Swirl(Surrounding):
     speed: float
     wave: float
-    rows: ClassVar = {"swirl": SwirlRows}
-    update: ClassVar = staticmethod(look_for_nothing)
-    disturb: ClassVar = staticmethod(whirl)
+    rows: ClassVar = (SwirlRows,)
+    stages: ClassVar = (Stage("start", look_for_nothing), Stage("fluid", whirl, adds=(at.u,)))
 
     def coefficients(self, _patches: Any) -> Any:
         return (self.speed, self.wave)

@@ -6,13 +6,9 @@ import re
 from pathlib import Path
 
 import numba
-import pytest
 
-import foamprb
 from foamprb.cloud.block import Medium
-from foamprb.cloud.surroundings.dispersion import Dispersion
-from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
-from foamprb.cloud.tracker import Models, Tracker, check
+from foamprb.cloud.tracker import Models, Tracker
 from foamprb.flow.meshflow import MeshFlow
 
 
@@ -35,15 +31,3 @@ def test_integers_in_the_medium_are_numbers_as_any():
         return numba.typeof(tracker.medium)
 
     assert kind(1, 1000, (0, 0, -10)) == kind(1.0, 1000.0, (0.0, 0.0, -10.0))
-
-
-class Misspelt(foamprb.FaxenCorrection):
-    def bindings(self, _inertia):
-        return {"turn_alongg": self.update}
-
-
-def test_name_that_no_loop_reads_is_refused():
-    everything = foamprb.FaxenCorrection(), foamprb.WallLift(), foamprb.BrownianMotion(T=300.0), Dispersion()
-    check(Models(integrator="stokes", surroundings=(*everything, RotatingFrames())), tense=False)
-    with pytest.raises(NameError, match=r"Misspelt binds turn_alongg, .*Did you mean turn_along"):
-        check(Models(integrator="stokes", surroundings=(Misspelt(),)), tense=False)

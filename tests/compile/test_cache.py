@@ -17,11 +17,12 @@ import numpy as np
 import pytest
 import small_program
 from paths import ROOT
+from small_program import renamed
 
 from foamprb.compile import cache as caching
 from foamprb.compile import link as linking
 from foamprb.compile.cache import Store
-from foamprb.compile.link import bound, is_compiled, link, traced
+from foamprb.compile.link import is_compiled, link, traced
 
 IS_ROOT = os.geteuid() == 0
 SOMEBODY = 54321
@@ -321,14 +322,14 @@ class TestStages:
     @staticmethod
     def linked(stage):
         """The small program with one of its stages."""
-        return link(small_program.outer, {"stage": stage})
+        return link(small_program.outer, {small_program.stage: stage})
 
     def found(self, stage):
         """How often the program was found in the cache, after it has given what it gives with its stage."""
         f = self.linked(stage)
         compiled, plain = small_program.example(), small_program.example()
         result = f(compiled)
-        program = bound(small_program.outer, stage=stage)
+        program = renamed(small_program.outer, stage=stage)
         assert result == pytest.approx(program(plain), rel=1e-13)
         np.testing.assert_allclose(compiled.values, plain.values, rtol=1e-13)
         return sum(f.stats.cache_hits.values())
@@ -358,12 +359,12 @@ class TestStages:
     @pytest.mark.usefixtures("folder")
     def test_stages_of_the_same_name_are_told_apart(self, forget):
         """Two copies of a function with other formulas in them, in both orders."""
-        by_two, by_three = (traced(bound(small_program.formed, formula=f)) for f in (doubled, tripled))
+        by_two, by_three = (traced(renamed(small_program.formed, formula=f)) for f in (doubled, tripled))
         for one, other in ((by_two, by_three), (by_three, by_two)):
             hits = []
             for _ in range(2):
-                first, second = (bound(small_program.calling, formed=stage) for stage in (one, other))
-                f = link(small_program.twice, {"one": first, "other": second})
+                first, second = (renamed(small_program.calling, formed=stage) for stage in (one, other))
+                f = link(renamed(small_program.twice, one=first, other=second))
                 values = np.ones(small_program.LANES)
                 f(values)
                 # x -> 2x + 1 and x -> 3x + 1 in their order.
@@ -377,7 +378,7 @@ class TestStages:
         """The function is found in the cache; its stage is called by nothing else."""
         hits = []
         for entry, result in ((small_program.calls_once, 3.0), (small_program.calls_again, 7.0)) * 2:
-            f = link(entry, {"formula": doubled})
+            f = link(entry, {small_program.formula: doubled})
             values = np.ones(small_program.LANES)
             f(values)
             np.testing.assert_array_equal(values, result)
@@ -390,12 +391,12 @@ class TestStages:
     @pytest.mark.usefixtures("folder")
     def test_loops_of_one_process_keep_their_stages(self, forget):
         """The code of both is that of the first, with a function of its own that calls a stage."""
-        stages = [traced(bound(small_program.formed, formula=f)) for f in (doubled, tripled)]
+        stages = [traced(renamed(small_program.formed, formula=f)) for f in (doubled, tripled)]
         for _ in range(2):
             results = []
             for stage in stages:
                 values = np.ones(small_program.LANES)
-                link(small_program.calls_once, {"formed": stage})(values)
+                link(small_program.calls_once, {small_program.formed: stage})(values)
                 results.append(values[0])
             assert results == [3.0, 4.0]
             forget()
@@ -406,7 +407,7 @@ class TestStages:
             dispatcher_of(name).py_func.__qualname__.rpartition("_")[2] for name in ("outer", "stage")
         )
         (file,) = (folder / folder_of("outer")).glob("*.code")
-        kept, named = file.read_bytes(), linking.key_of(["stage"])
+        kept, named = file.read_bytes(), linking.key_of(["small_program.stage"])
         keys = entry, folder_of("outer"), stage, named
         assert [key.encode() in kept for key in keys] == [False, True, False, True]
 

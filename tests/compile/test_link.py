@@ -12,11 +12,13 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 from llvmlite import binding
+from small_program import renamed
 
 import foamprb
+from foamprb.body.choice import choice
 from foamprb.body.tensor import longest_stretch, principal_frame
 from foamprb.compile import link as compiling
-from foamprb.compile.link import link, read_by, separate
+from foamprb.compile.link import link, separate
 
 FIRST, SECOND = 2, 3
 LANES = 16
@@ -38,6 +40,7 @@ print(is_compiled(f), f((1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0)), is_compi
 MODELS = """
 import sys
 import foamprb.flow
+from foamprb.body.choice import choice
 from foamprb.compile.link import link, separate
 
 def doubled(x):
@@ -46,6 +49,10 @@ def doubled(x):
 def halved(x):
     return 0.5 * x
 
+@choice
+def model(x):
+    return x
+
 @separate
 def twice(x):
     return model(model(x))
@@ -53,9 +60,8 @@ def twice(x):
 def entry(x):
     return twice(x)
 
-model = doubled
 for name in sys.argv[1:]:
-    print(link(entry, {"model": globals()[name]})(1.0))
+    print(link(entry, {model: globals()[name]})(1.0))
 """
 
 
@@ -98,12 +104,24 @@ def doubled_apart(x):
     return x + x
 
 
-def quadrupled(x):
-    return doubled(doubled(x))
+@choice
+def changed(x):
+    return x
 
 
-def octupled(x):
-    return doubled(quadrupled(x))
+def changed_twice(x):
+    return changed(changed(x))
+
+
+def changed_thrice(x):
+    return changed(changed_twice(x))
+
+
+def multiplied(factor, function):
+    def result(x):
+        return factor * function(x)
+
+    return result
 
 
 def ratio(x, y):
@@ -143,23 +161,28 @@ def test_constants_are_no_reason_to_compile_a_function_again(cache):
 
 @pytest.mark.parametrize("function", [doubled, doubled_apart], ids=["inlined", "called"])
 def test_called_and_inlined_functions_give_the_same(cache, function, monkeypatch):
-    assert link(quadrupled, {"doubled": function})(1.25) == 5.0
+    assert link(changed_twice, {changed: function})(1.25) == 5.0
     monkeypatch.setattr(compiling, "_dispatchers", {})
-    assert link(quadrupled, {"doubled": function})(1.25) == 5.0
+    assert link(changed_twice, {changed: function})(1.25) == 5.0
 
 
-def test_unread_name_in_bindings_is_an_error(cache):
-    """A misspelt name would leave the stand-in in place."""
-    with pytest.raises(NameError, match="octupled is bound to duobled, a name that no linked function reads"):
-        link(octupled, {"duobled": scaled})
-    both = {"duobled": scaled, "doubled": scaled}
-    assert link(octupled, read_by(octupled, both))(1.5) == 12.0
+def test_a_function_that_may_not_be_replaced_is_an_error(cache):
+    with pytest.raises(ValueError, match=r"test_link\.changed_twice is no slot and no choice"):
+        link(changed_thrice, {changed_twice: doubled})
+
+
+def test_functions_that_a_function_captures_are_a_part_of_it(cache):
+    """Each composition is told apart, in this process and in the cache."""
+    for _ in range(2):
+        for function, factor in ((doubled, 2.0), (doubled_apart, 2.0), (multiplied(3.0, doubled), 6.0)):
+            for one in (1.0, 5.0):
+                assert link(multiplied(one, function))(1.5) == one * factor * 1.5
 
 
 def test_called_functions_are_found_by_other_processes(cache, monkeypatch):
-    assert link(quadrupled, {"doubled": doubled_apart})(1.25) == 5.0
+    assert link(changed_twice, {changed: doubled_apart})(1.25) == 5.0
     monkeypatch.setattr(compiling, "_dispatchers", {})
-    assert link(octupled, {"doubled": doubled_apart})(1.25) == 10.0
+    assert link(changed_thrice, {changed: doubled_apart})(1.25) == 10.0
     (code,) = [d for d in compiling._dispatchers.values() if d.py_func.__name__ == "doubled_apart"]
     assert sum(code.stats.cache_hits.values()) == 1
 
@@ -169,9 +192,9 @@ def test_functions_of_one_name_are_told_apart(tmp_path):
     (tmp_path / "models.py").write_text(MODELS)
     # What else is in the name depends on the order of a set.
     environment = {**os.environ, "FOAMPRB_CACHE_DIR": str(tmp_path / "cache"), "PYTHONHASHSEED": "0"}
-    for bindings in (["doubled"], ["halved", "doubled"]):
+    for names in (["doubled"], ["halved", "doubled"]):
         done = subprocess.run(
-            [sys.executable, "models.py", *bindings],
+            [sys.executable, "models.py", *names],
             env=environment,
             capture_output=True,
             text=True,
@@ -179,7 +202,7 @@ def test_functions_of_one_name_are_told_apart(tmp_path):
         )
         assert done.returncode == 0, done.stderr
         factors = {"doubled": "4.0", "halved": "0.25"}
-        assert done.stdout.split() == [factors[name] for name in bindings]
+        assert done.stdout.split() == [factors[name] for name in names]
 
 
 def test_results_of_operators_have_the_types_of_their_operands(cache):
@@ -230,7 +253,7 @@ def test_code_changes_with_the_fields_of_what_it_makes(cache, monkeypatch):
 
 def test_separate_functions_stay_functions(cache):
     """The loop calls them: inlined where it does they would swell it."""
-    f = link(quadrupled, {"doubled": doubled_apart})
+    f = link(changed_twice, {changed: doubled_apart})
     f(1.25)
     (assembly,) = f.inspect_asm().values()
     # They are called by a name.
@@ -289,7 +312,7 @@ def test_named_numbers_are_constants_of_the_code_that_reads_them(cache):
     """Other numbers are other code; a function that is given one is compiled once for all."""
     values = np.array([1.0, 2.0, 4.0, 8.0])
     assert link(difference)(values) == 4.0
-    assert link(difference, {"places": Places(0, 3)})(values) == 7.0
+    assert link(renamed(difference, places=Places(0, 3)))(values) == 7.0
     (code,) = [d for d in compiling._dispatchers.values() if d.py_func.__name__ == "element"]
     assert len(code.signatures) == 1
 

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import foamprb
+from foamprb.body.choice import choice
 from foamprb.body.tensor import select
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
@@ -74,6 +75,7 @@ def with_a_branch(block, shift):
             block[LANES + i] = shift[1]
 
 
+@choice
 def stage(block, shift):
     """Stands for one of those above."""
 
@@ -87,7 +89,7 @@ def after(function, block, shift):
     plain, compiled = block.copy(), block.copy()
     with np.errstate(all="ignore"):
         function(plain, shift)
-    link(entry, {"stage": function})(compiled, shift)
+    link(entry, {stage: function})(compiled, shift)
     return plain.reshape(ROWS, LANES), compiled.reshape(ROWS, LANES)
 
 
@@ -130,8 +132,8 @@ def test_stages_of_all_integrators_are_traced(fresh):
         examples = {"block": scratch.block, "M": scratch.matrix, "medium": tracker.medium, "i": np.int64(0)}
         examples |= {"allowed": 1.0, "tolerance": 1.0}
         register_records()
-        linkage = compiling._Linkage(tracker.bindings, tracker.slots)
-        stages = [f for f in linked(integrator.track, tracker.bindings, tracker.slots) if hasattr(f, TRACED)]
+        linkage = compiling._Linkage(tracker.slots)
+        stages = [f for f in linked(integrator.track, tracker.slots) if hasattr(f, TRACED)]
         assert len(stages) >= 7
         for stage in stages:
             kinds = tuple(numba.typeof(examples[name]) for name in inspect.signature(stage).parameters)
@@ -141,7 +143,7 @@ def test_stages_of_all_integrators_are_traced(fresh):
 
 def operations(function, *arguments):
     """Lines of the code of a function, each an operation."""
-    linked = link(entry, {"stage": function}).py_func.__globals__["stage"]
+    linked = link(entry, {stage: function}).py_func.__globals__["stage"]
 
     def symbols(code):
         return [code.block, *(code.argument(k) for k in range(len(arguments)))]

@@ -277,7 +277,7 @@ def test_a_cloud_elsewhere_is_the_same_cloud():
     models = dataclasses.replace(cloud.models, surroundings=(BrownianMotion(T=293.15),))
     afar.models = cloud.models = models
     surveyed = _surveyed(afar)
-    for name in BrownianMotion.traits.surveys:
+    for name in BrownianMotion.surveys:
         assert getattr(surveyed, name).tobytes() == getattr(cloud.particles, name).tobytes()
     assert surveyed.size == 40
 

@@ -11,7 +11,6 @@ import re
 import shutil
 import subprocess
 import sys
-from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -230,7 +229,7 @@ def test_files_of_two_cases_may_add_the_same_name(tmp_path):
         ),
         (
             "import foamprb\nfoamprb.add_surrounding('drift', int)\n",
-            "model drift: <class 'int'> is no subclass",
+            "model drift: <class 'int'> is not a plain function",
         ),
     ],
 )
@@ -321,28 +320,40 @@ def test_entries_of_a_force_are_the_parameters_of_its_function():
         add_force("lambda", (lambda k: lambda _: ((k, k, k), 0.0))(1.0))
 
 
-def test_class_of_surroundings_is_checked():
-    class Bare(foamprb.Surrounding):
-        pass
+def test_function_of_surroundings_is_checked():
+    def still(x):
+        return 0.0 * x[0], 0.0, 0.0
 
-    class Bound(foamprb.Surrounding):
-        disturb = max
+    for arguments, fault in (
+        (("wallLift", still), "wallLift exists already"),
+        (("still", still, ("T",)), r"T is unknown\. Allowed: x, u, grad\(u\), v, F, R, rho, t"),
+        (("still", still, ("x",), ("v",)), r"v is unknown\. Allowed: u, grad\(u\)"),
+        (("still", still, ("x", "t")), "it has 1 parameters for x, t"),
+        (("still", max), "is not a plain function"),
+        (("still", still, ("R",)), "TypeError: 'float' object is not subscriptable"),
+        (("still", still, ("x",), ("grad(u)",)), r"it returns \(0.0, 0.0, 0.0\), not 9 numbers"),
+    ):
+        with pytest.raises(ValueError, match=fault):
+            add_surrounding(*arguments)
+    assert "still" not in SURROUNDINGS
 
-    with pytest.raises(ValueError, match=r"Bare has no @dataclass\(frozen=True, kw_only=True\)"):
-        add_surrounding("bare", Bare)
-    with pytest.raises(ValueError, match="disturb of Bound is no staticmethod"):
-        add_surrounding("bound", dataclass(frozen=True, kw_only=True)(Bound))
-    with pytest.raises(ValueError, match="wallLift exists already"):
-        add_surrounding("wallLift", foamprb.Surrounding)
+
+def gradient_by(model):
+    """Velocity gradient of a sphere in a fluid at rest, 1/s."""
+    p = spheres(np.zeros((1, 3)), d=1e-5, rho=1e3, mu=1e3)
+    still, water = analytic.linear(np.zeros((3, 3))), Medium(1e-3, 1e3, (0.0, 0.0, 0.0))
+    Cloud(p, still, water, (), 1e-6, Models(integrator="stokes", surroundings=(model,))).advance(1)
+    return (p.A[0].reshape(3, 3) @ np.linalg.inv(p.F[0].reshape(3, 3))).ravel()
 
 
 def test_force_and_surroundings_of_the_page_move_particles(tmp_path, capsys):
     """The slip of a rigid sphere is τ_p f + v, f = −rate² (y − y0) at its place."""
     case = copy_of_pipe(tmp_path)
     page = (ROOT / "docs/own-models.md").read_text()
-    force, *_, model = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    force, *_, model, magnet = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     (case / "constant/trap.py").write_text(force)
     (case / "constant/field.py").write_text(model)
+    (case / "constant/magnet.py").write_text(magnet)
     edit(case, r"^solution", 'libs ("trap.py" "field.py");\nsolution')
     edit(case, r"shape\s+paper;", "shape stokes;")
     edit(case, r"endTime\s+\S+;", "endTime 0.002;")
@@ -350,6 +361,10 @@ def test_force_and_surroundings_of_the_page_move_particles(tmp_path, capsys):
     edit(case, r"^\s+gravity;", "trap { rate 300; y0 1e-4; } electrophoresis { vz 0.02; }")
     assert main(["run", "-case", str(case)]) == 0
     log = capsys.readouterr().out
+    load_libs([case / "constant/magnet.py"])
+    assert gradient_by(SURROUNDINGS["magnet"](w=10.0)) == pytest.approx(
+        [0, -10, 0, 10, 0, 0, 0, 0, 0], abs=1e-6
+    )
     assert "trap (rate 300, y0 0.0001), electrophoresis (vx 0, vy 0, vz 0.02)" in log
     output = case / "postProcessing/softCloud"
     with (output / "fates.csv").open() as file:

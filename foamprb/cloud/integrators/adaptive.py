@@ -19,6 +19,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.choice import choice
 from foamprb.body.error_control import (
     REUSE_FOR,
     chord_error,
@@ -49,6 +50,7 @@ from foamprb.cloud.block import (
     accept_stage,
     at,
     choose,
+    limit_next_step,
     load3,
     load9,
     new_frames,
@@ -78,7 +80,7 @@ from foamprb.cloud.lanes import (
     take_back,
     walks_relocated,
 )
-from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
     SHORTEST_STEP,
@@ -95,8 +97,8 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.paths import is_full, record_ends, record_starts
 from foamprb.cloud.state import Particles
-from foamprb.compile.link import bound, kernel, separate, slot, traced
-from foamprb.flow.kernels import inlined, sample, sample_ahead
+from foamprb.compile.link import kernel, separate, slot, traced
+from foamprb.flow.kernels import inlined, sample
 
 _LAST_STEP = 1.0 / 4096.0
 """Longest step, in Δt, of a centre onto a patch to which it sticks."""
@@ -152,28 +154,36 @@ CELLS, MOST_CELLS = 2, 3
 """Cells that a step longer than Δt aims to enter, and enters at most: the flow is not sampled between."""
 
 
-def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
-    """Return μ_f K_a/m, 1/s, with K_a in units of R."""
+@choice
+def drag_rate(block: Block, i: int, mu_f: float, k: Vector) -> Vector:
+    """Return μ_f K_a/m, 1/s, with K_a in units of R; by default of a solid."""
+    return drag_rate_of_solid(block, i, mu_f, k)
+
+
+def drag_rate_of_solid(block: Block, i: int, mu_f: float, k: Vector) -> Vector:
+    """Return the same of a solid."""
     return scale_vector(mu_f * (3.0 / (20.0 * math.pi)) * block[at.inertia * LANES + i], k)
 
 
-def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
+@choice
+def fluid_acceleration(block: Block, i: int, v: Vector) -> Vector:
     """Return ∂u/∂t + l·v, m/s², of the flow at the start of the step along a path of velocity v."""
     w = minus(v, load3(block, during.start_u, i))
     return plus(load3(block, at.DuDt, i), dot_vector(load9(block, during.start_l, i), w))
 
 
-def acceleration_at_end(block: Any, i: int, v: Vector) -> Vector:
+def acceleration_at_end(block: Block, i: int, v: Vector) -> Vector:
     """Return ∂u/∂t + l·v, m/s², of the flow at the end of the step along a path of velocity v."""
     return plus(load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v))
 
 
-def end_acceleration(block: Any, i: int) -> Vector:
+@choice
+def end_acceleration(block: Block, i: int) -> Vector:
     """Return Du/Dt of the fluid at the end of the step, m/s²."""
     return acceleration_at_end(block, i, load3(block, during.end_u, i))
 
 
-def finish_path(block: Any, i: int, v: Vector) -> None:
+def finish_path(block: Block, i: int, v: Vector) -> None:
     """Store the velocity v at the end of the step, m/s, the position there, and the error of the path.
 
     The position is that of Hermite's cubic, x + h/2 (v₀ + v) + h²/12 (a₀ − a); its last term is the error.
@@ -187,12 +197,12 @@ def finish_path(block: Any, i: int, v: Vector) -> None:
     store_path_error(block, i, chord_error(h, h * norm(v0) + block[at.R * LANES + i], a0, a))
 
 
-def place_after(block: Any, i: int, h: Any, v: Vector, a: Vector) -> Vector:
+def place_after(block: Block, i: int, h: Any, v: Vector, a: Vector) -> Vector:
     """Return the position after a time h, s, from the start of the step with v and a constant a."""
     return plus_scaled(plus_scaled(load3(block, at.x, i), h, v), 0.5 * h * h, a)
 
 
-def add_disturbance_error(block: Any, i: int, d: Vector, dv: Vector) -> None:
+def add_disturbance_error(block: Block, i: int, d: Vector, dv: Vector) -> None:
     """Add the error of the path by a disturbance of the velocity to the error of the step.
 
     Parameters
@@ -209,14 +219,14 @@ def add_disturbance_error(block: Any, i: int, d: Vector, dv: Vector) -> None:
     store_path_error(block, i, block[during.path * LANES + i] + select(norm(d) > 0.0, error, 0.0))
 
 
-def store_path_error(block: Any, i: int, error: Any) -> None:
+def store_path_error(block: Block, i: int, error: Any) -> None:
     """Store the error of the path, which is the first part of the step's error."""
     block[during.path * LANES + i] = error
     block[during.difference * LANES + i] = 0.0
     block[at.error * LANES + i] = error
 
 
-def judge_difference(block: Any, i: int, difference: Any, tolerance: float) -> None:
+def judge_difference(block: Block, i: int, difference: Any, tolerance: float) -> None:
     """Store δ₂, and δ₂⁴/tolerance² as error of the step: it exceeds the tolerance where δ₂^(4/3) does."""
     block[during.difference * LANES + i] = difference
     square = difference * difference
@@ -224,14 +234,14 @@ def judge_difference(block: Any, i: int, difference: Any, tolerance: float) -> N
     block[at.error * LANES + i] = np.maximum(block[during.path * LANES + i], error)
 
 
-def mark_disturbed(block: Any, i: int) -> None:
+def mark_disturbed(block: Block, i: int) -> None:
     """Store whether models of the surroundings change the fluid's gradient at the start of the step."""
     l, felt = load9(block, during.start_l, i), load9(block, at.l, i)
     off = largest(add(felt, scale(-1.0, l)))
     block[during.disturbed * LANES + i] = select(off > 0.0, 1.0, 0.0)
 
 
-def error_share(block: Any, i: int, rho: Any) -> Any:
+def error_share(block: Block, i: int, rho: Any) -> Any:
     """Return θ of :mod:`foamprb.body.error_control`; 1 where models of the surroundings change the gradient.
 
     They may change it faster than elasticity and the flow do. ``rho`` is the rate at which the elastic stress
@@ -242,14 +252,14 @@ def error_share(block: Any, i: int, rho: Any) -> Any:
     return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)
 
 
-def counted_error(block: Any, i: int, error_2: Any) -> Any:
+def counted_error(block: Block, i: int, error_2: Any) -> Any:
     """Return the part of θ δ₁ that counts as error of order 2: all of it where ``disturbed`` is 1."""
     block[during.error_2 * LANES + i] = error_2
     discount = select(block[during.disturbed * LANES + i] > 0.0, 0.0, block[during.discount * LANES + i])
     return (1.0 - discount) * error_2
 
 
-def choose_order(block: Any, i: int, error: Any, tolerance: float) -> None:
+def choose_order(block: Block, i: int, error: Any, tolerance: float) -> None:
     """Store whether the step goes to order 3: where the error of order 2 exceeds the tolerance."""
     third = select(error <= tolerance, 0.0, 1.0)
     block[during.third * LANES + i] = third
@@ -258,7 +268,7 @@ def choose_order(block: Any, i: int, error: Any, tolerance: float) -> None:
     block[during.demanding * LANES + i] = select(moving, third, block[during.demanding * LANES + i])
 
 
-def update_discount(block: Any, i: int, third: Any, difference: Any, tolerance: float) -> None:
+def update_discount(block: Block, i: int, third: Any, difference: Any, tolerance: float) -> None:
     """Store the discount of the next errors of order 2, where a step has gone to order 3 with δ₂."""
     error_2 = block[during.error_2 * LANES + i]
     share = measured_ratio(difference, error_2)
@@ -268,44 +278,44 @@ def update_discount(block: Any, i: int, third: Any, difference: Any, tolerance: 
     block[during.demanding * LANES + i] = select(accepts_2, 0.0, block[during.demanding * LANES + i])
 
 
-def keep_frame(block: Any, i: int, third: Any) -> None:
+def keep_frame(block: Block, i: int, third: Any) -> None:
     """Restore the frame of the second evaluation where lane i does not use the third."""
     Q, second = load9(block, at.Q, i), load9(block, during.second_Q, i)
     store9(block, at.Q, i, choose(third, Q, second))
 
 
 @slot
-def predict(_block: Any, _medium: Medium) -> None:
+def predict(_block: Block, _medium: Medium) -> None:
     """Compute what :func:`sample_ahead` needs of the step."""
 
 
 @slot
-def first_slope(_block: Any, _medium: Medium) -> None:
+def first_slope(_block: Block, _medium: Medium) -> None:
     """Compute the state at the start, and at a quarter of the step."""
 
 
 @slot
-def second_slope(_block: Any, _medium: Medium, _tolerance: float) -> None:
+def second_slope(_block: Block, _medium: Medium, _tolerance: float) -> None:
     """Compute the solution of order 2, and choose the order."""
 
 
 @slot
-def last_argument(_block: Any, _medium: Medium) -> None:
+def last_argument(_block: Block, _medium: Medium) -> None:
     """Compute the state for the evaluation at the end, in lanes of order 3."""
 
 
 @slot
-def third_slope(_block: Any, _medium: Medium, _tolerance: float) -> None:
+def third_slope(_block: Block, _medium: Medium, _tolerance: float) -> None:
     """Compute the solution of order 3."""
 
 
 @slot
-def end_slope(_block: Any, _medium: Medium) -> None:
+def end_slope(_block: Block, _medium: Medium) -> None:
     """Compute the rates at the ends of calls."""
 
 
 @traced
-def begin_stage(block: Any) -> None:
+def begin_stage(block: Block) -> None:
     """Start a step with the fluid as sampled: ``start_u``, ``start_l``, and ∂u/∂t in the rows of Du/Dt."""
     for i in range(LANES):
         l = load9(block, during.start_l, i)
@@ -314,16 +324,16 @@ def begin_stage(block: Any) -> None:
         block[at.gone * LANES + i] = 0.0
 
 
-def limit_by_path(block: Any, i: int, tolerance: float) -> None:
+def limit_by_path(block: Block, i: int, tolerance: float) -> None:
     """Store the length of the next step of lane i that the error of the path allows."""
     block[during.by_path * LANES + i] = path_factor(block[during.path * LANES + i], tolerance)
 
 
-ADAPTIVE_BINDINGS: dict[str, Callable[..., Any]] = {"limit_next_step": limit_by_path}
-"""Bindings of every integrator of this loop."""
+ADAPTIVE: dict[Callable[..., Any], Callable[..., Any]] = {limit_next_step: limit_by_path}
+"""What every integrator of this loop puts behind slots."""
 
 
-def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
+def evaluate_shape(block: Block, medium: Medium, share: float) -> None:
     """Compute frame, stretches and integrals of the shape in the block, and apply the surroundings.
 
     It precedes each slope; ``share`` is the part of the way to new_x that the body has gone.
@@ -334,67 +344,74 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
 
 
 @kernel
-def sample_starts(_flow: Any, _block: Any, _hosts: Any) -> None:
+def sample_starts(_flow: Any, _block: Block, _hosts: Any) -> None:
     """Store the flow where the steps of the moving lanes start."""
 
 
 @kernel
-def sample_ends(_flow: Any, _block: Any, _hosts: Any, _ahead: Any) -> None:
+def sample_ends(_flow: Any, _block: Block, _hosts: Any, _ahead: Any) -> None:
     """Store the flow at the ends of the steps of the moving lanes, and the hosts there."""
 
 
 @kernel
-def sample_middles(_flow: Any, _block: Any, _hosts: Any) -> None:
+def sample_middles(_flow: Any, _block: Block, _hosts: Any) -> None:
     """Store the fluid's gradient half-way on the steps of order 3."""
 
 
-# In these functions the kernels of a flow are inlined (:func:`sampling`).
-def _sample_starts(flow: Any, block: Any, hosts: Any) -> None:
-    for i in range(LANES):
-        if block[at.moving * LANES + i] > 0.0:
-            u, l_f, u_t = sample(flow, hosts[i], load3(block, at.x, i), block[at.t * LANES + i])
-            store3(block, during.start_u, i, u)
-            store9(block, during.start_l, i, l_f)
-            store3(block, at.DuDt, i, u_t)
+def _starts_by(sample: Callable[..., Any]) -> Callable[..., Any]:
+    def sample_starts(flow: Any, block: Block, hosts: Any) -> None:
+        for i in range(LANES):
+            if block[at.moving * LANES + i] > 0.0:
+                u, l_f, u_t = sample(flow, hosts[i], load3(block, at.x, i), block[at.t * LANES + i])
+                store3(block, during.start_u, i, u)
+                store9(block, during.start_l, i, l_f)
+                store3(block, at.DuDt, i, u_t)
+
+    return sample_starts
 
 
-def _sample_ends(flow: Any, block: Any, hosts: Any, ahead: Any) -> None:
-    for i in range(LANES):
-        if block[at.moving * LANES + i] > 0.0:
-            x, goal, t = load3(block, at.x, i), load3(block, at.new_x, i), block[at.t * LANES + i]
-            t_end = t + block[at.dt * LANES + i]
-            ahead[i], room, entered, u, l_f, u_t = sample_ahead(flow, hosts[i], x, t, goal, t_end)
-            store3(block, during.ahead, i, goal)
-            block[during.room * LANES + i] = room
-            block[during.entered * LANES + i] = entered
-            store3(block, during.end_u, i, u)
-            store9(block, during.end_l, i, l_f)
-            store3(block, during.end_ut, i, u_t)
+def _ends_by(sample_ahead: Callable[..., Any]) -> Callable[..., Any]:
+    def sample_ends(flow: Any, block: Block, hosts: Any, ahead: Any) -> None:
+        for i in range(LANES):
+            if block[at.moving * LANES + i] > 0.0:
+                x, goal, t = load3(block, at.x, i), load3(block, at.new_x, i), block[at.t * LANES + i]
+                t_end = t + block[at.dt * LANES + i]
+                ahead[i], room, entered, u, l_f, u_t = sample_ahead(flow, hosts[i], x, t, goal, t_end)
+                store3(block, during.ahead, i, goal)
+                block[during.room * LANES + i] = room
+                block[during.entered * LANES + i] = entered
+                store3(block, during.end_u, i, u)
+                store9(block, during.end_l, i, l_f)
+                store3(block, during.end_ut, i, u_t)
+
+    return sample_ends
 
 
-def _sample_middles(flow: Any, block: Any, hosts: Any) -> None:
-    for i in range(LANES):
-        if needs_third(block, i):
-            half, t = 0.5 * block[at.dt * LANES + i], block[at.t * LANES + i]
-            v, a = load3(block, during.start_v, i), load3(block, during.start_a, i)
-            place = place_after(block, i, half, v, a)
-            x = load3(block, at.x, i)
-            _, _, _, _, l_f, _ = sample_ahead(flow, hosts[i], x, t, place, t + half)
-            store9(block, during.middle_l, i, l_f)
+def _middles_by(sample_ahead: Callable[..., Any]) -> Callable[..., Any]:
+    def sample_middles(flow: Any, block: Block, hosts: Any) -> None:
+        for i in range(LANES):
+            if needs_third(block, i):
+                half, t = 0.5 * block[at.dt * LANES + i], block[at.t * LANES + i]
+                v, a = load3(block, during.start_v, i), load3(block, during.start_a, i)
+                place = place_after(block, i, half, v, a)
+                x = load3(block, at.x, i)
+                _, _, _, _, l_f, _ = sample_ahead(flow, hosts[i], x, t, place, t + half)
+                store9(block, during.middle_l, i, l_f)
+
+    return sample_middles
 
 
 def sampling(kernels: Mapping[str, Callable[..., Any]]) -> dict[Callable[..., Any], Callable[..., Any]]:
-    """Return the functions behind the slots by which the loop samples a flow, from its kernels."""
-    functions = inlined(kernels)
-    start, ahead = functions["sample"], functions["sample_ahead"]
+    """Return the functions behind the slots by which the loop samples a flow, with its kernels inlined."""
+    sample, sample_ahead = inlined(kernels)
     return {
-        sample_starts: bound(_sample_starts, sample=start),
-        sample_ends: bound(_sample_ends, sample_ahead=ahead),
-        sample_middles: bound(_sample_middles, sample_ahead=ahead),
+        sample_starts: _starts_by(sample),
+        sample_ends: _ends_by(sample_ahead),
+        sample_middles: _middles_by(sample_ahead),
     }
 
 
-def holds_end(block: Any, i: int, goal: Vector) -> bool:
+def holds_end(block: Block, i: int, goal: Vector) -> bool:
     """Return True if the host found for the end of the step of lane i certainly holds ``goal``, m."""
     x, room = load3(block, during.ahead, i), block[during.room * LANES + i]
     # A maximum of the three might hide NaN.
@@ -584,7 +601,7 @@ def next_end(s: Scratch, i: int, t: float, dt: float, start: float, stretch: int
     return float(min((np.floor(first / n) + 1.0) * n, end))
 
 
-def steps_left(block: Any, i: int, remaining: float, l_f: Tensor, dt: float, most: int) -> float:
+def steps_left(block: Block, i: int, remaining: float, l_f: Tensor, dt: float, most: int) -> float:
     """Return the number of equal steps of lane i for its remaining stretch, at its present step size.
 
     Parameters
@@ -650,7 +667,7 @@ def approach(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tole
             block[at.h * LANES + i] = 0.25 * h
 
 
-def longest_over_cells(block: Any, i: int, dt: float) -> float:
+def longest_over_cells(block: Block, i: int, dt: float) -> float:
     """Return the longest next step of lane i by the cells that this one enters, s; at least Δt."""
     entered = block[during.entered * LANES + i]
     if entered <= CELLS:
@@ -658,12 +675,12 @@ def longest_over_cells(block: Any, i: int, dt: float) -> float:
     return float(max(dt, block[at.dt * LANES + i] * CELLS / entered))
 
 
-def needs_third(block: Any, i: int) -> bool:
+def needs_third(block: Block, i: int) -> bool:
     """Return True if lane i takes a step of order 3."""
     return bool(block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0)
 
 
-def count_thirds(block: Any) -> int:
+def count_thirds(block: Block) -> int:
     """Return the number of lanes that take a step of order 3."""
     count = 0
     for i in range(LANES):

@@ -16,9 +16,10 @@ from math import inf
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from foamprb.body.choice import choice
 from foamprb.body.tensor import Scalar, Vector
 from foamprb.cloud.block import Medium, Scratch, Switches
-from foamprb.cloud.layout import Layout
+from foamprb.cloud.layout import Block, Layout
 from foamprb.cloud.paths import RecordedRows
 from foamprb.compile.link import slot
 
@@ -42,9 +43,7 @@ class Integrator(NamedTuple):
     recorded: RecordedRows
     """Rows of its block that are recorded of each step."""
     slots: Mapping[Callable[..., Any], Callable[..., Any]] = MappingProxyType({})
-    """Its functions behind slots of the loop."""
-    bindings: Mapping[str, Callable[..., Any]] = MappingProxyType({})
-    """Its functions by their names in stages that all integrators have."""
+    """Its functions behind slots of the loop and of stages that all integrators have."""
     switches: Switches = Switches()
     adaptive: bool = False
     """Whether it divides tracking steps to meet a tolerance, which is then an argument of its loop."""
@@ -71,7 +70,7 @@ def update_surroundings(_flow: Any, _s: Scratch, _medium: Medium) -> None:
 
 
 @slot
-def apply_surroundings(_block: Any, _medium: Medium, _share: float) -> None:
+def apply_surroundings(_block: Block, _medium: Medium, _share: float) -> None:
     """Let each model change the fluid's u and l of all lanes, ``share`` of the way from x to new_x."""
 
 
@@ -87,13 +86,14 @@ def resolved_share(_flow: Any, _s: Scratch, _i: int, _medium: Medium) -> float:
 
 
 @slot
-def held_for(_block: Any, _i: int, _medium: Medium) -> float:
+def held_for(_block: Block, _i: int, _medium: Medium) -> float:
     """Return how long lane i may hold its next random numbers, s."""
     return inf
 
 
+@choice
 def lifted(
-    _block: Any, _i: int, _medium: Medium, a: Vector, _v: Vector, _rate: Vector, _inertia: Scalar
+    _block: Block, _i: int, _medium: Medium, a: Vector, _v: Vector, _rate: Vector, _inertia: Scalar
 ) -> Vector:
     """Return the acceleration by all forces but drag as it is: no lift by inertia of the fluid, m/s².
 

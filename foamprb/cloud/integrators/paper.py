@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.drag import implicit_euler
-from foamprb.body.drag import oberbeck as drag
+from foamprb.body.drag import drag, implicit_euler
 from foamprb.body.imex import RELATIVE_TOLERANCE, advance, equation, inertia_factor, tangent
 from foamprb.body.material import MATERIALS, viscous_stress
 from foamprb.body.tensor import Tensor, add, det, dot, inverse, scale, to_frame, transpose
-from foamprb.body.traction import roscoe as traction
+from foamprb.body.traction import traction
 from foamprb.cloud.block import (
     Medium,
     Scratch,
@@ -41,7 +40,7 @@ from foamprb.cloud.block import (
 from foamprb.cloud.forces import acceleration
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator, apply_surroundings, lifted, update_surroundings
-from foamprb.cloud.layout import LANES, layout
+from foamprb.cloud.layout import LANES, Block, layout
 from foamprb.cloud.motion import (
     ACTIVE,
     GOES_ON,
@@ -64,7 +63,7 @@ _DENSE_STEPS = 25
 
 
 @traced
-def traction_stage(block: Any, medium: Medium) -> None:
+def traction_stage(block: Block, medium: Medium) -> None:
     """Compute σ̃* (46) less the viscous stress, and Newton's first iterate, in the particle frame."""
     for i in range(LANES):
         F, A, Q = load9(block, at.F, i), load9(block, at.A, i), load9(block, at.Q, i)
@@ -76,11 +75,11 @@ def traction_stage(block: Any, medium: Medium) -> None:
         store9(block, at.predictor, i, dot(Q, add(F, scale(block[at.dt * LANES + i], A))))
 
 
-def _kappa(block: Any, i: int) -> float:
+def _kappa(block: Block, i: int) -> float:
     return inertia_factor(block[at.dt * LANES + i], block[at.rho * LANES + i], block[at.R * LANES + i])  # type: ignore[no-any-return]
 
 
-def _finish_shape(block: Any, i: int, G: Tensor, error: float) -> None:
+def _finish_shape(block: Block, i: int, G: Tensor, error: float) -> None:
     """Store Fⁿ⁺¹ = Qᵀ·G, Aⁿ⁺¹ = (Fⁿ⁺¹ − Fⁿ)/Δt (47), J and the error."""
     F = load9(block, at.F, i)
     F_new = dot(transpose(load9(block, at.Q, i)), G)
@@ -91,7 +90,7 @@ def _finish_shape(block: Any, i: int, G: Tensor, error: float) -> None:
 
 
 @traced
-def newton_stage(block: Any) -> None:
+def newton_stage(block: Block) -> None:
     """Compute the new deformation gradient."""
     for i in range(LANES):
         G, error = advance(
@@ -106,7 +105,7 @@ def newton_stage(block: Any) -> None:
 
 
 @traced
-def barycentre_stage(block: Any, medium: Medium) -> None:
+def barycentre_stage(block: Block, medium: Medium) -> None:
     """Compute the new velocity, with the drag of the new shape (36) to (43)."""
     for i in range(LANES):
         k = drag(load3(block, at.stretch, i), load_integrals(block, i))
@@ -143,7 +142,7 @@ def _eliminate(M: Any, n: int) -> bool:
 
 
 @separate
-def dense_newton(block: Any, i: int, M: Any) -> None:
+def dense_newton(block: Block, i: int, M: Any) -> None:
     """Compute the deformation gradient of lane i by Newton's method with the full 9×9 tangent (50), in M."""
     predictor, stress = load9(block, at.predictor, i), load9(block, at.stress, i)
     mu, lame, kappa = block[at.mu * LANES + i], block[at.lame * LANES + i], _kappa(block, i)

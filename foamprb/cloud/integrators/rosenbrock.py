@@ -11,7 +11,8 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from foamprb.body.drag import oberbeck as drag
+from foamprb.body.choice import choice
+from foamprb.body.drag import drag
 from foamprb.body.error_control import (
     FLUID_SHARE,
     chord_error,
@@ -39,8 +40,7 @@ from foamprb.body.inertial_runge_kutta import last_argument as end_argument
 from foamprb.body.inertial_runge_kutta import second_order as of_second_order
 from foamprb.body.inertial_runge_kutta import slope as slope_of
 from foamprb.body.inertial_runge_kutta import third_order as of_third_order
-from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
-from foamprb.body.material import viscous_stress
+from foamprb.body.material import finger_of_body_in_frame, viscous_stress
 from foamprb.body.rosenbrock import Elasticity, Stiffness, inertial_stiffness, relaxation_rate
 from foamprb.body.tensor import (
     Tensor,
@@ -62,7 +62,7 @@ from foamprb.body.tensor import (
     transpose,
     vector_dot,
 )
-from foamprb.body.traction import roscoe as traction
+from foamprb.body.traction import traction
 from foamprb.cloud.block import (
     Medium,
     Switches,
@@ -81,7 +81,7 @@ from foamprb.cloud.block import (
 from foamprb.cloud.elastic import conservative_stress, solid_elasticity
 from foamprb.cloud.forces import acceleration
 from foamprb.cloud.integrators.adaptive import (
-    ADAPTIVE_BINDINGS,
+    ADAPTIVE,
     acceleration_at_end,
     choose_order,
     counted_error,
@@ -103,13 +103,14 @@ from foamprb.cloud.integrators.adaptive import (
     update_discount,
 )
 from foamprb.cloud.integrators.base import Integrator, lifted
-from foamprb.cloud.layout import LANES, Row, layout, offsets
+from foamprb.cloud.layout import LANES, Block, Row, layout, offsets
 from foamprb.cloud.motion import STOPS_AT_CONTACT, rewind
 from foamprb.cloud.paths import RecordedRows
 from foamprb.compile.link import traced
 
 
-def resist(_block: Any, _i: int, rate: Vector, w: Vector) -> Vector:
+@choice
+def resist(_block: Block, _i: int, rate: Vector, w: Vector) -> Vector:
     """Return the deceleration by drag at the slip w with the rates μ_f K/m, 1/s, in the particle frame, m/s².
 
     A surrounding that hinders motion replaces this and the next three functions.
@@ -117,17 +118,20 @@ def resist(_block: Any, _i: int, rate: Vector, w: Vector) -> Vector:
     return rate[0] * w[0], rate[1] * w[1], rate[2] * w[2]
 
 
-def find_drag_axes(_block: Any, _i: int, Q: Tensor, rate: Vector) -> tuple[Tensor, Vector]:
+@choice
+def find_drag_axes(_block: Block, _i: int, Q: Tensor, rate: Vector) -> tuple[Tensor, Vector]:
     """Return the frame in which the drag at the start of a step is diagonal, and its rates there: Q's."""
     return Q, rate
 
 
-def drag_axes(_block: Any, _i: int, Q: Tensor) -> Tensor:
+@choice
+def drag_axes(_block: Block, _i: int, Q: Tensor) -> Tensor:
     """Return the frame of :func:`find_drag_axes` in later stages; Q is the particle frame at the start."""
     return Q
 
 
-def leave_gradient(_block: Any, _i: int, _Q: Tensor, _l_s: Tensor, _wanted: Any) -> None:
+@choice
+def leave_gradient(_block: Block, _i: int, _Q: Tensor, _l_s: Tensor, _wanted: Any) -> None:
     """No-op: no surrounding reads l_s before A is computed."""
 
 
@@ -167,15 +171,16 @@ class StiffnessRows(NamedTuple):
 work = offsets(StiffnessRows)
 
 
+@choice
 def with_fading(
-    _block: Any, _i: int, turning: Tensor, _n: Stiffness, _e: Elasticity, _G: Tensor, _c: Any
+    _block: Block, _i: int, turning: Tensor, _n: Stiffness, _e: Elasticity, _G: Tensor, _c: Any
 ) -> Tensor:
     """Return the rate of change of dl_s/dt by turning as it is: the solid has no memory that fades."""
     return turning
 
 
 @traced
-def predict_inertial(block: Any, medium: Medium) -> None:
+def predict_inertial(block: Block, medium: Medium) -> None:
     """Compute velocity and its rate at the start, and the position they predict with drag."""
     for i in range(LANES):
         h, Q = block[at.dt * LANES + i], load9(block, at.Q, i)
@@ -199,7 +204,7 @@ def predict_inertial(block: Any, medium: Medium) -> None:
 
 
 @traced
-def first_inertial(block: Any, medium: Medium) -> None:
+def first_inertial(block: Block, medium: Medium) -> None:
     """Compute the state at the start, its stiffness, and the state at a quarter of the step.
 
     The shape's unknowns are F and l_s = A F⁻¹, with dF/dt = l_s F and dl_s/dt = Ȧ F⁻¹ − l_s l_s: the traction
@@ -215,7 +220,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         G = dot(Q, F)
         # A F⁻¹ = A Fᵀ b⁻¹, with a diagonal b in the particle frame.
         L = over_b(_squares(stretches), dot(dot(Q, A), transpose(G)))
-        b_e = finger_in_frame(stretches, G, load9(block, at.M, i))
+        b_e = finger_of_body_in_frame(stretches, G, load9(block, at.M, i))
         l_t, tau = _shape_rate(block, i, viscosity_at(block, i, medium), L, b_e)
         e = solid_elasticity(block, i, stretches, b_e)
         n = inertial_stiffness(stretches, g, e, c, viscosity_at(block, i, medium), block[at.eta * LANES + i])
@@ -261,7 +266,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
 
 
 @traced
-def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
+def second_inertial(block: Block, medium: Medium, tolerance: float) -> None:
     """Compute slopes at a quarter of the step and the solution of order 2, and choose the order."""
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
@@ -302,7 +307,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
 
 
 @traced
-def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
+def last_inertial(block: Block, medium: Medium) -> None:  # noqa: ARG001
     """Compute the state for the evaluation at the end, in lanes of order 3."""
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
@@ -330,7 +335,7 @@ def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
 
 
 @traced
-def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
+def third_inertial(block: Block, medium: Medium, tolerance: float) -> None:
     """Compute slopes at the end and the solution of order 3."""
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
@@ -366,7 +371,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         judge_difference(block, i, select(third, difference, 0.0), tolerance)
 
 
-def rewind_inertial(block: Any, i: int, f: float) -> None:
+def rewind_inertial(block: Block, i: int, f: float) -> None:
     """Set the shape in lane i to that after the fraction f of the finished step, on Hermite's cubic."""
     Q, h = load9(block, during.start_Q, i), block[at.dt * LANES + i]
     G, L = load9(block, work.G, i), load9(block, work.l_s, i)
@@ -379,7 +384,7 @@ def rewind_inertial(block: Any, i: int, f: float) -> None:
     store9(block, at.A, i, scale(1.0 / h, slope))
 
 
-def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:
+def _shape_rate(block: Block, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:
     """Return dl_s/dt = Ȧ F⁻¹ − l_s l_s, Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², and τ, Pa, in its frame.
 
     Parameters
@@ -402,55 +407,55 @@ def _squares(v: Vector) -> Vector:
     return v[0] * v[0], v[1] * v[1], v[2] * v[2]
 
 
-def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
+def _rates(block: Block, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
     """Return the rate of Ω less l_s, 1/s, and the rate of l_s, 1/s², of the evaluated state."""
     Q, L = load9(block, at.Q, i), add(l_s, load9(block, work.dl, i))
     G = dot(Q, load9(block, at.new_F, i))
     turn = dot(Q, transpose(Q0))
-    b_e = finger_in_frame(load3(block, at.stretch, i), G, load9(block, at.M, i))
+    b_e = finger_of_body_in_frame(load3(block, at.stretch, i), G, load9(block, at.M, i))
     rate, _ = _shape_rate(block, i, viscosity_at(block, i, medium), to_frame(turn, L), b_e)
     return algebra_excess(load9(block, work.Omega, i), L), from_frame(turn, rate)
 
 
-def _argument(block: Any, i: int) -> Pair:
+def _argument(block: Block, i: int) -> Pair:
     """Return Ω and the change of l_s of the evaluated state."""
     return load9(block, work.Omega, i), load9(block, work.dl, i)
 
 
-def _set_shape(block: Any, i: int, Q: Tensor, G: Tensor, shape: Pair) -> None:
+def _set_shape(block: Block, i: int, Q: Tensor, G: Tensor, shape: Pair) -> None:
     """Store the shape to be evaluated."""
     store9(block, work.Omega, i, shape[0])
     store9(block, work.dl, i, shape[1])
     store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(shape[0]), G)))
 
 
-def _set_motion(block: Any, i: int, Q: Tensor, moved: Motion) -> None:
+def _set_motion(block: Block, i: int, Q: Tensor, moved: Motion) -> None:
     """Store the displacement to the position to be evaluated, and the velocity there."""
     v, dv = load3(block, at.v, i), vector_dot(moved[1], Q)
     store3(block, work.dv, i, moved[1])
     store3(block, at.new_v, i, plus(v, dv))
 
 
-def _new_shape(block: Any, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[Tensor, Tensor, Any]:
+def _new_shape(block: Block, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[Tensor, Tensor, Any]:
     """Return F, A and J at the end of the step."""
     G = dot(group_exponential(end[0]), load9(block, work.G, i))
     F = dot(transpose(Q), G)
     return F, dot(transpose(Q), dot(add(l_s, end[1]), G)), det(F)
 
 
-def _new_motion(block: Any, i: int, Q: Tensor, end: Motion) -> tuple[Vector, Vector]:
+def _new_motion(block: Block, i: int, Q: Tensor, end: Motion) -> tuple[Vector, Vector]:
     """Return position and velocity at the end of the step."""
     x, v = load3(block, at.x, i), load3(block, at.v, i)
     return plus(x, vector_dot(end[0], Q)), plus(v, vector_dot(end[1], Q))
 
 
-def _forced(block: Any, i: int, medium: Medium, Q: Tensor) -> Vector:
+def _forced(block: Block, i: int, medium: Medium, Q: Tensor) -> Vector:
     """Return the rate of the velocity in the evaluated state, m/s²."""
     v_t, _ = _acceleration(block, i, medium, load3(block, at.new_v, i))
     return dot_vector(Q, v_t)
 
 
-def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector, Vector]:
+def _acceleration(block: Block, i: int, medium: Medium, v: Vector) -> tuple[Vector, Vector]:
     """Return the acceleration (34) of the body in the block at velocity v, m/s², and drag's rates, 1/s.
 
     The rates are those without walls, along the particle's axes.
@@ -470,7 +475,7 @@ def _fluid_share(changes: tuple[Vector, Vector], s: float) -> Vector:
     return s * x + c * p, s * y + c * q, s * z + c * r
 
 
-def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
+def _fluid_slope(block: Block, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     """Return the initial rate of the fluid's velocity, m/s², by parabola or chord, whichever has less error.
 
     Stores that error.
@@ -502,7 +507,7 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     return choose3(straight, scale_vector(1.0 / h, du), a_u)
 
 
-def _way(block: Any, i: int) -> Any:
+def _way(block: Block, i: int) -> Any:
     """Return the scale of path errors: the way of the fluid or of the body plus the radius, m."""
     h, v, u = block[at.dt * LANES + i], load3(block, at.v, i), load3(block, during.end_u, i)
     return h * np.sqrt(np.maximum(inner(v, v), inner(u, u))) + block[at.R * LANES + i]
@@ -519,7 +524,7 @@ def _length(m: Motion, h: Any, way: Any) -> Any:
     return np.sqrt(np.maximum(inner(x, x), h * h * inner(v, v))) / way
 
 
-def _bend(block: Any, i: int, n: Stiffness, Q: Tensor) -> Tensor:
+def _bend(block: Block, i: int, n: Stiffness, Q: Tensor) -> Tensor:
     """Return the part of dl_s/dt that is quadratic in time, from that of the fluid's gradient, 1/s²."""
     l, middle, l_end = (
         load9(block, during.start_l, i),
@@ -529,7 +534,7 @@ def _bend(block: Any, i: int, n: Stiffness, Q: Tensor) -> Tensor:
     return fluid_change(n, to_frame(Q, scale(2.0, add(add(l, l_end), scale(-2.0, middle)))))
 
 
-def _store_stiffness(block: Any, i: int, n: Stiffness) -> None:
+def _store_stiffness(block: Block, i: int, n: Stiffness) -> None:
     store3(block, work.b, i, n.b)
     store9(block, work.traction, i, n.traction)
     p, q, r = n.traction_pairs
@@ -544,7 +549,7 @@ def _store_stiffness(block: Any, i: int, n: Stiffness) -> None:
     block[work.deficit * LANES + i] = n.deficit
 
 
-def _load_drag(block: Any, i: int) -> tuple[Vector, Motion, tuple[Vector, Vector]]:
+def _load_drag(block: Block, i: int) -> tuple[Vector, Motion, tuple[Vector, Vector]]:
     """Return rates of drag, velocity and its rate at the start, and changes by the fluid's velocity."""
     moving = load3(block, work.first_v, i), load3(block, work.first_vt, i)
     return (
@@ -554,7 +559,7 @@ def _load_drag(block: Any, i: int) -> tuple[Vector, Motion, tuple[Vector, Vector
     )
 
 
-def _load_stiffness(block: Any, i: int) -> Stiffness:
+def _load_stiffness(block: Block, i: int) -> Stiffness:
     p, q, r = (
         load4(block, work.traction_pairs, i),
         load4(block, work.traction_pairs + 4, i),
@@ -580,6 +585,7 @@ ROSENBROCK = Integrator(
     layout=layout(at, during, work),
     recorded=RecordedRows(during.start_Q, during.start_l, at.A, in_frame=False, end_l=during.end_l),
     slots={
+        **ADAPTIVE,
         predict: predict_inertial,
         first_slope: first_inertial,
         second_slope: second_inertial,
@@ -587,7 +593,6 @@ ROSENBROCK = Integrator(
         third_slope: third_inertial,
         rewind: rewind_inertial,
     },
-    bindings=ADAPTIVE_BINDINGS,
     switches=Switches(bouncing=STOPS_AT_CONTACT),
     adaptive=True,
 )

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from typing import Annotated, Any, NamedTuple
 
-from foamprb.body.drag import oberbeck as drag
+from foamprb.body.choice import choice
+from foamprb.body.drag import drag
 from foamprb.body.error_control import FLUID_SHARE, relative_size, strain_scale
 from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
 from foamprb.body.exponential_runge_kutta import first_argument as quarter_argument
@@ -17,8 +18,7 @@ from foamprb.body.exponential_runge_kutta import last_argument as end_argument
 from foamprb.body.exponential_runge_kutta import second_order as of_second_order
 from foamprb.body.exponential_runge_kutta import slope as slope_of
 from foamprb.body.exponential_runge_kutta import third_order as of_third_order
-from foamprb.body.material import MATERIALS
-from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
+from foamprb.body.material import MATERIALS, finger_of_body_in_frame
 from foamprb.body.relaxation import Relaxation, Response, fastest, relaxation, relaxing, responses
 from foamprb.body.rosenbrock import Elasticity
 from foamprb.body.slip import balanced_slip
@@ -64,7 +64,7 @@ from foamprb.cloud.elastic import (
 )
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import (
-    ADAPTIVE_BINDINGS,
+    ADAPTIVE,
     add_disturbance_error,
     choose_order,
     counted_error,
@@ -88,7 +88,7 @@ from foamprb.cloud.integrators.adaptive import (
     update_discount,
 )
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES, Row, layout, offsets
+from foamprb.cloud.layout import LANES, Block, Row, layout, offsets
 from foamprb.cloud.paths import RecordedRows
 from foamprb.compile.link import traced
 
@@ -120,8 +120,9 @@ class RelaxationRows(NamedTuple):
 work = offsets(RelaxationRows)
 
 
+@choice
 def with_fading(
-    _block: Any, _i: int, turning: Tensor, _m: Mobility, _e: Elasticity, _G: Tensor, _mu_f: Any
+    _block: Block, _i: int, turning: Tensor, _m: Mobility, _e: Elasticity, _G: Tensor, _mu_f: Any
 ) -> Tensor:
     """Return the rate of change of l_s by turning as it is: the solid has no memory that fades."""
     return turning
@@ -133,6 +134,7 @@ def gradient_by_slope(n: Relaxation, Omega: Tensor, l_s: Tensor, change: Tensor,
     return add(g, scale(0.5, commutator(Omega, g)))
 
 
+@choice
 def gradient_at_end(
     l_end: Tensor, _Q: Tensor, _n: Relaxation, _Omega: Tensor, _l_s: Tensor, _change: Tensor, _last: Tensor
 ) -> Tensor:
@@ -141,7 +143,7 @@ def gradient_at_end(
 
 
 @traced
-def predict_inertialess(block: Any, medium: Medium) -> None:
+def predict_inertialess(block: Block, medium: Medium) -> None:
     """Compute velocity and acceleration at the start, and the position they predict."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
@@ -155,7 +157,7 @@ def predict_inertialess(block: Any, medium: Medium) -> None:
 
 
 @traced
-def first_inertialess(block: Any, medium: Medium) -> None:
+def first_inertialess(block: Block, medium: Medium) -> None:
     """Compute the state at the start, its relaxation, and the shape at a quarter of the step."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
@@ -164,7 +166,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
         mark_disturbed(block, i)
         G = dot(Q, F)
-        b_e = finger_in_frame(stretches, G, load9(block, at.M, i))
+        b_e = finger_of_body_in_frame(stretches, G, load9(block, at.M, i))
         m, sigma = _response(block, i, medium, stretches, b_e)
         l_f = to_frame(Q, felt)
         l_s = velocity_gradient(m, sigma, l_f)
@@ -205,7 +207,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
 
 
 @traced
-def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
+def second_inertialess(block: Block, medium: Medium, tolerance: float) -> None:
     """Compute the slope at a quarter of the step and the solution of order 2, and choose the order."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
@@ -244,7 +246,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
 
 
 @traced
-def last_inertialess(block: Any, medium: Medium) -> None:
+def last_inertialess(block: Block, medium: Medium) -> None:
     """Compute the shape for the evaluation at the end, in lanes of order 3."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
@@ -264,7 +266,7 @@ def last_inertialess(block: Any, medium: Medium) -> None:
 
 
 @traced
-def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
+def third_inertialess(block: Block, medium: Medium, tolerance: float) -> None:
     """Compute the slope at the end and the solution of order 3."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
@@ -291,7 +293,7 @@ def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
 
 
 @traced
-def end_inertialess(block: Any, medium: Medium) -> None:
+def end_inertialess(block: Block, medium: Medium) -> None:
     """Compute A and v of the balance at the end of the last step."""
     for i in range(LANES):
         moving = block[at.moving * LANES + i] > 0.0
@@ -303,27 +305,29 @@ def end_inertialess(block: Any, medium: Medium) -> None:
         store3(block, at.v, i, choose3(moving, v, load3(block, at.v, i)))
 
 
-def _response(block: Any, i: int, medium: Medium, stretches: Vector, b_e: Tensor) -> tuple[Mobility, Tensor]:
+def _response(
+    block: Block, i: int, medium: Medium, stretches: Vector, b_e: Tensor
+) -> tuple[Mobility, Tensor]:
     """Return the mobility, and the elastic stress over μ_f, 1/s, in the particle frame."""
     m = body_mobility(block, i, medium, stretches)
     tau = incompressible_stress(block, i, stretches, b_e)
     return m, scale(1.0 / viscosity_at(block, i, medium), tau)
 
 
-def _gradient(block: Any, i: int, medium: Medium) -> Tensor:
+def _gradient(block: Block, i: int, medium: Medium) -> Tensor:
     """Return l_s of the shape new_F, whose frame and integrals are in the block, 1/s."""
     return from_frame(load9(block, at.Q, i), _gradient_in_frame(block, i, medium))
 
 
-def _gradient_in_frame(block: Any, i: int, medium: Medium) -> Tensor:
+def _gradient_in_frame(block: Block, i: int, medium: Medium) -> Tensor:
     """Return the same in that frame."""
     Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
-    b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
+    b_e = finger_of_body_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     m, sigma = _response(block, i, medium, stretches, b_e)
     return velocity_gradient(m, sigma, to_frame(Q, load9(block, at.l, i)))
 
 
-def _fluid_at_node(block: Any, i: int) -> Vector:
+def _fluid_at_node(block: Block, i: int) -> Vector:
     """Return the velocity of the undisturbed fluid at a quarter of the step, m/s."""
     return between(load3(block, during.start_u, i), load3(block, during.end_u, i), NODE)
 
@@ -333,7 +337,7 @@ def _seen(m: Mobility, dl_f: Tensor) -> Tensor:
     return velocity_gradient(m, ZERO, dl_f)
 
 
-def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
+def _bend(block: Block, i: int, medium: Medium, Q: Tensor) -> Tensor:
     """Return the part of l_s that is quadratic in time, from that of the fluid's gradient, 1/s."""
     l, middle, l_end = (
         load9(block, during.start_l, i),
@@ -348,15 +352,21 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
     return _seen(m, to_frame(Q, bend))
 
 
-def slip_of_body(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
+@choice
+def slip_of_body(block: Block, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
+    return slip_by_forces(block, i, medium, l_f, Du_Dt)
+
+
+def slip_by_forces(block: Block, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
+    """Return the same where drag balances the forces."""
     k = drag(load3(block, at.stretch, i), load_integrals(block, i))
     rate = drag_rate(block, i, viscosity_at(block, i, medium), k)
     steady, push, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, Du_Dt, l_f)
 
 
-def _finish_shape(block: Any, i: int, Q: Tensor, Omega: Tensor) -> Tensor:
+def _finish_shape(block: Block, i: int, Q: Tensor, Omega: Tensor) -> Tensor:
     """Store and return the new deformation gradient with its exact volume; store its volume before."""
     F = dot(transpose(Q), dot(group_exponential(Omega), dot(Q, load9(block, at.F, i))))
     J = det(F)
@@ -366,7 +376,7 @@ def _finish_shape(block: Any, i: int, Q: Tensor, Omega: Tensor) -> Tensor:
     return F
 
 
-def _load_relaxation(block: Any, i: int) -> tuple[Relaxation, Response]:
+def _load_relaxation(block: Block, i: int) -> tuple[Relaxation, Response]:
     """Return the relaxation of the state at the start, and the functions of the whole step."""
     b_e = load9(block, work.b_e, i)
     n = Relaxation(
@@ -396,6 +406,7 @@ STOKES = Integrator(
         during.start_Q, during.start_l, work.l_s, in_frame=True, end_l=during.end_l, v=during.start_v
     ),
     slots={
+        **ADAPTIVE,
         predict: predict_inertialess,
         first_slope: first_inertialess,
         second_slope: second_inertialess,
@@ -403,7 +414,6 @@ STOKES = Integrator(
         third_slope: third_inertialess,
         end_slope: end_inertialess,
     },
-    bindings=ADAPTIVE_BINDINGS,
     switches=Switches(updates_end=1),
     adaptive=True,
     inertia=False,

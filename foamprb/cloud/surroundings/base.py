@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple, TypeAlias
 
-from foamprb.body.drag import oberbeck as drag
+from foamprb.body.choice import choice
+from foamprb.body.drag import drag
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -18,26 +19,46 @@ from foamprb.body.tensor import (
 )
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.state import Particles
 from foamprb.flow.base import Flow, Patch
 
+Slots: TypeAlias = Mapping[Callable[..., Any], Callable[..., Any]]
+"""Functions behind slots and choices."""
 
-class Traits(NamedTuple):
-    """Properties of a model that hold for any entries."""
 
-    each_step: bool = True
-    """Whether no step may be longer than a tracking step."""
-    turbulence: bool = False
-    """Whether it needs k and ε of the flow."""
-    kernels: tuple[str, ...] = ()
-    """Kernels that a flow (:class:`foamprb.flow.base.Flow`) must have."""
-    mirrors: bool = False
-    """Whether it mirrors bodies, with their shapes at rest."""
-    measures: tuple[str, ...] = ()
-    """Names of the optional measures that files then contain."""
-    surveys: tuple[str, ...] = Particles._fields
-    """Names of the arrays of particles that :meth:`Surrounding.remarks` reads."""
+class Stage(NamedTuple):
+    """Function of a model, its place in a step, and the rows by which models depend on each other.
+
+    Rows are named by their offsets, as ``at.u``. At a place, a stage comes after those that write or add to
+    what it reads, and before those that change what it reads ``before``.
+    """
+
+    place: Literal["start", "ahead", "properties", "fluid", "accept", "hold"]
+    """Where and how it is called:
+
+    * ``start``: ``run(flow, s, i, step, remaining, medium, coefficients)`` before a step h of lane i, whose x
+      and t are at the start of h. Random numbers belong to the tracking step ``step`` and hold for the time
+      ``remaining``, s, through one or more steps h. A further call with ``remaining`` 0 comes at the end of a
+      call of the loop, for the last rates.
+    * ``ahead``: ``run(flow, s, i, medium, coefficients)`` where the step is to lead, new_x in the host
+      ``s.ahead[i]``; not with ``paper``.
+    * ``properties``: ``run(block, medium, share, coefficients)`` for all lanes at each evaluation of the
+      body's equations, for data that other models read. The lanes are at x + share·(new_x − x), with the
+      shape new_F; frames and integrals are its own.
+    * ``fluid``: the same after all properties, for what is added to u and l.
+    * ``accept``: ``run(flow, s, i, medium, coefficients) -> share``: of a step of lane i longer than Δt that
+      led to new_x and new_F, the share that the model resolves. Below 1 the step is repeated, so much
+      shorter.
+    * ``hold``: ``run(block, i, medium, coefficients) -> s``: how long lane i may hold the next random
+      numbers. They hold for a power of two of tracking steps at most, one at least."""
+    run: Callable[..., Any]
+    reads: tuple[int, ...] = ()
+    writes: tuple[int, ...] = ()
+    """Rows that no other model may write."""
+    adds: tuple[int, ...] = ()
+    """Rows to which others may add as well."""
+    before: tuple[int, ...] = ()
 
 
 class Survey(NamedTuple):
@@ -73,42 +94,28 @@ class Surrounding:
     block, which are saved if their declaration says so.
     """
 
-    rows: ClassVar[Mapping[str, type[tuple[int, ...]]]] = {}
-    """Declaration of its rows, as :func:`foamprb.cloud.layout.offsets` reads it, by the global name of their
-    offsets in its functions."""
-    traits: ClassVar[Traits] = Traits()
-    update: ClassVar[Callable[..., None] | None] = None
-    """``update(flow, s, i, step, remaining, medium, coefficients)``: update rows of lane i before a step h.
-
-    Random numbers belong to the tracking step ``step`` and hold for the time ``remaining``, s, through one or
-    more steps h (:attr:`hold`). A further call with ``remaining`` 0 comes at the end of a call, for the last
-    rates. The lane's x and t are at the start of h.
-    """
-    hold: ClassVar[Callable[..., float] | None] = None
-    """``hold(block, i, medium, coefficients) -> s``: how long lane i may hold the next random numbers. They
-    hold for a power of two of tracking steps at most, one at least. Such a model draws random numbers."""
-    look: ClassVar[Callable[..., None] | None] = None
-    """``look(flow, s, i, medium, coefficients)``: update rows of lane i where the step is to lead, new_x in
-    the host ``s.ahead[i]``; not with ``paper``."""
-    resolve: ClassVar[Callable[..., float] | None] = None
-    """``resolve(flow, s, i, medium, coefficients) -> share``: of a step of lane i longer than Δt that led to
-    new_x and new_F, the share that the model resolves. Below 1 the step is repeated, so much shorter."""
-    prepare: ClassVar[Callable[..., None] | None] = None
-    """``disturb`` of data that other models read; it is called before that of any model."""
-    disturb: ClassVar[Callable[..., None] | None] = None
-    """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
-    x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
+    rows: ClassVar[tuple[type[tuple[int, ...]], ...]] = ()
+    """Declarations of its rows, as :func:`foamprb.cloud.layout.offsets` reads them."""
+    stages: ClassVar[tuple[Stage, ...]] = ()
+    switches: ClassVar[Mapping[str, int]] = {}
+    """What the loop does for it, by the names of :class:`foamprb.cloud.block.Switches`."""
+    each_step: ClassVar[bool] = True
+    """Whether no step may be longer than a tracking step."""
+    kernels: ClassVar[tuple[str, ...]] = ()
+    """Kernels that a flow (:class:`foamprb.flow.base.Flow`) must have."""
+    mirrors: ClassVar[bool] = False
+    """Whether it mirrors bodies, with their shapes at rest."""
+    measures: ClassVar[tuple[str, ...]] = ()
+    """Names of the optional measures that files then contain."""
+    surveys: ClassVar[tuple[str, ...]] = Particles._fields
+    """Names of the arrays of particles that :meth:`remarks` reads."""
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return the arguments of its functions: numbers and arrays of them, perhaps in tuples."""
         return ()
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
-        """Return functions by their names, for an integrator with or without inertia.
-
-        The names are those of slots, of :class:`foamprb.cloud.block.Switches`, or of functions that stages
-        call.
-        """
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
+        """Return its functions behind slots and choices, for an integrator with or without inertia."""
         return {}
 
     def walls(self, patches: Sequence[Patch]) -> tuple[float, Sequence[int]]:  # noqa: ARG002
@@ -151,37 +158,41 @@ def _written(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float | int) else f"({value})"
 
 
-def hindrance_by_walls(_block: Any, _i: int) -> Tensor:
-    """Return zero: no walls; ``wallLift`` binds its own function, of the walls at the start of a step."""
+@choice
+def hindrance_by_walls(_block: Block, _i: int) -> Tensor:
+    """Return the resistance by the walls at the start of a step; by default none."""
     return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
-present_hindrance = hindrance_by_walls
-"""The same of the walls where the lane is."""
+@choice
+def present_hindrance(_block: Block, _i: int) -> Tensor:
+    """Return the same of the walls where the lane is."""
+    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
-def thermal_force(_block: Any, _i: int) -> Vector:
-    """Return zero: no molecules; ``BrownianMotion`` binds its own function."""
+@choice
+def thermal_force(_block: Block, _i: int) -> Vector:
+    """Return the force of molecules, N; by default none."""
     return 0.0, 0.0, 0.0
 
 
-def resistances(block: Any, i: int) -> Vector:
+def resistances(block: Block, i: int) -> Vector:
     """Return the principal resistances K of lane i without walls, m."""
     k = drag(load3(block, at.stretch, i), load_integrals(block, i))
     return scale_vector(block[at.R * LANES + i], k)
 
 
-def volume_at_rest(block: Any, i: int) -> Scalar:
+def volume_at_rest(block: Block, i: int) -> Scalar:
     """Return the volume of lane i at rest, m³."""
     R = block[at.R * LANES + i]
     return 4.0 / 3.0 * math.pi * R * R * R
 
 
-def add3(block: Any, row: int, i: int, v: Vector) -> None:
+def add3(block: Block, row: int, i: int, v: Vector) -> None:
     """Add a vector to three rows of lane i."""
     store3(block, row, i, plus(load3(block, row, i), v))
 
 
-def add9(block: Any, row: int, i: int, T: Tensor) -> None:
+def add9(block: Block, row: int, i: int, T: Tensor) -> None:
     """Add a tensor to nine rows of lane i."""
     store9(block, row, i, add(load9(block, row, i), T))

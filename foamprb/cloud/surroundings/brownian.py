@@ -8,7 +8,7 @@ particle follows its present resistances.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -53,16 +53,19 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.layout import LANES, Block, Row, offsets
+from foamprb.cloud.motion import turn_along
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import (
     Remarks,
+    Slots,
+    Stage,
     Surrounding,
     Survey,
-    Traits,
     add3,
     hindrance_by_walls,
     resistances,
+    thermal_force,
     volume_at_rest,
 )
 from foamprb.compile.link import separate, traced
@@ -115,7 +118,7 @@ def draw(
         store9(block, thermal.nine, i, nine)
 
 
-def hold_of_molecules(block: Any, i: int, medium: Medium, coefficients: Any) -> float:
+def hold_of_molecules(block: Block, i: int, medium: Medium, coefficients: Any) -> float:
     """Return how long force and stress on lane i may be constant, s.
 
     The particle then moves by a share of the gap to a wall, and turns little, by itself or with the fluid.
@@ -130,7 +133,7 @@ def hold_of_molecules(block: Any, i: int, medium: Medium, coefficients: Any) -> 
     return longest if longest > 0.0 else 0.0
 
 
-def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
+def compute_force(block: Block, medium: Medium, share: float, coefficients: Any) -> None:
     """Compute force and stress of the lanes whose random numbers are new."""
     new = 0
     for i in range(LANES):
@@ -140,7 +143,7 @@ def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -
 
 
 @traced
-def force_stage(block: Any, medium: Medium, kT: float) -> None:
+def force_stage(block: Block, medium: Medium, kT: float) -> None:
     """Compute force and stress of the lanes whose random numbers are new."""
     for i in range(LANES):
         duration = block[thermal.duration * LANES + i]
@@ -160,7 +163,7 @@ def force_stage(block: Any, medium: Medium, kT: float) -> None:
 
 
 @traced
-def apply_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def apply_force(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Change u and l so that the fluid exerts the force and stress of the molecules.
 
     The velocity is u + K⁻¹·f_B/μ_f, with K without walls: the hindrance by walls is applied by ``wallLift``.
@@ -179,14 +182,14 @@ def apply_force(block: Any, medium: Medium, share: float, coefficients: Any) -> 
 
 
 @separate
-def turn_force(block: Any, i: int, turn: Tensor) -> None:
+def turn_force(block: Block, i: int, turn: Tensor) -> None:
     """Rotate or mirror force and stress on lane i, together with the particle."""
     store3(block, thermal.thermal_force, i, dot_vector(turn, load3(block, thermal.thermal_force, i)))
     T = load9(block, thermal.thermal_stress, i)
     store9(block, thermal.thermal_stress, i, dot(turn, dot(T, transpose(turn))))
 
 
-def force_of_molecules(block: Any, i: int) -> Vector:
+def force_of_molecules(block: Block, i: int) -> Vector:
     """Return the force on lane i, N."""
     return load3(block, thermal.thermal_force, i)
 
@@ -199,24 +202,24 @@ class BrownianMotion(Surrounding):
     seed: Seed = 1
     shape: Annotated[bool, Meaning("whether molecules also turn and deform the particle")] = True
 
-    rows: ClassVar = {"thermal": BrownianRows}
-    traits: ClassVar = Traits(each_step=False, surveys=("R", "rho", "mu"))
-    update: ClassVar = staticmethod(draw)
-    hold: ClassVar = staticmethod(hold_of_molecules)
-    prepare: ClassVar = staticmethod(compute_force)
-    disturb: ClassVar = staticmethod(apply_force)
+    rows: ClassVar = (BrownianRows,)
+    each_step: ClassVar = False
+    surveys: ClassVar = ("R", "rho", "mu")
+    switches: ClassVar = {"reflects_steps": 1}
+    stages: ClassVar = (
+        Stage("start", draw, writes=(thermal.three, thermal.nine)),
+        Stage("hold", hold_of_molecules),
+        Stage("properties", compute_force, writes=(thermal.thermal_force, thermal.thermal_stress)),
+        Stage("fluid", apply_force, reads=(thermal.thermal_force,), adds=(at.u, at.l)),
+    )
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return k_B T, J; the seed; whether the shape fluctuates."""
         return BOLTZMANN * self.T, np.uint64(self.seed), float(self.shape)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
-        """Return the force, which walls hinder too; that walls reflect steps, and mirrors the force."""
-        return {
-            "thermal_force": force_of_molecules,
-            "reflects_steps": 1,
-            "turn_along": turn_force,
-        }
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
+        """Return the force, which walls hinder too, and how mirrors turn it."""
+        return {thermal_force: force_of_molecules, turn_along: turn_force}
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:
         """Refuse ``paper``, whose resistances are those at the start of the step, and drops.

@@ -34,8 +34,9 @@ from foamprb.body.turbulence import (
     lasting,
 )
 from foamprb.cloud.block import Medium, Scratch, at, load3, store3
-from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
+from foamprb.cloud.layout import LANES, Block, Row, offsets
+from foamprb.cloud.motion import bounce_along, turn_along
+from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey
 from foamprb.compile.link import separate, traced
 from foamprb.dictionary.constraints import Meaning, Seed
 from foamprb.flow.base import Floats, Flow, Patch
@@ -127,7 +128,7 @@ def eddy_velocity(xi: tuple[float, float, float, float], kind: float, slope: Vec
 
 
 @traced
-def add_eddies(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
+def add_eddies(block: Block, _medium: Medium, _share: float, _coefficients: Any) -> None:
     """Add the velocity of the eddies to that of the mean flow."""
     for i in range(LANES):
         u, w, c = load3(block, at.u, i), load3(block, eddies.eddy_velocity, i), load3(block, eddies.drift, i)
@@ -135,13 +136,13 @@ def add_eddies(block: Any, _medium: Medium, _share: float, _coefficients: Any) -
 
 
 @separate
-def turn_eddy(block: Any, i: int, turn: Tensor) -> None:
+def turn_eddy(block: Block, i: int, turn: Tensor) -> None:
     """Rotate or mirror the eddy of lane i, together with the particle."""
     store3(block, eddies.eddy_velocity, i, dot_vector(turn, load3(block, eddies.eddy_velocity, i)))
 
 
 @separate
-def reflect_eddy(block: Any, i: int, n: Vector) -> None:
+def reflect_eddy(block: Block, i: int, n: Vector) -> None:
     """Reflect the eddy of lane i at a wall of normal n that the particle bounces off."""
     w = load3(block, eddies.eddy_velocity, i)
     towards = -2.0 * min(inner(w, n), 0.0)
@@ -154,14 +155,16 @@ class Dispersion(Surrounding):
 
     seed: Seed = 1
 
-    rows: ClassVar = {"eddies": EddyRows}
-    traits: ClassVar = Traits(turbulence=True, surveys=("R", "mu"))
-    update: ClassVar = staticmethod(update_eddy)
-    disturb: ClassVar = staticmethod(add_eddies)
+    rows: ClassVar = (EddyRows,)
+    surveys: ClassVar = ("R", "mu")
+    stages: ClassVar = (
+        Stage("start", update_eddy, writes=(eddies.eddy_velocity, eddies.drift), before=(at.u,)),
+        Stage("fluid", add_eddies, reads=(eddies.eddy_velocity, eddies.drift), adds=(at.u,)),
+    )
 
-    def bindings(self, inertia: bool) -> dict[str, Any]:  # noqa: ARG002
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return the functions by which mirrors, walls and coupled patches change the eddy."""
-        return {"turn_along": turn_eddy, "bounce_along": reflect_eddy}
+        return {turn_along: turn_eddy, bounce_along: reflect_eddy}
 
     def remarks(self, survey: Survey) -> Remarks:
         """Note the ranges of the eddies' velocities and lives.

@@ -7,7 +7,7 @@ the first of these times at which one is reached, in the state of that time.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -17,14 +17,14 @@ from foamprb.body.material import finger
 from foamprb.body.rosenbrock import extra_stress
 from foamprb.body.tensor import Scalar, Tensor, ddot, det, dev, dot, inverse, longest_stretch, select
 from foamprb.body.viscosity import shear_rate
-from foamprb.cloud.block import Medium, Scratch, at, load9, viscosity_at
+from foamprb.cloud.block import Medium, Scratch, at, judge, load9, viscosity_at
 from foamprb.cloud.elastic import solid
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import conclude, outcome_code
 from foamprb.cloud.state import Reason, Status
-from foamprb.cloud.surroundings.base import Surrounding, Traits
+from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
@@ -50,7 +50,7 @@ class FateRows(NamedTuple):
 fates = offsets(FateRows)
 
 
-def elastic_stress(block: Any, i: int, F: Tensor) -> Scalar:
+def elastic_stress(block: Block, i: int, F: Tensor) -> Scalar:
     """Return von Mises' stress of the solid in lane i, √(³⁄₂ dev τ:dev τ)/J, Pa, without its viscosity."""
     J = det(F)
     T = dev(extra_stress(finger(F, load9(block, at.M, i)), J, *solid(block, i)))
@@ -65,7 +65,7 @@ def reached(values: tuple[Scalar, ...], limits: tuple[Scalar, ...], codes: tuple
     return 0
 
 
-def reached_fate(block: Any, i: int, F: Tensor, stress: Scalar, dose: Scalar, coefficients: Any) -> int:
+def reached_fate(block: Block, i: int, F: Tensor, stress: Scalar, dose: Scalar, coefficients: Any) -> int:
     """Return the code of the fate of lane i with F, a shear stress of the fluid and a dose; 0 for none."""
     stretch = longest_stretch(dot(F, inverse(load9(block, at.F0, i))))
     values = stretch, elastic_stress(block, i, F), stress, dose
@@ -102,7 +102,7 @@ def check_limits(
         conclude(s, i, code)
 
 
-def judge_by_limits(block: Any, i: int, verdict: Scalar) -> Scalar:
+def judge_by_limits(block: Block, i: int, verdict: Scalar) -> Scalar:
     """Return the code of the fate that lane i has reached, else the verdict on its step."""
     code = block[fates.outcome * LANES + i]
     return select(code > 0.0, code, verdict)
@@ -153,10 +153,13 @@ class Fates(Surrounding):
         None
     )
 
-    rows: ClassVar = {"fates": FateRows}
-    traits: ClassVar = Traits(each_step=False)
-    update: ClassVar = staticmethod(check_limits)
-    resolve: ClassVar = staticmethod(stays_within_limits)
+    rows: ClassVar = (FateRows,)
+    each_step: ClassVar = False
+    switches: ClassVar = {"updates_end": 1}
+    stages: ClassVar = (
+        Stage("start", check_limits, writes=(fates.outcome,), before=(at.l,)),
+        Stage("accept", stays_within_limits),
+    )
 
     def __post_init__(self) -> None:
         if self.ruptured is None and self.released is None:
@@ -168,9 +171,9 @@ class Fates(Surrounding):
         ruptured, released = self.ruptured, self.released
         return ruptured.limits if ruptured else none, released.limits if released else none
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
-        """Return the judgement of steps, and that the dose is integrated to the end of each call."""
-        return {"judge": judge_by_limits, "updates_end": 1}
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
+        """Return the judgement of steps, of each call."""
+        return {judge: judge_by_limits}
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:
         """Refuse ``paper``, which has no update at the end of a call, and a stress that drops do not have."""

@@ -13,8 +13,8 @@ from foamprb.body.faxen import Curvature, faxen_velocity
 from foamprb.body.tensor import Scalar, Vector, between, dot, inner, minus, scale, select, transpose
 from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, store3
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.surroundings.base import Surrounding, Traits, add3
+from foamprb.cloud.layout import LANES, Block, Row, offsets
+from foamprb.cloud.surroundings.base import Stage, Surrounding, add3
 from foamprb.compile.link import traced
 from foamprb.flow.kernels import curvature
 
@@ -46,14 +46,14 @@ def store_curvature_ahead(flow: Any, s: Scratch, i: int, _medium: Medium, _coeff
     store3(s.block, curved.curvature_way, i, minus(x, load3(s.block, at.x, i)))
 
 
-def _store(block: Any, i: int, row: int, second: Curvature) -> None:
+def _store(block: Block, i: int, row: int, second: Curvature) -> None:
     for k in range(6):
         for c in range(3):
             block[(row + 3 * k + c) * LANES + i] = second[k][c]
 
 
 @traced
-def correct(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def correct(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add ⅙ C:∇∇u to the velocity of the fluid, with the shape tensor C."""
     for i in range(LANES):
         F, R, way = load9(block, at.new_F, i), block[at.R * LANES + i], load3(block, curved.curvature_way, i)
@@ -66,7 +66,7 @@ def correct(block: Any, medium: Medium, share: float, coefficients: Any) -> None
         add3(block, at.u, i, faxen_velocity(scale(R * R, dot(F, transpose(F))), second))
 
 
-def _second_at(block: Any, i: int, k: int, gone: Scalar) -> Vector:
+def _second_at(block: Block, i: int, k: int, gone: Scalar) -> Vector:
     """Return the k-th second derivatives at a share of the way."""
     start = load3(block, curved.curvature_start + 3 * k, i)
     end = load3(block, curved.curvature_end + 3 * k, i)
@@ -77,11 +77,14 @@ def _second_at(block: Any, i: int, k: int, gone: Scalar) -> Vector:
 class FaxenCorrection(Surrounding):
     """Mean of a curved flow over the body instead of its velocity at the centre: ``faxenCorrection;``."""
 
-    rows: ClassVar = {"curved": FaxenRows}
-    traits: ClassVar = Traits(each_step=False, kernels=("curvature",))
-    update: ClassVar = staticmethod(store_curvature)
-    look: ClassVar = staticmethod(store_curvature_ahead)
-    disturb: ClassVar = staticmethod(correct)
+    rows: ClassVar = (FaxenRows,)
+    each_step: ClassVar = False
+    kernels: ClassVar = ("curvature",)
+    stages: ClassVar = (
+        Stage("start", store_curvature, writes=(curved.curvature_start,)),
+        Stage("ahead", store_curvature_ahead, writes=(curved.curvature_end,)),
+        Stage("fluid", correct, reads=(curved.curvature_start, curved.curvature_end), adds=(at.u,)),
+    )
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse drops, inside which the fluid moves."""

@@ -7,19 +7,19 @@ model needs their reconstruction, they are those of single tetrahedra.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.ellipsoid import taylor_deformation
 from foamprb.body.quadratic import bullet_amplitude, parts, resolved_strain, square
 from foamprb.body.tensor import Scalar, select, sym
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, viscosity_at
-from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.surroundings.base import Surrounding, Traits
+from foamprb.cloud.layout import LANES, Block, Row, offsets
+from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding
 from foamprb.cloud.surroundings.quadratic import QuadraticRows, load7
 from foamprb.compile.link import traced
 from foamprb.flow.kernels import curvature
@@ -57,12 +57,13 @@ values = offsets(LargestRows)
 mode = offsets(QuadraticRows)
 
 
-def mode_amplitude(_block: Any, _i: int) -> Scalar:
+@choice
+def mode_amplitude(_block: Block, _i: int) -> Scalar:
     """Return 0: the body has no quadratic mode."""
     return 0.0
 
 
-def amplitude_of_mode(block: Any, i: int) -> Scalar:
+def amplitude_of_mode(block: Block, i: int) -> Scalar:
     """Return ε of the quadratic mode of lane i."""
     return bullet_amplitude(load7(block, mode.B, i))
 
@@ -89,7 +90,7 @@ def sample_curvature(
 
 
 @traced
-def largest_stage(block: Any, medium: Medium) -> None:
+def largest_stage(block: Block, medium: Medium) -> None:
     """Store the largest values at the starts of steps."""
     for i in range(LANES):
         starts = block[at.moving * LANES + i] * block[values.starting * LANES + i] > 0.0
@@ -105,13 +106,13 @@ def largest_stage(block: Any, medium: Medium) -> None:
         raise_to(block, i, LARGEST.bullet, select(starts, mode_amplitude(block, i), 0.0))
 
 
-def raise_to(block: Any, i: int, k: int, value: Scalar) -> None:
+def raise_to(block: Block, i: int, k: int, value: Scalar) -> None:
     """Store a value as the largest one of index k in lane i, unless that is larger."""
     place = (values.largest + k) * LANES + i
     block[place] = np.maximum(block[place], value)
 
 
-def note_largest(block: Any, medium: Medium, share: float, _coefficients: Any) -> None:
+def note_largest(block: Block, medium: Medium, share: float, _coefficients: Any) -> None:
     """Store the largest values before the surroundings change the flow at the starts of steps."""
     if share == 0.0:
         largest_stage(block, medium)
@@ -124,11 +125,13 @@ class LargestValues(Surrounding):
     quadratic: bool = False
     """Whether bodies have the quadratic mode."""
 
-    rows: ClassVar = {"values": LargestRows}
-    traits: ClassVar = Traits(each_step=False)
-    update: ClassVar = staticmethod(sample_curvature)
-    disturb: ClassVar = staticmethod(note_largest)
+    rows: ClassVar = (LargestRows,)
+    each_step: ClassVar = False
+    stages: ClassVar = (
+        Stage("start", sample_curvature, adds=(values.curved,), before=(at.u, at.l)),
+        Stage("fluid", note_largest, writes=(values.largest,), before=(at.u, at.l)),
+    )
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return the amplitude of the quadratic mode, if bodies have it."""
-        return {"mode_amplitude": amplitude_of_mode} if self.quadratic else {}
+        return {mode_amplitude: amplitude_of_mode} if self.quadratic else {}

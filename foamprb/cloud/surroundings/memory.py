@@ -7,7 +7,7 @@ are a part of the state; they are advanced where the next step starts.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Any, ClassVar, NamedTuple
@@ -39,10 +39,13 @@ from foamprb.body.tensor import ZERO, Tensor, add, dot, from_frame, scale, selec
 from foamprb.cloud.block import Medium, at, load9, store9
 from foamprb.cloud.integrators.adaptive import SHARE_OF_MEMORY
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.integrators.stokes import gradient_by_slope
-from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
+from foamprb.cloud.integrators.rosenbrock import with_fading as with_inertial_fading
+from foamprb.cloud.integrators.stokes import gradient_at_end, gradient_by_slope, with_fading
+from foamprb.cloud.layout import LANES, MOST_TIMES, Block, Row, offsets
+from foamprb.cloud.motion import mirror_memory
+from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey
 from foamprb.compile.link import traced
+from foamprb.errors import InputError
 
 __all__ = ["FadingMemory"]
 
@@ -53,31 +56,34 @@ _SHORT = 0.1
 """Longest step over Δt below which the user is warned."""
 
 
+class MemoryRows(NamedTuple):
+    """Strain at the start and on the way of a step."""
+
+    metric_strain: Annotated[int, Row(6, "1", "X at the start of the step")]
+    node_strain: Annotated[int, Row(6, "1", "X at the node of the step")]
+    metric_rate: Annotated[int, Row(6, "1/s", "rate of the metric there, while the shape stays")]
+    faded_once: Annotated[int, Row(1, "", "1 once a step has started, else 0")]
+    faded_to: Annotated[int, Row(1, "s", "time to which the strains have faded")]
+    at_node: Annotated[int, Row(1, "", "1 if the next shape is that at the node, else 0")]
+
+
+past = offsets(MemoryRows)
+
+
 @cache
 def rows_for(n_times: int) -> Any:
-    """Return the declaration of the rows of a solid with so many relaxation times."""
+    """Return the declaration of further rows of a solid with so many relaxation times."""
     shares = Row(n_times, "1", "shares g_k of the modulus", of="memoryShares", columns=True)
     rates = Row(n_times, "1/s", "rates 1/T_k, falling", of="memoryRates", columns=True)
     declared: list[tuple[str, Any]] = [
         ("faded", Annotated[int, Row(6 * n_times, "1", "faded strains D_k", of="memory", saved=True)]),
         ("memory_share", Annotated[int, shares]),
         ("memory_rate", Annotated[int, rates]),
-        ("metric_strain", Annotated[int, Row(6, "1", "X at the start of the step")]),
-        ("node_strain", Annotated[int, Row(6, "1", "X at the node of the step")]),
-        ("metric_rate", Annotated[int, Row(6, "1/s", "rate of the metric there, while the shape stays")]),
-        ("faded_once", Annotated[int, Row(1, "", "1 once a step has started, else 0")]),
-        ("faded_to", Annotated[int, Row(1, "s", "time to which the strains have faded")]),
-        ("at_node", Annotated[int, Row(1, "", "1 if the next shape is that at the node, else 0")]),
     ]
-    return NamedTuple("MemoryRows", declared)
+    return NamedTuple("TimesRows", declared)
 
 
-past: Any = offsets(rows_for(1))
-n_times = 1
-"""Bound to the number of relaxation times."""
-
-
-def load6(block: Any, row: int, i: int) -> Six:
+def load6(block: Block, row: int, i: int) -> Six:
     """Return the symmetric tensor in six rows of lane i."""
     k = row * LANES + i
     return (
@@ -86,7 +92,7 @@ def load6(block: Any, row: int, i: int) -> Six:
     )  # fmt: skip
 
 
-def store6(block: Any, row: int, i: int, v: Six) -> None:
+def store6(block: Block, row: int, i: int, v: Six) -> None:
     """Store a symmetric tensor in six rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES] = v[0], v[1], v[2]
@@ -98,59 +104,68 @@ def scaled6(factor: Any, v: Six) -> Six:
     return factor * v[0], factor * v[1], factor * v[2], factor * v[3], factor * v[4], factor * v[5]
 
 
-@traced
-def fade_stage(block: Any) -> None:
-    """Advance the strains to the start of a step, and store the metric there."""
-    for i in range(LANES):
-        F0, F, t = load9(block, at.F0, i), load9(block, at.new_F, i), block[at.t * LANES + i]
-        # A particle that has just been loaded is at its time.
-        elapsed = t - block[past.faded_to * LANES + i]
-        h = select(block[past.faded_once * LANES + i] > 0.0, elapsed, 0.0)
-        before, X = load6(block, past.metric_strain, i), metric_strain(F, F0)
-        slope = scaled6(h, strain_rate(F, load9(block, at.A, i)))
-        total = change = scaled6(0.0, X)
+@cache
+def stages_for(n_times: int) -> tuple[Callable[..., None], Callable[..., None]]:
+    """Return the stage that stores the metric, and the function that mirrors strains, for so many times."""
+    times = offsets(rows_for(n_times))
+
+    @traced
+    def fade_stage(block: Block) -> None:
+        # Advance the strains to the start of a step, and store the metric there.
+        for i in range(LANES):
+            F0, F, t = load9(block, at.F0, i), load9(block, at.new_F, i), block[at.t * LANES + i]
+            # A particle that has just been loaded is at its time.
+            elapsed = t - block[past.faded_to * LANES + i]
+            h = select(block[past.faded_once * LANES + i] > 0.0, elapsed, 0.0)
+            before, X = load6(block, past.metric_strain, i), metric_strain(F, F0)
+            slope = scaled6(h, strain_rate(F, load9(block, at.A, i)))
+            total = change = scaled6(0.0, X)
+            for k in range(n_times):
+                rate = block[(times.memory_rate + k) * LANES + i]
+                share = block[(times.memory_share + k) * LANES + i]
+                D = faded(load6(block, times.faded + 6 * k, i), before, X, slope, whole_step(h * rate))
+                store6(block, times.faded + 6 * k, i, D)
+                total, change = accumulated(total, share, D), fading(change, share, rate, X, D)
+            store9(block, at.M, i, faded_metric(F0, total))
+            store6(block, past.metric_strain, i, X)
+            store6(block, past.metric_rate, i, change)
+            block[past.faded_once * LANES + i] = 1.0
+            block[past.faded_to * LANES + i] = t
+            block[past.at_node * LANES + i] = 1.0
+
+    @traced
+    def follow_stage(block: Block) -> None:
+        # Store the metric of the shape that is evaluated: at the node of the step, then at its end.
+        for i in range(LANES):
+            F0, h = load9(block, at.F0, i), block[at.dt * LANES + i]
+            at_node = block[past.at_node * LANES + i] > 0.0
+            passed = select(at_node, NODE * h, h)
+            before, X = load6(block, past.metric_strain, i), metric_strain(load9(block, at.new_F, i), F0)
+            there, total = load6(block, past.node_strain, i), scaled6(0.0, X)
+            for k in range(n_times):
+                w = part_of_step(passed * block[(times.memory_rate + k) * LANES + i], at_node)
+                D = faded(load6(block, times.faded + 6 * k, i), before, there, X, w)
+                total = accumulated(total, block[(times.memory_share + k) * LANES + i], D)
+            store9(block, at.M, i, faded_metric(F0, total))
+            store6(block, past.node_strain, i, X)
+            block[past.at_node * LANES + i] = 0.0
+
+    def remember(block: Block, _medium: Medium, share: float, _coefficients: Any) -> None:
+        if share == 0.0:
+            fade_stage(block)
+        else:
+            follow_stage(block)
+
+    def mirror_strains(block: Block, i: int, turn: Tensor) -> None:
         for k in range(n_times):
-            rate = block[(past.memory_rate + k) * LANES + i]
-            share = block[(past.memory_share + k) * LANES + i]
-            D = faded(load6(block, past.faded + 6 * k, i), before, X, slope, whole_step(h * rate))
-            store6(block, past.faded + 6 * k, i, D)
-            total, change = accumulated(total, share, D), fading(change, share, rate, X, D)
-        store9(block, at.M, i, faded_metric(F0, total))
-        store6(block, past.metric_strain, i, X)
-        store6(block, past.metric_rate, i, change)
-        block[past.faded_once * LANES + i] = 1.0
-        block[past.faded_to * LANES + i] = t
-        block[past.at_node * LANES + i] = 1.0
+            mirror6(block, times.faded + 6 * k, i, turn)
+        mirror6(block, past.metric_strain, i, turn)
 
-
-@traced
-def follow_stage(block: Any) -> None:
-    """Store the metric of the shape that is evaluated: at the node of the step, then at its end."""
-    for i in range(LANES):
-        F0, h = load9(block, at.F0, i), block[at.dt * LANES + i]
-        at_node = block[past.at_node * LANES + i] > 0.0
-        passed = select(at_node, NODE * h, h)
-        before, X = load6(block, past.metric_strain, i), metric_strain(load9(block, at.new_F, i), F0)
-        there, total = load6(block, past.node_strain, i), scaled6(0.0, X)
-        for k in range(n_times):
-            w = part_of_step(passed * block[(past.memory_rate + k) * LANES + i], at_node)
-            D = faded(load6(block, past.faded + 6 * k, i), before, there, X, w)
-            total = accumulated(total, block[(past.memory_share + k) * LANES + i], D)
-        store9(block, at.M, i, faded_metric(F0, total))
-        store6(block, past.node_strain, i, X)
-        block[past.at_node * LANES + i] = 0.0
-
-
-def remember(block: Any, _medium: Medium, share: float, _coefficients: Any) -> None:
-    """Store the metric of the shape that is evaluated; ``share`` is 0 at the start of a step."""
-    if share == 0.0:
-        fade_stage(block)
-    else:
-        follow_stage(block)
+    return remember, mirror_strains
 
 
 def gradient_with_fading(
-    block: Any, i: int, turning: Tensor, m: Mobility, e: Elasticity, G: Tensor, mu_f: Any
+    block: Block, i: int, turning: Tensor, m: Mobility, e: Elasticity, G: Tensor, mu_f: Any
 ) -> Tensor:
     """Return the rate of change of l_s by turning and by the metric that fades, 1/s²."""
     stress = scale(1.0 / mu_f, fading_stress(e, G, load6(block, past.metric_rate, i)))
@@ -168,21 +183,14 @@ def smooth_gradient_at_end(
 
 
 def acceleration_with_fading(
-    block: Any, i: int, turning: Tensor, n: Stiffness, e: Elasticity, G: Tensor, c: Any
+    block: Block, i: int, turning: Tensor, n: Stiffness, e: Elasticity, G: Tensor, c: Any
 ) -> Tensor:
     """Return the rate of change of dl_s/dt by turning and by the metric that fades, 1/s³."""
     stress = fading_stress(e, G, load6(block, past.metric_rate, i))
     return add(turning, over_b(n.b, scale(-c, stress)))
 
 
-def mirror_strains(block: Any, i: int, turn: Tensor) -> None:
-    """Mirror the faded strains of lane i with its shape at rest."""
-    for k in range(n_times):
-        mirror6(block, past.faded + 6 * k, i, turn)
-    mirror6(block, past.metric_strain, i, turn)
-
-
-def mirror6(block: Any, row: int, i: int, turn: Tensor) -> None:
+def mirror6(block: Block, row: int, i: int, turn: Tensor) -> None:
     """Mirror the symmetric tensor in six rows of lane i."""
     store6(block, row, i, six_of(dot(turn, dot(symmetric(load6(block, row, i)), turn))))
 
@@ -195,23 +203,32 @@ class FadingMemory(Surrounding):
     power_law: bool = False
     """Whether the third parameter of the solid is the exponent of a power law."""
 
-    traits: ClassVar = Traits(each_step=False, surveys=("k", "memoryRates"))
-    prepare: ClassVar = staticmethod(remember)
+    each_step: ClassVar = False
+    surveys: ClassVar = ("k", "memoryRates")
+    switches: ClassVar = {"updates_end": 1}
+
+    def __post_init__(self) -> None:
+        if self.n_times > MOST_TIMES:
+            raise InputError(f"the solid has {self.n_times} relaxation times. Allowed: up to {MOST_TIMES}")
 
     @property
-    def rows(self) -> Mapping[str, type[tuple[int, ...]]]:  # type: ignore[override]
+    def rows(self) -> tuple[type[tuple[int, ...]], ...]:  # type: ignore[override]
         """Declaration of its rows."""
-        return {"past": rows_for(self.n_times)}
+        return MemoryRows, rows_for(self.n_times)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
-        """Return the metric, and that it fades until the end of calls."""
-        return {
-            "with_fading": acceleration_with_fading if inertia else gradient_with_fading,
-            **({} if inertia else {"gradient_at_end": smooth_gradient_at_end}),
-            "n_times": self.n_times,
-            "mirror_memory": mirror_strains,
-            "updates_end": 1,
-        }
+    @property
+    def stages(self) -> tuple[Stage, ...]:  # type: ignore[override]
+        """The metric of the shape that is evaluated."""
+        return (Stage("properties", stages_for(self.n_times)[0], reads=(at.new_F,), writes=(at.M,)),)
+
+    def slots(self, inertia: bool) -> Slots:
+        """Return how fading changes the rates, and how mirrors turn the strains."""
+        fading: Slots = (
+            {with_inertial_fading: acceleration_with_fading}
+            if inertia
+            else {with_fading: gradient_with_fading, gradient_at_end: smooth_gradient_at_end}
+        )
+        return {**fading, mirror_memory: stages_for(self.n_times)[1]}
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:
         """Refuse drops, and ``paper``, which has no update at the end of a call."""

@@ -7,12 +7,13 @@ drift in a step is that of the mode in the middle of it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from foamprb.body.ellipsoid import largest_swelling, swelling
 from foamprb.body.lift import vorticity
 from foamprb.body.quadratic import (
     Parts,
@@ -23,7 +24,6 @@ from foamprb.body.quadratic import (
     drift_by_shift,
     drift_of_drop,
     drift_of_solid,
-    largest_swelling,
     parts,
     relaxation_of_drop,
     relaxation_of_shift,
@@ -32,11 +32,12 @@ from foamprb.body.quadratic import (
     shift,
     source,
     square,
-    swelling,
     turn_of,
     turned,
     weights,
 )
+from foamprb.body.quadratic import largest_swelling as largest_swelling_by_mode
+from foamprb.body.quadratic import swelling as swelling_by_mode
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -54,11 +55,12 @@ from foamprb.body.tensor import (
     vector_product,
 )
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3, store9, viscosity_at
+from foamprb.cloud.contact import mode_in, mode_of
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.motion import clearance_of
+from foamprb.cloud.layout import LANES, Block, Row, offsets
+from foamprb.cloud.motion import clearance_of, turn_along
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits, add3
+from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey, add3
 from foamprb.compile.link import separate, traced
 from foamprb.flow.kernels import curvature
 
@@ -93,7 +95,7 @@ mode = offsets(QuadraticRows)
 second = offsets(SecondRows)
 
 
-def load7(block: Any, row: int, i: int) -> Third:
+def load7(block: Block, row: int, i: int) -> Third:
     """Return the components in seven rows of lane i."""
     k = row * LANES + i
     return (
@@ -102,7 +104,7 @@ def load7(block: Any, row: int, i: int) -> Third:
     )  # fmt: skip
 
 
-def store7(block: Any, row: int, i: int, B: Third) -> None:
+def store7(block: Block, row: int, i: int, B: Third) -> None:
     """Store components in seven rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES] = B[0], B[1], B[2], B[3]
@@ -115,7 +117,7 @@ def flow_parts(flow: Any, s: Scratch, i: int) -> Parts:
     return parts(curvature(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i]))
 
 
-def elapsed(block: Any, i: int) -> float:
+def elapsed(block: Block, i: int) -> float:
     """Return the time for which the mode of lane i has to be advanced, s.
 
     It is 0 for a body that has just been loaded, and for a body at rest: a wall has just let go of it.
@@ -125,12 +127,12 @@ def elapsed(block: Any, i: int) -> float:
     return 0.0
 
 
-def ahead(block: Any, i: int, remaining: float) -> float:
+def ahead(block: Block, i: int, remaining: float) -> float:
     """Return the length of the next step of lane i, s; 0 at the end of a call."""
     return float(block[at.dt * LANES + i]) if remaining > 0.0 else 0.0
 
 
-def advance_mode(block: Any, i: int, growth: Third, rate: float, spin: Vector, step: float) -> None:
+def advance_mode(block: Block, i: int, growth: Third, rate: float, spin: Vector, step: float) -> None:
     """Advance B of lane i to its time, and store it with that in the middle of the next step.
 
     Parameters
@@ -153,7 +155,7 @@ def advance_mode(block: Any, i: int, growth: Third, rate: float, spin: Vector, s
     block[mode.recovery * LANES + i] = rate
 
 
-def advance_shift(block: Any, i: int, pull: Vector, rate: float, spin: Vector, step: float) -> None:
+def advance_shift(block: Block, i: int, pull: Vector, rate: float, spin: Vector, step: float) -> None:
     """Advance q of lane i to its time, and store it with the mean drift in the next step.
 
     ``pull`` is the source of q, m/s; see :func:`advance_mode`.
@@ -221,7 +223,7 @@ def update_drop(
 
 
 @traced
-def carry_solid(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def carry_solid(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add the drift of solids to the velocity of the fluid."""
     for i in range(LANES):
         E, B = sym(load9(block, at.l, i)), load7(block, mode.middle, i)
@@ -230,7 +232,7 @@ def carry_solid(block: Any, medium: Medium, share: float, coefficients: Any) -> 
 
 
 @traced
-def carry_drop(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def carry_drop(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add the velocity of drops relative to the fluid at their centres."""
     for i in range(LANES):
         F, E = load9(block, at.new_F, i), sym(load9(block, at.l, i))
@@ -255,7 +257,7 @@ def stays_resolved(flow: Any, s: Scratch, i: int, medium: Medium, _coefficients:
     return float(min(1.0, allowed / (change + 1e-300)))
 
 
-def mode_of_lane(block: Any, i: int, F: Tensor) -> tuple[Third, Tensor]:
+def mode_of_lane(block: Block, i: int, F: Tensor) -> tuple[Third, Tensor]:
     """Return B of lane i and the rotation of F, for contact."""
     return load7(block, mode.B, i), turn_of(F)
 
@@ -267,7 +269,7 @@ def mode_of_row(p: Particles, k: int, F: Tensor) -> tuple[Third, Tensor]:
 
 
 @separate
-def turn_mode(block: Any, i: int, turn: Tensor) -> None:
+def turn_mode(block: Block, i: int, turn: Tensor) -> None:
     """Turn or mirror the mode of lane i, and the flow where it was computed last."""
     store7(block, mode.B, i, turned(load7(block, mode.B, i), turn))
     store7(block, mode.growth, i, turned(load7(block, mode.growth, i), turn))
@@ -278,30 +280,34 @@ def turn_mode(block: Any, i: int, turn: Tensor) -> None:
     )
 
 
+def _stages(update: Callable[..., None], carry: Callable[..., None]) -> tuple[Stage, ...]:
+    return (
+        Stage("start", update, writes=(mode.B, mode.middle), before=(at.l,)),
+        Stage("accept", stays_resolved),
+        Stage("fluid", carry, reads=(mode.middle,), adds=(at.u,), before=(at.l,)),
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class QuadraticSolid(Surrounding):
     """Quadratic mode of elastic bodies: ``subModels { shapeModel quadratic; }``."""
 
-    rows: ClassVar = {"mode": QuadraticRows}
-    traits: ClassVar = Traits(
-        each_step=False,
-        kernels=("curvature",),
-        measures=("quadraticShape", "bulletAmplitude"),
-        surveys=("F0",),
-    )
-    update: ClassVar = staticmethod(update_solid)
-    resolve: ClassVar = staticmethod(stays_resolved)
-    disturb: ClassVar = staticmethod(carry_solid)
+    rows: ClassVar[tuple[type[tuple[int, ...]], ...]] = (QuadraticRows,)
+    each_step: ClassVar = False
+    kernels: ClassVar = ("curvature",)
+    measures: ClassVar = ("quadraticShape", "bulletAmplitude")
+    surveys: ClassVar = ("F0",)
+    switches: ClassVar = {"updates_end": 1}
+    stages: ClassVar = _stages(update_solid, carry_solid)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
-        """Return how mirrors turn the mode, and contact; and that it is advanced to the end of calls."""
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
+        """Return how mirrors turn the mode, and contact."""
         return {
-            "turn_along": turn_mode,
-            "updates_end": 1,
-            "mode_in": mode_of_lane,
-            "mode_of": mode_of_row,
-            "swelling": swelling,
-            "largest_swelling": largest_swelling,
+            turn_along: turn_mode,
+            mode_in: mode_of_lane,
+            mode_of: mode_of_row,
+            swelling: swelling_by_mode,
+            largest_swelling: largest_swelling_by_mode,
         }
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
@@ -328,6 +334,5 @@ class QuadraticSolid(Surrounding):
 class QuadraticDrop(QuadraticSolid):
     """Quadratic mode of drops."""
 
-    rows: ClassVar = {"mode": QuadraticRows, "second": SecondRows}
-    update: ClassVar = staticmethod(update_drop)
-    disturb: ClassVar = staticmethod(carry_drop)
+    rows: ClassVar = (QuadraticRows, SecondRows)
+    stages: ClassVar = _stages(update_drop, carry_drop)

@@ -10,7 +10,6 @@ with relative u and l. A body that settles through the fluid with w has Du/Dt + 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -25,11 +24,11 @@ from foamprb.cloud.block import (
     load9,
     store3,
 )
-from foamprb.cloud.integrators.adaptive import during
+from foamprb.cloud.integrators.adaptive import during, end_acceleration, fluid_acceleration
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.integrators.stokes import slip_of_body as slip_without_rotation
-from foamprb.cloud.layout import Row, offsets
-from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits
+from foamprb.cloud.integrators.stokes import slip_by_forces, slip_of_body
+from foamprb.cloud.layout import Block, Row, offsets
+from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey
 from foamprb.flow.kernels import rotation_at
 
 
@@ -69,12 +68,12 @@ def stays_in_frame(flow: Any, s: Scratch, i: int, _medium: Medium, _coefficients
     return 1.0 if spin == load3(s.block, frames.spin, i) else 0.0
 
 
-def fluid_acceleration_in_frame(block: Any, i: int, v: Vector) -> Vector:
+def fluid_acceleration_in_frame(block: Block, i: int, v: Vector) -> Vector:
     """Return l·v, m/s²: the rate of change of u along a path with velocity v in a steady flow."""
     return dot_vector(load9(block, during.start_l, i), v)
 
 
-def end_acceleration_in_frame(block: Any, i: int) -> Vector:
+def end_acceleration_in_frame(block: Block, i: int) -> Vector:
     """Return Du/Dt of the fluid at the end of the step, m/s²."""
     u, x, o = load3(block, during.end_u, i), load3(block, at.new_x, i), load3(block, frames.axis_point, i)
     w = dot_vector(load9(block, during.end_l, i), u)
@@ -83,7 +82,7 @@ def end_acceleration_in_frame(block: Any, i: int) -> Vector:
     return plus(w, c)
 
 
-def slip_in_frame(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
+def slip_in_frame(block: Block, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
     w = load3(block, frames.spin, i)
     l = (
@@ -91,24 +90,27 @@ def slip_in_frame(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector
         l_f[3] + 2.0 * w[2], l_f[4], l_f[5] - 2.0 * w[0],
         l_f[6] - 2.0 * w[1], l_f[7] + 2.0 * w[0], l_f[8],
     )  # fmt: skip
-    return slip_without_rotation(block, i, medium, l, Du_Dt)
+    return slip_by_forces(block, i, medium, l, Du_Dt)
 
 
 @dataclass(frozen=True, kw_only=True)
 class RotatingFrames(Surrounding):
     """Rotating zones, in the frames of their rotors."""
 
-    rows: ClassVar = {"frames": FrameRows}
-    traits: ClassVar = Traits(each_step=False, surveys=())
-    update: ClassVar = staticmethod(enter_frame)
-    resolve: ClassVar = staticmethod(stays_in_frame)
+    rows: ClassVar = (FrameRows,)
+    each_step: ClassVar = False
+    surveys: ClassVar = ()
+    stages: ClassVar = (
+        Stage("start", enter_frame, reads=(at.x, at.u), writes=(frames.spin,), adds=(at.DuDt,)),
+        Stage("accept", stays_in_frame),
+    )
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return the accelerations in a rotating frame, for the integrator without inertia."""
         return {
-            "fluid_acceleration": fluid_acceleration_in_frame,
-            "end_acceleration": end_acceleration_in_frame,
-            "slip_of_body": slip_in_frame,
+            fluid_acceleration: fluid_acceleration_in_frame,
+            end_acceleration: end_acceleration_in_frame,
+            slip_of_body: slip_in_frame,
         }
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002

@@ -5,9 +5,8 @@ The formulas are those of :mod:`foamprb.body.lift`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from foamprb.body.lift import lift_force, lifted_slip, vorticity
 from foamprb.body.tensor import (
@@ -23,12 +22,12 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.wall import hindered_resistance
 from foamprb.cloud.block import Medium, at, load3, load9, local_medium, viscosity_at
-from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.integrators.stokes import slip_of_body as slip_without_lift
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.integrators.base import Integrator, lifted
+from foamprb.cloud.integrators.stokes import slip_by_forces, slip_of_body
+from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.surroundings.base import (
+    Slots,
     Surrounding,
-    Traits,
     present_hindrance,
     resistances,
     volume_at_rest,
@@ -36,9 +35,9 @@ from foamprb.cloud.surroundings.base import (
 from foamprb.dictionary.constraints import Only
 
 
-def slip_with_lift(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
+def slip_with_lift(block: Block, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
-    w, k = slip_without_lift(block, i, medium, l_f, Du_Dt), resistances(block, i)
+    w, k = slip_by_forces(block, i, medium, l_f, Du_Dt), resistances(block, i)
     Q, R, mu = load9(block, at.Q, i), block[at.R * LANES + i], viscosity_at(block, i, medium)
     K = hindered_resistance(k, present_hindrance(block, i))
     x, y, z = dot_vector(Q, w)
@@ -49,7 +48,7 @@ def slip_with_lift(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vecto
 
 
 def acceleration_with_lift(
-    block: Any, i: int, medium: Medium, a: Vector, v: Vector, rate: Vector, inertia: Scalar
+    block: Block, i: int, medium: Medium, a: Vector, v: Vector, rate: Vector, inertia: Scalar
 ) -> Vector:
     """Return the acceleration with that by lift, m/s²; see :func:`foamprb.cloud.integrators.base.lifted`.
 
@@ -75,13 +74,13 @@ def acceleration_with_lift(
 class SaffmanMeiLift(Surrounding):
     """Lift by inertia of the fluid on a sphere that slips in shear: ``SaffmanMeiLiftForce;``."""
 
-    traits: ClassVar = Traits(each_step=False)
+    each_step: ClassVar = False
 
     U: Annotated[str, Only("U", "the flow's velocity")] = "U"
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
+    def slots(self, inertia: bool) -> Slots:
         """Return the acceleration, or the slip without inertia."""
-        return {"lifted": acceleration_with_lift} if inertia else {"slip_of_body": slip_with_lift}
+        return {lifted: acceleration_with_lift} if inertia else {slip_of_body: slip_with_lift}
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse drops, inside which the fluid moves."""

@@ -7,7 +7,7 @@ tracking steps, and constant during these.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -18,10 +18,10 @@ from foamprb.body.swimming import along_axes, direction, random_directions, rand
 from foamprb.body.tensor import Tensor, Vector, det, dot_vector, inner, norm, scale_vector
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.motion import mirror_body
+from foamprb.cloud.layout import LANES, Block, Row, offsets
+from foamprb.cloud.motion import bounce_along, mirror_body, turn_along
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.surroundings.base import Remarks, Surrounding, Survey, Traits, add3, add9
+from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey, add3, add9
 from foamprb.compile.link import separate, traced
 from foamprb.dictionary.constraints import Meaning, NonNegative, Positive, Seed, Vector3
 from foamprb.errors import InputError
@@ -59,13 +59,13 @@ def draw_spin(
         store3(block, swimmers.tumble, i, random_spin(coefficients[1], remaining, three))
 
 
-def hold_of_spin(_block: Any, _i: int, _medium: Medium, coefficients: Any) -> float:
+def hold_of_spin(_block: Block, _i: int, _medium: Medium, coefficients: Any) -> float:
     """Return how long the spin may be constant, s: the swimmer then turns little."""
     return _HELD_TURN / (coefficients[1] + 1e-300)  # type: ignore[no-any-return]
 
 
 @traced
-def swim(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def swim(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add the swimming velocity to u, and the random spin to l."""
     speed = coefficients[0]
     for i in range(LANES):
@@ -76,14 +76,14 @@ def swim(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  
 
 
 @separate
-def turn_heading(block: Any, i: int, turn: Tensor) -> None:
+def turn_heading(block: Block, i: int, turn: Tensor) -> None:
     """Mirror q of lane i, together with the body; a rotation of F turns the direction already."""
     if det(turn) < 0.0:
         store3(block, swimmers.heading, i, dot_vector(turn, load3(block, swimmers.heading, i)))
 
 
 @separate
-def leave_wall(block: Any, i: int, n: Vector) -> None:
+def leave_wall(block: Block, i: int, n: Vector) -> None:
     """Mirror the swimmer in lane i at a wall of normal n, unless it swims away from it already."""
     if inner(direction(load9(block, at.F, i), load3(block, swimmers.heading, i)), n) < 0.0:
         turn_heading(block, i, mirror_body(block, i, n))
@@ -102,11 +102,16 @@ class Swimming(Surrounding):
     ] = None
     seed: Seed = 1
 
-    rows: ClassVar = {"swimmers": SwimmerRows}
-    traits: ClassVar = Traits(each_step=False, mirrors=True, measures=("swimmingDirection",), surveys=())
-    update: ClassVar = staticmethod(draw_spin)
-    hold: ClassVar = staticmethod(hold_of_spin)
-    disturb: ClassVar = staticmethod(swim)
+    rows: ClassVar = (SwimmerRows,)
+    each_step: ClassVar = False
+    mirrors: ClassVar = True
+    measures: ClassVar = ("swimmingDirection",)
+    surveys: ClassVar = ()
+    stages: ClassVar = (
+        Stage("start", draw_spin, writes=(swimmers.tumble,)),
+        Stage("hold", hold_of_spin),
+        Stage("fluid", swim, reads=(at.new_F, swimmers.heading, swimmers.tumble), adds=(at.u, at.l)),
+    )
 
     def __post_init__(self) -> None:
         if self.direction is not None and not 0.0 < norm(self.direction) < math.inf:
@@ -116,9 +121,9 @@ class Swimming(Surrounding):
         """Return the speed, the diffusivity and the seed."""
         return float(self.speed), float(self.rotationalDiffusivity), np.uint64(self.seed)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return the functions by which mirrors and walls change the direction."""
-        return {"turn_along": turn_heading, "bounce_along": leave_wall}
+        return {turn_along: turn_heading, bounce_along: leave_wall}
 
     def begin(self, p: Particles) -> None:
         """Set the directions of the particles that have none."""

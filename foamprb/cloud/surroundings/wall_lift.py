@@ -8,14 +8,15 @@ causes.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.ellipsoid import reach
-from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
+from foamprb.body.material import finger_of_body_in_frame
 from foamprb.body.stokes import Mobility, velocity_gradient
 from foamprb.body.tensor import (
     Tensor,
@@ -65,15 +66,19 @@ from foamprb.cloud.block import (
 from foamprb.cloud.elastic import body_mobility, incompressible_stress, mobility_deficit
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.integrators.rosenbrock import drag_axes, find_drag_axes, leave_gradient, resist
+from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.surroundings.base import (
     Remarks,
+    Slots,
+    Stage,
     Surrounding,
     Survey,
-    Traits,
     add3,
     add9,
+    hindrance_by_walls,
+    present_hindrance,
     resistances,
     thermal_force,
     volume_at_rest,
@@ -160,7 +165,7 @@ def stays_by_planes(flow: Any, s: Scratch, i: int, _medium: Medium, coefficients
     return 0.5 if abs(expected - distance) > _OFF_PLANE * distance else 1.0
 
 
-def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
+def lift(block: Block, medium: Medium, share: float, coefficients: Any) -> None:
     """Add the reflections of the particles' stresslets to u and l, and hinder motion by forces.
 
     The stresslet is that in the flow with the reflected gradient, found by iteration. The gradient of the
@@ -195,7 +200,7 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
 
 
 @traced
-def clear_stage(block: Any) -> None:
+def clear_stage(block: Block) -> None:
     """Start without hindrance and without the gradient of a load."""
     for i in range(LANES):
         nothing = scale(0.0, load9(block, at.l, i))
@@ -204,7 +209,7 @@ def clear_stage(block: Any) -> None:
 
 
 @traced
-def free_stage(block: Any, medium: Medium, share: float) -> None:
+def free_stage(block: Block, medium: Medium, share: float) -> None:
     """Compute the stresslet without walls."""
     for i in range(LANES):
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
@@ -214,14 +219,14 @@ def free_stage(block: Any, medium: Medium, share: float) -> None:
 
 
 @traced
-def start_reflection(block: Any) -> None:
+def start_reflection(block: Block) -> None:
     """Start without a reflected gradient."""
     for i in range(LANES):
         store9(block, near.reflected, i, scale(0.0, load9(block, at.l, i)))
 
 
 @traced
-def reflection_stage(block: Any, medium: Medium, factor: float) -> None:
+def reflection_stage(block: Block, medium: Medium, factor: float) -> None:
     """Add the reflection of the stresslets by the selected wall, times a factor, to ``reflected``."""
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
@@ -231,7 +236,7 @@ def reflection_stage(block: Any, medium: Medium, factor: float) -> None:
 
 
 @traced
-def response_stage(block: Any, medium: Medium, strain: float) -> None:
+def response_stage(block: Block, medium: Medium, strain: float) -> None:
     """Compute the stresslet in the flow with the reflected gradient."""
     for i in range(LANES):
         E = scale(strain, load9(block, near.reflected, i))
@@ -240,7 +245,7 @@ def response_stage(block: Any, medium: Medium, strain: float) -> None:
 
 
 @traced
-def velocity_stage(block: Any, medium: Medium) -> None:
+def velocity_stage(block: Block, medium: Medium) -> None:
     """Add the velocity that the selected wall reflects."""
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
@@ -250,7 +255,7 @@ def velocity_stage(block: Any, medium: Medium) -> None:
 
 
 @traced
-def hindrance_stage(block: Any, medium: Medium) -> None:  # noqa: ARG001
+def hindrance_stage(block: Block, medium: Medium) -> None:  # noqa: ARG001
     """Add the resistance by the selected wall."""
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
@@ -259,7 +264,7 @@ def hindrance_stage(block: Any, medium: Medium) -> None:  # noqa: ARG001
 
 
 @traced
-def end_lift(block: Any, strain: float) -> None:
+def end_lift(block: Block, strain: float) -> None:
     """Add what the walls reflect to u and l."""
     for i in range(LANES):
         some = any_near(block, i)
@@ -269,14 +274,16 @@ def end_lift(block: Any, strain: float) -> None:
         store3(block, at.u, i, choose3(some, plus(u, w), u))
 
 
-def any_near(block: Any, i: int) -> Any:
+def any_near(block: Block, i: int) -> Any:
     """Return whether lane i has a wall near it."""
     h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
     return (h[0] < far) | (h[1] < far) | (h[2] < far)
 
 
 @slot
-def before_lift(block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int) -> None:
+def before_lift(
+    block: Block, medium: Medium, share: float, least_gap: float, strain: float, most: int
+) -> None:
     """Store the gradient of the image of a load and of the resulting stresslet of a rigid body.
 
     ``most`` is the largest number of walls near a lane.
@@ -286,21 +293,21 @@ def before_lift(block: Any, medium: Medium, share: float, least_gap: float, stra
 
 
 def no_load_before_lift(
-    _block: Any, _medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
+    _block: Block, _medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
 ) -> None:
     """No-op: the drag on a body with inertia depends on the lift."""
 
 
 @slot
 def after_lift(
-    block: Any, medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
+    block: Block, medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
 ) -> None:
     """Add the velocity that a load loses by the walls to the reflected one."""
     loss_stage(block, medium)
 
 
 def strain_by_drag(
-    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
+    block: Block, medium: Medium, share: float, least_gap: float, strain: float, most: int
 ) -> None:
     """See :func:`before_lift`, for a body with inertia; hinder the force of molecules."""
     for i in range(LANES):
@@ -316,7 +323,7 @@ def strain_by_drag(
 
 @separate
 def strain_by_load(
-    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
+    block: Block, medium: Medium, share: float, least_gap: float, strain: float, most: int
 ) -> None:
     """Store the gradient of the image of the stored load, see :func:`before_lift`."""
     for wall in range(most):
@@ -331,21 +338,21 @@ def strain_by_load(
 
 
 @traced
-def load_stage(block: Any, medium: Medium, share: float) -> None:
+def load_stage(block: Block, medium: Medium, share: float) -> None:
     """Store the forces of the particles on the fluid."""
     for i in range(LANES):
         store3(block, near.load, i, load_of(block, i, medium, share))
 
 
 @traced
-def molecule_stage(block: Any) -> None:
+def molecule_stage(block: Block) -> None:
     """Store the forces of molecules as load."""
     for i in range(LANES):
         store3(block, near.load, i, thermal_force(block, i))
 
 
 @traced
-def image_stage(block: Any, medium: Medium, strain: float) -> None:
+def image_stage(block: Block, medium: Medium, strain: float) -> None:
     """Add the gradient of the image of the load in the selected wall."""
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
@@ -355,7 +362,7 @@ def image_stage(block: Any, medium: Medium, strain: float) -> None:
 
 
 @traced
-def rigid_stage(block: Any, medium: Medium) -> None:
+def rigid_stage(block: Block, medium: Medium) -> None:
     """Compute the stresslet of a rigid body in the gradient of the load's image."""
     for i in range(LANES):
         E = load9(block, near.load_gradient, i)
@@ -364,14 +371,14 @@ def rigid_stage(block: Any, medium: Medium) -> None:
 
 
 @traced
-def loss_stage(block: Any, medium: Medium) -> None:
+def loss_stage(block: Block, medium: Medium) -> None:
     """Add the velocity that the load loses by the walls to the reflected one."""
     for i in range(LANES):
         add3(block, near.wall_lift, i, velocity_loss(block, i, medium))
 
 
 @separate
-def select_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
+def select_wall(block: Block, wall: int, share: float, least_gap: float) -> None:
     """Copy one of the walls of all lanes, as of ``share`` of the step, into the rows for one wall.
 
     Loops that index rows by a variable are not vectorised.
@@ -384,7 +391,7 @@ def select_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
 
 
 @traced
-def place_stage(block: Any, share: float, least_gap: float) -> None:
+def place_stage(block: Block, share: float, least_gap: float) -> None:
     """Compute distance and gap of the selected wall after ``share`` of the step."""
     for i in range(LANES):
         R, h = block[at.R * LANES + i], block[near.one_distance * LANES + i]
@@ -397,7 +404,7 @@ def place_stage(block: Any, share: float, least_gap: float) -> None:
         block[near.one_gap * LANES + i] = gap
 
 
-def distance_and_gap(block: Any, i: int, n: Vector, h: float, least_gap: float) -> tuple[float, float]:
+def distance_and_gap(block: Block, i: int, n: Vector, h: float, least_gap: float) -> tuple[float, float]:
     """Return the distance of the centre of lane i from a wall and the gap between them, m.
 
     The gap is at least ``least_gap`` radii, and the distance is consistent with it.
@@ -408,13 +415,14 @@ def distance_and_gap(block: Any, i: int, n: Vector, h: float, least_gap: float) 
     return gap + extent, gap
 
 
-def shape_of(block: Any, i: int) -> Tensor:
+def shape_of(block: Block, i: int) -> Tensor:
     """Return the shape tensor R² F Fᵀ of lane i, m²."""
     F, R = load9(block, at.new_F, i), block[at.R * LANES + i]
     return scale(R * R, dot(F, transpose(F)))
 
 
-def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> Tensor:
+@choice
+def stresslet(block: Block, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> Tensor:
     """Return S = V μ_f dev sym s̃(l_f − l_s) of lane i, N m; l_f in space's axes, l_s in the particle's."""
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     relative = add(to_frame(Q, l_f), scale(-1.0, l_s))
@@ -423,8 +431,9 @@ def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> T
     return from_frame(Q, scale(volume * viscosity_at(block, i, medium), dev(sym(s))))
 
 
-def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
-    """Return l_s of a body without inertia in lane i, in the particle frame, 1/s; store its mobility.
+@choice
+def body_gradient(block: Block, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
+    """Return l_s of the body in lane i, in the particle frame, 1/s; without inertia, store its mobility.
 
     Only here, l includes the gradient of the image of the load. The stresslet is then the difference from
     that of a rigid body, which the hindrance includes.
@@ -434,13 +443,14 @@ def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tenso
     store9(block, near.mobility_normal, i, m.normal)
     store3(block, near.mobility_shear, i, m.compliance)
     store3(block, near.mobility_slip, i, m.slip)
-    b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
+    b_e = finger_of_body_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = incompressible_stress(block, i, stretches, b_e)
     l = add(load9(block, at.l, i), load9(block, near.load_gradient, i))
     return velocity_gradient(m, scale(1.0 / viscosity_at(block, i, medium), tau), to_frame(Q, l))
 
 
-def response_to_gradient(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:
+@choice
+def body_response(block: Block, i: int, medium: Medium, E: Tensor) -> Tensor:
     """Return the change of that l_s by a gradient E (space's axes), in the particle frame, 1/s."""
     m = Mobility(
         load9(block, near.mobility_normal, i),
@@ -452,32 +462,38 @@ def response_to_gradient(block: Any, i: int, medium: Medium, E: Tensor) -> Tenso
     return velocity_gradient(m, scale(0.0, l), l)
 
 
-def moving_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
+def moving_gradient(block: Block, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
     """Return l_s of a body with inertia, from its state, in the particle frame, 1/s."""
     start = dot(load9(block, at.A, i), inverse(load9(block, at.F, i)))
     return to_frame(load9(block, at.Q, i), choose(share > 0.0, load9(block, at.new_A, i), start))
 
 
-def leave_moving_gradient(block: Any, i: int, Q: Tensor, l_s: Tensor, wanted: Any) -> None:
+def leave_moving_gradient(block: Block, i: int, Q: Tensor, l_s: Tensor, wanted: Any) -> None:
     """Store l_s, given in the frame Q, for :func:`moving_gradient`, if ``wanted``."""
     l = from_frame(Q, l_s)
     store9(block, at.new_A, i, choose(wanted, l, load9(block, at.new_A, i)))
 
 
-def no_response(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:  # noqa: ARG001
+def no_response(block: Block, i: int, medium: Medium, E: Tensor) -> Tensor:  # noqa: ARG001
     """Return zero: l_s of a body with inertia does not change at once."""
     return scale(0.0, E)
 
 
-def balanced_load(block: Any, i: int, medium: Medium, share: float) -> Vector:  # noqa: ARG001
-    """Return the force of a body without inertia on the fluid, N: the forces on it less its inertia."""
+@choice
+def load_of(block: Block, i: int, medium: Medium, share: float) -> Vector:  # noqa: ARG001
+    """Return the force of a body on the fluid, N; by default of one without inertia."""
+    return balanced_load(block, i, medium)
+
+
+def balanced_load(block: Block, i: int, medium: Medium) -> Vector:
+    """Return the forces on a body less its inertia, N."""
     Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
     _, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     m = volume_at_rest(block, i) * block[at.rho * LANES + i]
     return plus(scale_vector(m, minus(f, scale_vector(inertia, Du_Dt))), t)
 
 
-def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
+def drag_on_fluid(block: Block, i: int, medium: Medium, share: float) -> Vector:
     """Return the force of a body with inertia on the fluid, N: μ_f K·(v − u), u with the reflection.
 
     If the step h is long compared with the relaxation time m/μ_f K, return the balanced load instead:
@@ -489,31 +505,31 @@ def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
     slip = dot_vector(Q, minus(minus(v, load3(block, at.u, i)), load3(block, near.wall_lift, i)))
     K = hindered_resistance(k, load9(block, near.hindrance, i))
     d = vector_dot(dot_vector(scale(viscosity_at(block, i, medium), K), slip), Q)
-    f = balanced_load(block, i, medium, share)
+    f = balanced_load(block, i, medium)
     m = volume_at_rest(block, i) * block[at.rho * LANES + i]
     x = block[at.dt * LANES + i] * viscosity_at(block, i, medium) * trace(K) / (6.0 * m)
     y = x * x * x * x
     return between(d, f, y / (1.0 + y))
 
 
-def hindered_rate(block: Any, i: int, rate: Vector) -> Tensor:
+def hindered_rate(block: Block, i: int, rate: Vector) -> Tensor:
     """Return the rates of drag of lane i near its walls, 1/s, in the particle frame, from those without."""
     return hindered_resistance(rate, hindrance_now(block, i))
 
 
-def hindrance_now(block: Any, i: int) -> Tensor:
+def hindrance_now(block: Block, i: int) -> Tensor:
     """Return W of all walls around lane i, in the particle frame."""
     W = load9(block, near.hindrance, i)
     # Without walls near any lane, the rows of hindrance are from an earlier step.
     return choose(any_near(block, i), W, scale(0.0, W))
 
 
-def across_axes(block: Any, i: int, rate: Vector, w: Vector) -> Vector:
+def across_axes(block: Block, i: int, rate: Vector, w: Vector) -> Vector:
     """See :func:`foamprb.cloud.integrators.rosenbrock.resist`; near walls."""
     return dot_vector(hindered_rate(block, i, rate), w)
 
 
-def find_hindered_axes(block: Any, i: int, Q: Tensor, rate: Vector) -> tuple[Tensor, Vector]:
+def find_hindered_axes(block: Block, i: int, Q: Tensor, rate: Vector) -> tuple[Tensor, Vector]:
     """Return the frame in which the drag near walls is diagonal at the start of a step, and its rates."""
     P, rates = principal_frame(hindered_rate(block, i, rate))
     axes = dot(P, Q)
@@ -521,29 +537,29 @@ def find_hindered_axes(block: Any, i: int, Q: Tensor, rate: Vector) -> tuple[Ten
     return axes, rates
 
 
-def hindered_axes(block: Any, i: int, _Q: Tensor) -> Tensor:
+def hindered_axes(block: Block, i: int, _Q: Tensor) -> Tensor:
     """Return that frame in later stages."""
     return load9(block, near.drag_frame, i)
 
 
-def hindrance_of(block: Any, i: int, n: Vector, h: float, gap: float) -> Tensor:
+def hindrance_of(block: Block, i: int, n: Vector, h: float, gap: float) -> Tensor:
     """Return W of one wall, in the particle frame."""
     return hindrance(resistances(block, i), dot_vector(load9(block, at.Q, i), n), h, gap)
 
 
-def hindrance_at_start(block: Any, i: int) -> Tensor:
+def hindrance_at_start(block: Block, i: int) -> Tensor:
     """Return W of all walls around lane i at the start of a step, in the particle frame."""
     return add(add(_hindrance_of(block, i, 0), _hindrance_of(block, i, 1)), _hindrance_of(block, i, 2))
 
 
-def _hindrance_of(block: Any, i: int, wall: int) -> Tensor:
+def _hindrance_of(block: Block, i: int, wall: int) -> Tensor:
     n, h = load3(block, near.wall_normal + 3 * wall, i), block[(near.wall_distance + wall) * LANES + i]
     there = select(h < 0.5 * _FAR * block[at.R * LANES + i], 1.0, 0.0)
     h, gap = distance_and_gap(block, i, n, h, block[near.least_gap * LANES + i])
     return scale(there, hindrance_of(block, i, n, h, gap))
 
 
-def velocity_loss(block: Any, i: int, medium: Medium) -> Vector:
+def velocity_loss(block: Block, i: int, medium: Medium) -> Vector:
     """Return the change of the slip by walls, (K_h⁻¹ − K⁻¹)·f/μ_f, m/s."""
     Q, k = load9(block, at.Q, i), resistances(block, i)
     f = dot_vector(Q, load3(block, near.load, i))
@@ -571,18 +587,19 @@ def _nearest_walls(
             nearest[k] = min(planes.h1, planes.h2, planes.h3)
 
 
-body_gradient: Callable[..., Tensor] = balanced_gradient
-body_response: Callable[..., Tensor] = response_to_gradient
-load_of: Callable[..., Vector] = balanced_load
-
-
-_OF_INERTIA: Mapping[str, Callable[..., Any]] = {
-    "load_of": drag_on_fluid,
-    "before_lift": no_load_before_lift,
-    "after_lift": strain_by_drag,
-    "resist": across_axes,
-    "find_drag_axes": find_hindered_axes,
-    "drag_axes": hindered_axes,
+_MOTION: Slots = {
+    body_gradient: moving_gradient,
+    body_response: no_response,
+    leave_gradient: leave_moving_gradient,
+}
+"""Velocity gradient of a body with inertia."""
+_DRAG: Slots = {
+    load_of: drag_on_fluid,
+    before_lift: no_load_before_lift,
+    after_lift: strain_by_drag,
+    resist: across_axes,
+    find_drag_axes: find_hindered_axes,
+    drag_axes: hindered_axes,
 }
 """Drag on a body with inertia as a full tensor."""
 
@@ -605,11 +622,14 @@ class WallLift(Surrounding):
         Words | None, Meaning("patches that count: names, or patterns in quotes", "", "walls")
     ] = None
 
-    rows: ClassVar = {"near": WallRows}
-    traits: ClassVar = Traits(each_step=False, surveys=("x", "host", "R"))
-    update: ClassVar = staticmethod(find_walls)
-    resolve: ClassVar = staticmethod(stays_by_planes)
-    disturb: ClassVar = staticmethod(lift)
+    rows: ClassVar = (WallRows,)
+    each_step: ClassVar = False
+    surveys: ClassVar = ("x", "host", "R")
+    stages: ClassVar = (
+        Stage("start", find_walls, writes=(near.wall_distance, near.wall_normal)),
+        Stage("accept", stays_by_planes),
+        Stage("fluid", lift, reads=(near.wall_distance,), adds=(at.u, at.l), before=(at.l,)),
+    )
 
     def walls(self, patches: Sequence[Patch]) -> tuple[float, Sequence[int]]:
         """Return ``cutOff``, and the patches that count; raise InputError if a pattern matches no patch."""
@@ -632,17 +652,13 @@ class WallLift(Surrounding):
         strain, hindered = float(self.strain), float(self.mobility)
         return self.cutOff, self.leastGap, strain, hindered, self.patch_mask(patches)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
-        """Return the functions of a body with or without inertia."""
-        motion: Mapping[str, Callable[..., Any]] = {
-            "body_gradient": moving_gradient if inertia else balanced_gradient,
-            "body_response": no_response if inertia else response_to_gradient,
-            "leave_gradient": leave_moving_gradient,
-        }
+    def slots(self, inertia: bool) -> Slots:
+        """Return the functions of a body with inertia, and the hindrance."""
+        motion: Slots = _MOTION if inertia else {}
         if not self.mobility:
             return motion
-        hindrances = {"hindrance_by_walls": hindrance_at_start, "present_hindrance": hindrance_now}
-        return {**motion, **hindrances, **(_OF_INERTIA if inertia else {})}
+        hindrances = {hindrance_by_walls: hindrance_at_start, present_hindrance: hindrance_now}
+        return {**motion, **hindrances, **(_DRAG if inertia else {})}
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:
         """Refuse ``paper``, whose drag is diagonal in the particle frame, and the hindrance of drops."""
