@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Stepper
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Adhere
-from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.cloud.viscosity import BirdCarreau
 from foamprb.errors import InputError
@@ -81,29 +81,6 @@ def test_a_falling_body_does_not_stick_before_it_touches():
     speed = 2.0 / 9.0 * 200.0 * 9.81 * R**2 / MU
     np.testing.assert_allclose(p.t, 0.5 * R / speed, atol=1.001 * DT)
     np.testing.assert_allclose(p.x[:, 2], R, rtol=1e-5)
-
-
-def test_numbers_depend_on_the_particle_alone():
-    """Not on threads or calls, nor on a call that was interrupted."""
-    clouds = []
-    for threads, calls in ((1, (60,)), (3, (60,)), (1, (7, 1, 33, 19))):
-        cloud = cloud_of(100.0, n=100, threads=threads, kOff=2.0, xb=4e-10, T=300.0)
-        for steps in calls:
-            cloud.advance(steps)
-        clouds.append(cloud)
-    assert clouds[0].particles.bonds.max() > 2
-    stopped = cloud_of(100.0, n=100, kOff=2.0, xb=4e-10, T=300.0)
-    stopped.advance(20)
-    # As after a stop: some particles are ahead of the others.
-    p, whole = stopped.particles, [array.copy() for array in stopped.particles]
-    Stepper(stopped).advance(10)
-    for array, before in zip(p, whole, strict=True):
-        array[1::2] = before[1::2]
-    stopped.step = 20
-    stopped.advance(40)
-    for other in (*clouds[1:], stopped):
-        for name, one, two in zip(Particles._fields, clouds[0].particles, other.particles, strict=True):
-            np.testing.assert_array_equal(one, two, err_msg=name)
 
 
 def test_bad_entries_are_refused():

@@ -164,22 +164,6 @@ def test_strains_have_the_energy_of_equilibrium_in_steps_of_any_length(ratio):
     assert energy.mean() / KT == pytest.approx(2.5, rel=4.0 * np.sqrt(0.4 / n) + 0.01)
 
 
-def test_numbers_depend_on_the_particle_and_the_step_alone():
-    """Not on the threads, nor on how steps are taken in turns, nor on the seed of others."""
-    whole = carried(beads(100), 6, 1e-4)
-    threads = carried(beads(100), 6, 1e-4, threads=3)
-    assert np.array_equal(whole.x, threads.x)
-    p = beads(100)
-    cloud = Cloud(p, STILL, WATER, (), 1e-4,
-                  Models(integrator="stokes", surroundings=(BrownianMotion(T=T),)), threads=1)  # fmt: skip
-    for _ in range(3):
-        cloud.advance(2)
-    assert np.array_equal(whole.x, p.x)
-    assert np.array_equal(whole.F, p.F)
-    other = carried(beads(100), 6, 1e-4, models=(BrownianMotion(T=T, seed=2),))
-    assert abs(np.corrcoef(other.x[:, 0], whole.x[:, 0])[0, 1]) < 0.4
-
-
 def test_a_first_step_that_is_short_has_the_variance_of_its_length():
     n, dt = 3000, 1e-3
     p = beads(n)

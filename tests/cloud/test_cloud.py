@@ -140,17 +140,6 @@ class TestBookkeeping:
         assert counts[Status.ESCAPED] > 0
         assert counts[Status.STUCK] > 0
 
-    def test_the_answer_does_not_depend_on_threads_chunks_or_order(self, random):
-        one, many, mixed = (scattered_cloud(threads=threads) for threads in (1, 3, 2))
-        order = random.permutation(one.particles.size)
-        mixed.particles = mixed.particles.take(order)
-        one.advance(600)
-        mixed.advance(600)
-        for steps in (1, 7, 92, 500):
-            many.advance(steps)
-        assert_same(one.particles, many.particles)
-        assert_same(one.particles.take(order), mixed.particles)
-
     def test_compiled_and_plain_text_agree(self, monkeypatch):
         """The same text as plain Python, on one block in a shear flow."""
         clouds = []

@@ -222,20 +222,6 @@ def test_a_new_body_is_displaced_by_its_shift():
 # --- Numbers ------------------------------------------------------------------------------------------------
 
 
-def test_numbers_depend_neither_on_threads_nor_on_calls():
-    places = np.random.default_rng(2).uniform(-0.4, 0.4, (40, 3)) * RADIUS + (RADIUS, 0.0, 0.0)
-    flow, runs = analytic.pipe(RADIUS, 0.5 * U), []
-    for threads, calls in ((1, (7,)), (3, (7,)), (1, (2, 1, 4))):
-        p = bodies(places)
-        p.t0[::3] = p.t[::3] = 1.3e-4
-        advanced(p, flow, calls, 1e-4, threads=threads)
-        runs.append(p)
-    assert (runs[0].B[:, 0] > 0.0).all()
-    for other in runs[1:]:
-        for name in ("x", "v", "B", "shift"):
-            assert np.array_equal(getattr(runs[0], name), getattr(other, name)), name
-
-
 @pytest.fixture
 def lane():
     """A block with the rows of the mode, whose lane 3 has just been computed."""

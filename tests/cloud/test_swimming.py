@@ -62,19 +62,6 @@ def test_a_swimmer_turns_in_shear_and_leaves_walls():
     np.testing.assert_allclose(np.linalg.det(p.F[2].reshape(3, 3)), 1.0, atol=1e-9)
 
 
-def test_numbers_depend_on_the_particle_and_the_step_alone():
-    runs = []
-    for threads, calls in ((1, (6,)), (3, (6,)), (1, (2, 1, 3))):
-        p = bodies(40)
-        cloud = cloud_of(p, threads=threads, rotationalDiffusivity=D_R)
-        for steps in calls:
-            cloud.advance(steps)
-        runs.append(p)
-    for other in runs[1:]:
-        assert np.array_equal(runs[0].x, other.x)
-        assert np.array_equal(runs[0].heading, other.heading)
-
-
 @pytest.fixture
 def lane():
     """A block whose lane 3 swims along (0.6 0 −0.8), with a deformed body."""

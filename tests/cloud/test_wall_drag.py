@@ -219,20 +219,6 @@ def many(ratios=(1.0, 1.0, 1.0)):
     return p
 
 
-@pytest.mark.parametrize("ratios", [(1.0, 1.0, 1.0), (1.2, 1.0, 0.9)])
-def test_bits_depend_neither_on_threads_nor_on_how_steps_are_taken(ratios):
-    g = weight(0.1) * SLOPE
-    whole = carried(many(ratios), g, TAU, 6, flow=SHEAR, model=WallLift())
-    threads = carried(many(ratios), g, TAU, 6, flow=SHEAR, model=WallLift(), threads=3)
-    parts = many(ratios)
-    cloud = cloud_of(parts, g, TAU, flow=SHEAR, model=WallLift())
-    for _ in range(3):
-        cloud.advance(2)
-    for name in ("x", "v", "F", "A", "h"):
-        assert np.array_equal(getattr(whole, name), getattr(threads, name)), name
-        assert np.array_equal(getattr(whole, name), getattr(parts, name)), name
-
-
 def test_a_particle_that_no_wall_is_near_goes_as_without_the_model():
     """Whatever others are in its block."""
     g, heights = weight(0.1) * SLOPE, [30.0, 31.0, 500.0]
