@@ -53,15 +53,6 @@ def test_bodies_stick_with_the_contact_time():
     assert cloud.tracker.movable == (Status.PENDING, ACTIVE)
 
 
-def test_bonds_break_at_the_rate_of_bell():
-    """k_off exp(F x_b/k_B T), with the force on a held sphere, 1.7005 · 6π μ γ̇ R² (Goldman et al. 1967)."""
-    cloud = cloud_of(rate=100.0, kOn=0.0, kOff=2.0, xb=4e-10, T=300.0)
-    cloud.particles.status[:], cloud.particles.patch[:] = STUCK, 0
-    cloud.advance(10)
-    force = 1.7005 * 6.0 * np.pi * MU * 100.0 * R**2
-    assert_share(cloud, np.exp(-2.0 * np.exp(force * 4e-10 / (1.380649e-23 * 300.0)) * 0.1))
-
-
 def test_nothing_sticks_above_the_critical_shear_rate():
     cloud = cloud_of(rate=10.0, n=40, kOn=50.0, criticalShearRate=20.0)
     cloud.advance(20)

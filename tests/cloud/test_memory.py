@@ -1,4 +1,4 @@
-"""Solids with memory against closed forms and independent solutions."""
+"""Solids with memory against independent solutions; `tools/validation/memory.py` has more closed forms."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import pytest
 from pair_steps import Bodies, evaluate
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
-from unsteady_flow import changing_flow
 
 from foamprb.body.memory import complex_modulus
 from foamprb.body.tensor import from_frame
@@ -52,7 +51,7 @@ def creep(t, e0, rate, eta):
     return (expm(A * t) @ np.array([*e0, 1.0]))[:3]
 
 
-@pytest.mark.parametrize(("integrator", "eta"), [("stokes", 0.0), ("stokes", 2.0), ("rosenbrock", 0.5)])
+@pytest.mark.parametrize(("integrator", "eta"), [("stokes", 2.0), ("rosenbrock", 0.5)])
 def test_creep_and_recovery_have_their_closed_form(integrator, eta):
     cloud = cloud_of(analytic.extension(SMALL), eta, integrator, nu=0.49999)
     e = np.zeros(3)
@@ -71,22 +70,8 @@ def test_creep_and_recovery_have_their_closed_form(integrator, eta):
         assert strain(rest.particles)[0, 0] == pytest.approx(expected, rel=1e-4)
 
 
-def test_oscillations_follow_the_complex_modulus():
-    """Strain is 5 E/(2 G* + 3 iω μ_f) in a flow with the strain rate E cos ωt."""
-    for omega in (0.3, 3.0):
-        terms = (0.0, SMALL, 0.0, 0.0)
-        cloud = cloud_of(changing_flow(omega, terms, terms), eta=0.5, dt=0.1)
-        G = complex_modulus(omega, 1.0, MODULI, TIMES, 0.5)
-        e = 5.0 * SMALL / (2.0 * G + 3.0j * omega)
-        for t in 100.0 + np.array([0.0, 0.6, 1.2, 1.8]):
-            cloud.advance(round(t / cloud.dt) - cloud.step)
-            expected = (e * np.exp(1j * omega * t)).real
-            assert strain(cloud.particles)[0, 1] == pytest.approx(expected, abs=1e-4 * abs(e)), (omega, t)
-
-
 @pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
-@pytest.mark.parametrize("tolerance", [1e-7, np.inf])
-def test_a_stiff_sphere_in_shear_has_the_modulus_at_the_shear_rate(integrator, tolerance):
+def test_a_stiff_sphere_in_shear_has_the_modulus_at_the_shear_rate(integrator):
     """e_xx + i e_xy is 5/2 i γ̇/(2 G* + 3 iγ̇ μ_f) at ω = γ̇: the material turns (Roscoe 1967).
 
     Steps are 4e4 times as long as the elastic relaxation and a third of the shortest time of the memory.
@@ -94,7 +79,7 @@ def test_a_stiff_sphere_in_shear_has_the_modulus_at_the_shear_rate(integrator, t
     rho, scale = 1e-6, 1e5
     p = spheres([(0.0, 0.0, 0.0)], d=2.0, rho=rho, mu=scale, poissons_ratio=0.4999)
     p = with_relaxation(p, scale * MODULI, TIMES)
-    medium, models = Medium(1.0, rho, (0.0, 0.0, 0.0)), Models(integrator=integrator, tolerance=tolerance)
+    medium, models = Medium(1.0, rho, (0.0, 0.0, 0.0)), Models(integrator=integrator, tolerance=np.inf)
     cloud = Cloud(p, analytic.shear(1.0), medium, (), 0.1, models, threads=1)
     cloud.advance(400)
     e = strain(cloud.particles)
@@ -155,15 +140,3 @@ def test_models_without_memory_are_refused():
         cloud_of(analytic.shear(1.0), shape="quadratic")
     with pytest.raises(InputError, match="relaxation"):
         cloud_of(analytic.shear(1.0), integrator="paper")
-
-
-def test_one_time_is_the_same_as_two_equal_ones():
-    shapes = []
-    for moduli, times in (([2.0], [0.3]), ([0.5, 1.5], [0.3, 0.3])):
-        p = spheres([(0.0, 0.0, 0.0)], d=2.0, rho=1e-6, mu=1.0)
-        p = with_relaxation(p, moduli, times)
-        models = Models(integrator="stokes")
-        cloud = Cloud(p, analytic.shear(1.0), Medium(1.0, 1e-6, (0.0, 0.0, 0.0)), (), 0.1, models, threads=1)
-        cloud.advance(20)
-        shapes.append(cloud.particles.F[0])
-    np.testing.assert_allclose(*shapes, atol=1e-12)

@@ -160,7 +160,6 @@ def test_contact_does_not_depend_on_calls():
 @pytest.mark.parametrize(
     ("flow", "drift", "integrator"),
     [
-        ("pipe", -25.0 / 144.0, "stokes"),
         ("pipe", -25.0 / 144.0, "rosenbrock"),
         ("slit", -5.0 / 36.0, "stokes"),
     ],
