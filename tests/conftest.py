@@ -22,6 +22,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 # Compiled code and shared machines make single examples slow at times; that is no failure.
 settings.register_profile(
     "ci",
+    max_examples=30,
     deadline=None,
     suppress_health_check=[HealthCheck.too_slow],
     derandomize=True,
@@ -32,10 +33,30 @@ settings.register_profile(
 settings.register_profile(
     "nightly",
     settings.get_profile("ci"),
+    max_examples=100,
     derandomize=False,
     database=DirectoryBasedExampleDatabase(Path(__file__).parents[1] / ".hypothesis/examples"),
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+TESTS = Path(__file__).parent
+QUICK = (
+    "body/", "dictionary/", "results/", "settings/", "cloud/injection/", "cloud/test_cloud.py",
+    "cloud/test_integrators.py", "cloud/test_layout.py", "cloud/test_rebounds.py", "flow/mesh/test_mesh.py",
+    "flow/read/test_openfoam.py", "flow/test_walk.py", "run/test_job.py", "run/test_sweep.py", "view/test_bodies.py",
+)  # fmt: skip
+"""Files of the tier for each commit: at most five minutes of CPU time with an empty cache of compiled code."""
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the quick tests; keep a file, whose tests may share a long run, on one process of ``--dist loadgroup``."""
+    for item in items:
+        path = item.path.relative_to(TESTS).as_posix()
+        if path.startswith(QUICK):
+            item.add_marker("quick")
+        if not path.startswith("mpi/"):
+            item.add_marker(pytest.mark.xdist_group(path))
 
 
 @pytest.fixture(autouse=True, scope="session")
