@@ -33,20 +33,12 @@ def test_properties_of_cells_are_recovered(job):
     np.testing.assert_allclose(fits.table["y"], measured.of("y"), atol=1e-9)
 
 
-def test_intervals_hold_true_values_as_often_as_they_say(job):
-    measured, G, eta = seen_cells(job, 600)
+def test_the_interval_of_a_population_holds_its_median(job):
+    """`tools/validation/fits.py` has the intervals of single cells, and the bias."""
+    measured, *properties = seen_cells(job, 60)
     fits = fit_job(job, measured, BOTH, "x=1e-3", overwrite=True)
-    assert fits.fitted.mean() > 0.99
-    held = []
-    for name, true in zip(BOTH, (G, eta), strict=True):
-        low, high = fits.table[f"{name}Low"], fits.table[f"{name}High"]
-        held.append(((low <= true) & (true <= high))[fits.fitted])
-        assert abs(np.median(np.log(fits.table[name] / true)[fits.fitted])) < 0.02
-        row = list(BOTH).index(name)
+    for row, true in enumerate(properties):
         assert fits.population["medianLow"][row] < np.median(true) < fits.population["medianHigh"][row]
-    # Three standard errors of a share of 95 %.
-    share = np.concatenate(held)
-    assert abs(share.mean() - 0.95) < 3.0 * np.sqrt(0.95 * 0.05 / len(share))
 
 
 def test_errors_follow_from_residuals_without_measured_ones(job):

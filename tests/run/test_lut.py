@@ -135,12 +135,12 @@ def test_diameters_in_micrometres_are_questioned(tmp_path, capsys):
 
 
 def test_moduli_of_the_table_of_dclab_are_met(cytometer):
-    """Every fifth of the points of docs/moduli.md, with deformations from 0.006 to 0.05."""
+    """Every fiftieth of the points of docs/moduli.md, with deformations from 0.006 to 0.05."""
     emodulus = pytest.importorskip("dclab.features.emodulus")
     table, _ = emodulus.load_lut("LE-2D-FEM-19")
-    area, deformation, youngs = table[(table[:, 1] > 0.006) & (table[:, 1] < 0.05)][::5].T
+    area, deformation, youngs = table[(table[:, 1] > 0.006) & (table[:, 1] < 0.05)][::50].T
     measured = read_measured({"area": 1e-12 * area, "deformation": deformation})
     fits = fit_job(cytometer, measured, ("shearModulus",), overwrite=True)
     ratio = (3e-3 * fits.table["shearModulus"] / youngs)[fits.fitted]
-    assert len(ratio) > 850
+    assert len(ratio) > 85
     assert -0.025 < ratio.min() - 1.0 < ratio.max() - 1.0 < 0.075
