@@ -16,8 +16,9 @@ from hypothesis.database import DirectoryBasedExampleDatabase
 
 from foamprb.body.material import MATERIALS
 
-# A shell may ignore SIGINT in its jobs, and so would programs that a test starts and interrupts.
+# A shell may ignore these signals in its jobs, and so would programs that a test starts and interrupts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 # Compiled code and shared machines make single examples slow at times; that is no failure.
 settings.register_profile(
@@ -43,14 +44,15 @@ TESTS = Path(__file__).parent
 QUICK = (
     "body/", "dictionary/", "results/", "settings/", "cloud/injection/", "cloud/test_cloud.py",
     "cloud/test_integrators.py", "cloud/test_layout.py", "cloud/test_rebounds.py", "flow/mesh/test_mesh.py",
-    "flow/read/test_openfoam.py", "flow/test_walk.py", "run/test_job.py", "run/test_sweep.py", "view/test_bodies.py",
+    "flow/read/test_openfoam.py", "flow/test_walk.py", "run/test_job.py", "run/test_sweep.py",
+    "view/test_bodies.py",
 )  # fmt: skip
-"""Files of the tier for each commit: at most five minutes of CPU time with an empty cache of compiled code."""
+"""Files of the tier for each commit: at most 5 min of CPU time with an empty cache of compiled code."""
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the quick tests; keep a file, whose tests may share a long run, on one process of ``--dist loadgroup``."""
+    """Mark the quick tests; those of a file, which may share a run, stay together in ``--dist loadgroup``."""
     for item in items:
         path = item.path.relative_to(TESTS).as_posix()
         if path.startswith(QUICK):

@@ -46,6 +46,13 @@ def case(tmp_path: Path) -> Path:
     return tmp_path / "pipe"
 
 
+@pytest.fixture(autouse=True)
+def _few_moves(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Follow the fluid of small boxes for two cells; its rates are the subject of tests with the pipe."""
+    if "case" not in request.fixturenames:
+        monkeypatch.setattr("foamprb.run.template._MOVES", 2)
+
+
 @pytest.fixture
 def box(tmp_path: Path) -> Path:
     """Eight cells, for which the settings are written at once; the fluid is the test's."""
