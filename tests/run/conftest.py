@@ -12,11 +12,22 @@ from foamprb.cli import main
 
 
 @pytest.fixture(scope="session")
-def truth(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    """Results of a run that was never interrupted."""
-    case = short_case(tmp_path_factory.mktemp("truth"))
+def ended(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A case whose run was never interrupted; tests leave it as it is."""
+    case = short_case(tmp_path_factory.mktemp("ended"))
     assert main(["run", "-case", str(case), "-threads", "2"]) == 0
-    found = results(case)
+    return case
+
+
+@pytest.fixture
+def finished(ended: Path, tmp_path: Path) -> Path:
+    return shutil.copytree(ended, tmp_path / "pipe")
+
+
+@pytest.fixture(scope="session")
+def truth(ended: Path) -> dict[str, bytes]:
+    """Results of that run."""
+    found = results(ended)
     assert len(found) == 12
     assert b",stuck,wall," in found["fates.csv"]
     return found

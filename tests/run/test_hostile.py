@@ -6,7 +6,6 @@ import contextlib
 import json
 import os
 import re
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from limits import ended_in_time
-from pipe_case import edit, short_case
+from pipe_case import edit
 
 from foamprb import InputError, open_run
 from foamprb.cli import main
@@ -177,18 +176,6 @@ STUDIES: dict[str, tuple[str, str]] = {
     "number beyond any": (f"[entries]\na = {{ from = 1{400 * '0'}, to = 2, number = 2 }}", "is no study"),
     "lists without an end": (f"[entries]\na = {'[' * 3000}{']' * 3000}", "is no study: RecursionError"),
 }
-
-
-@pytest.fixture(scope="session")
-def ended(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    case = short_case(tmp_path_factory.mktemp("finished"))
-    assert main(["run", "-case", str(case), "-threads", "1"]) == 0
-    return case
-
-
-@pytest.fixture
-def finished(ended: Path, tmp_path: Path) -> Path:
-    return shutil.copytree(ended, tmp_path / "pipe")
 
 
 def said(capsys: pytest.CaptureFixture[str], *words: str) -> str:

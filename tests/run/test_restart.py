@@ -393,11 +393,9 @@ def test_recovered_walks_before_an_interruption_are_counted(case, capsys):
     assert re.search(r"relocated by tree search +5\n", capsys.readouterr().out)
 
 
-def test_a_finished_run_is_left_as_it_is(case, capsys):
-    assert main(["run", "-case", str(case)]) == 0
-    folder = case / "postProcessing/softCloud"
+def test_a_finished_run_is_left_as_it_is(finished, capsys):
+    folder = finished / "postProcessing/softCloud"
     before = {file: file.stat().st_mtime_ns for file in folder.rglob("*") if file.is_file()}
-    capsys.readouterr()
-    assert main(["run", "-case", str(case), "-resume"]) == 0
+    assert main(["run", "-case", str(finished), "-resume"]) == 0
     assert "The run has ended at t = 0.006 s: there is nothing to continue.\n" in capsys.readouterr().out
     assert {file: file.stat().st_mtime_ns for file in folder.rglob("*") if file.is_file()} == before

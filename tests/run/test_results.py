@@ -195,10 +195,9 @@ def test_checkpoints_that_no_manifest_lists_are_not_removed(stopped, truth, caps
     assert results(stopped) == truth
 
 
-def test_files_of_no_run_are_named_and_removed_on_request(case, capsys):
+def test_files_of_no_run_are_named_and_removed_on_request(finished, capsys):
     """As a run of an earlier version left them; notes of a user stay."""
-    run(case)
-    folder = folder_of(case)
+    case, folder = finished, folder_of(finished)
     left = ["softCloud_000017.vtp", "checkpoint/0.9.npz", ".softCloud.pvd.0123abcd.tmp"]
     stay = ["checkpoint/notes.txt", "other/notes.csv"]
     (folder / "other").mkdir()
