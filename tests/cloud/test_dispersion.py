@@ -124,17 +124,6 @@ def test_results_do_not_depend_on_threads_nor_on_turns_nor_on_order():
     assert abs(np.corrcoef(other.x[:, 0], whole.x[:, 0])[0, 1]) < 0.4
 
 
-def test_a_cloud_that_goes_on_from_a_copy_of_its_state_goes_on_with_its_eddies():
-    flow = box()
-    whole = carried(tracers(50), flow, 10, 0.3)
-    p = tracers(50)
-    carried(p, flow, 4, 0.3)
-    rest = Cloud(p.take(slice(None)), flow, MEDIUM, [Mirror() for _ in flow.patches], 0.3,
-                 Models(integrator="stokes", surroundings=(RANDOM_WALK,)), threads=1, step=4)  # fmt: skip
-    rest.advance(6)
-    assert np.array_equal(whole.x, rest.particles.x)
-
-
 def test_a_transient_flow_has_the_turbulence_of_the_time():
     p, flow = tracers(2000), changing([1.0, 4.0])
     p.t0[:] = 0.5

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from observing import go_on, observe, observed, pipe_cloud, restore
+from observing import observed, pipe_cloud
 
 from foamprb.cloud.patches import Escape, Rebound
-from foamprb.cloudfunctions.particle_collector import ParticleCollector
 from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
 from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
@@ -21,36 +20,6 @@ def test_a_mistake_names_the_function():
     bouncing = pipe_cloud(2, walls=(Rebound(), Escape(), Escape()))
     with pytest.raises(InputError, match="patch wall: particles bounce off it"):
         CloudFunctions({"who": PatchPostProcessing(("wall",))}, observed(bouncing))
-
-
-@pytest.mark.parametrize(
-    "function",
-    [
-        ParticleTracks(7, 1000),
-        PatchPostProcessing(("wall", "outlet")),
-        ParticleCollector("plane", (0.01, 0.0, 0.0), (1.0, 0.0, 0.0)),
-        ParticleHistogram(nBins=5),
-    ],
-    ids=lambda f: type(f).__name__,
-)
-def test_what_is_remembered_survives_a_restart(function, tmp_path):
-    cloud = pipe_cloud()
-    observe(cloud, function, tmp_path / "whole")
-    first = pipe_cloud()
-    state = observe(first, function, tmp_path / "parts", writes=(200,)).state()
-    np.savez(tmp_path / "state.npz", allow_pickle=False, **state)
-    second = pipe_cloud()
-    functions = CloudFunctions({"f": function}, observed(second))
-    for array, saved in zip(second.particles, first.particles, strict=True):
-        array[:] = saved
-    second.step = first.step
-    with np.load(tmp_path / "state.npz", allow_pickle=False) as saved:
-        restore(functions, saved)
-    go_on(second, functions, tmp_path / "parts", (400, 700))
-    whole = sorted(path.relative_to(tmp_path / "whole") for path in (tmp_path / "whole").rglob("*.*"))
-    assert whole
-    for path in whole:
-        assert (tmp_path / "parts" / path).read_bytes() == (tmp_path / "whole" / path).read_bytes()
 
 
 def test_the_memory_of_other_functions_is_refused():

@@ -73,17 +73,6 @@ def sum_of_two(values):
     return element(values, FIRST) + element(values, SECOND)
 
 
-def pair_sum(values, rows):
-    return element(values, rows[0]) + element(values, rows[1])
-
-
-def sum_of_all(values, rows):
-    total = element(values, 0) + pair_sum(values, (rows[0], rows[1]))
-    for i in range(len(rows)):
-        total += element(values, i) + element(values, rows[i])
-    return total
-
-
 @separate
 def roots(values):
     for i in range(LANES):
@@ -157,13 +146,6 @@ def test_constants_are_no_reason_to_compile_a_function_again(cache):
     assert link(sum_of_two)(np.arange(5.0)) == 5.0
     (code,) = [d for d in compiling._dispatchers.values() if d.py_func.__name__ == "element"]
     assert len(code.signatures) == 1
-
-
-@pytest.mark.parametrize("function", [doubled, doubled_apart], ids=["inlined", "called"])
-def test_called_and_inlined_functions_give_the_same(cache, function, monkeypatch):
-    assert link(changed_twice, {changed: function})(1.25) == 5.0
-    monkeypatch.setattr(compiling, "_dispatchers", {})
-    assert link(changed_twice, {changed: function})(1.25) == 5.0
 
 
 def test_a_function_that_may_not_be_replaced_is_an_error(cache):
@@ -249,15 +231,6 @@ def test_code_changes_with_the_fields_of_what_it_makes(cache, monkeypatch):
     monkeypatch.setitem(globals(), "Pair", Riap)
     monkeypatch.setattr(compiling, "_dispatchers", {})
     assert link(first_and_second)(1.0) == 1.0
-
-
-def test_separate_functions_stay_functions(cache):
-    """The loop calls them: inlined where it does they would swell it."""
-    f = link(changed_twice, {changed: doubled_apart})
-    f(1.25)
-    (assembly,) = f.inspect_asm().values()
-    # They are called by a name.
-    assert [line for line in assembly.splitlines() if re.search(r"(call|movabs).*\bcode_", line)]
 
 
 @pytest.mark.skipif(not has_registers_of_512_bits(), reason="the processor has no registers of 512 bits")

@@ -59,15 +59,6 @@ def test_arrays_with_gaps_between_numbers_are_read() -> None:
     assert out[6] == 3.0
 
 
-def test_a_record_is_one_argument() -> None:
-    dispatcher = link(measure)
-    dispatcher(outer(np.ones((1, 1)), np.ones(2)), np.empty(7))
-    (signature,) = [s for s in dispatcher.signatures if s[0].items["weights"].layout == "C"]
-    assert signature[0].name.startswith("Outer_")
-    model = numba.core.datamodel.default_manager[signature[0]]
-    assert not isinstance(model.get_argument_type(), tuple)
-
-
 def test_records_of_other_types_are_compiled_again() -> None:
     out = np.empty(7)
     link(measure)(outer(np.ones((2, 2), dtype=np.float32), np.ones(2)), out)

@@ -171,13 +171,6 @@ def called_plainly(function, argument):
     return function(argument, *(ALL[name] for name in names))
 
 
-@pytest.mark.parametrize(("function", "argument"), ARGUMENTS)
-def test_kernels_read_packed_arguments_of_every_type(function, argument):
-    given = packed(argument)
-    f = link(outermost, slots={value: function}, given=given.layout)
-    assert f(given, 2.0, 3.0) == called_plainly(function, argument)
-
-
 def test_loops_are_not_compiled_again_for_another_packed_argument(fresh):
     for n, (function, argument) in enumerate(ARGUMENTS):
         given = packed(argument)
