@@ -53,11 +53,11 @@ class RankError(Exception):
         self.trace = trace
 
 
-def closest(found: str, allowed: Iterable[str]) -> str | None:
-    """Return the closest allowed word, or None without a close one."""
+def closest(found: str, allowed: Iterable[str], cutoff: float = 0.6) -> str | None:
+    """Return the closest allowed word, or None without one whose similarity is at least the cutoff."""
     names = sorted(allowed)
     same = [name for name in names if name.lower() == found.lower()]
-    close = same or difflib.get_close_matches(found, names, n=1, cutoff=0.6)
+    close = same or difflib.get_close_matches(found, names, n=1, cutoff=cutoff)
     return close[0] if close else None
 
 

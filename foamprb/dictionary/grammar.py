@@ -29,6 +29,7 @@ def read_dictionary(path: Path, case: Path, warn: bool = False) -> Dictionary:
       between the keys of nested dictionaries;
     * ``$:a.b``, sought from the top of the file; ``$.name`` and ``$..name``, sought in this dictionary and in
       the enclosing one only;
+    * ``${:$name}``, whose name has the value of another macro or of a variable of the environment;
     * ``$name;`` in place of an entry, which merges the dictionary ``name``;
     * ``#include``, ``#includeIfPresent``, ``#sinclude`` and ``#includeEtc``.
 
@@ -131,7 +132,7 @@ _TOKEN = re.compile(
       (?P<skip> \s+ | //[^\n]* | /\*.*?\*/ )
     | (?P<token> "(?:\\.|[^"\\])*"                          # a string
                | \#\{.*?\#\}                                # code
-               | \$\{[^\s{}]*\}
+               | \$\{(?:[^\s{}]|\$\{[^\s{}]*\})*\}
                | [{}()\[\];]
                | [A-Za-z_][^\s"/;{}()\[\]]* (?: \( [^\s"/;{}()\[\]]* \) [^\s"/;{}()\[\]]* )+ (?=\s)  # out(2)
                | (?: [^\s"/;{}()\[\]] | /(?![/*]) )+ )      # a word or number
@@ -139,6 +140,8 @@ _TOKEN = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 _HEADER = "FoamFile"
+_INNER = re.compile(r"\$(?:\{([^\s{}]*)\}|([\w.:]+))")
+"""Macro in the name of another one."""
 _COUNT = re.compile(r"\d{1,18}", re.ASCII)
 _CLOSING = {"{": "}", "(": ")", "[": "]"}
 _MARKS = frozenset("{}()[];")
@@ -325,6 +328,7 @@ class _Parser:
     def look_up(self, token: _Token, scope: Dictionary) -> Entry:
         """Find the entry of a macro."""
         name = token.text[1:].removeprefix("{").removesuffix("}")
+        name = _INNER.sub(lambda inner: self.inner(token, inner[1] or inner[2], scope), name)
         scopes = [above for above in _upward(scope) if isinstance(above, Dictionary)]
         dots = len(name) - len(name.lstrip("."))
         if name.startswith(":"):
@@ -342,6 +346,16 @@ class _Parser:
                 token, "is a macro of OpenFOAM that is not supported. Allowed: $name, ${name}, $a.b, $:a.b."
             )
         raise self.mistake(token, "is not defined above.")
+
+    def inner(self, token: _Token, name: str, scope: Dictionary) -> str:
+        """Return the word of a macro in the name of another one."""
+        try:
+            words = self.expand(token._replace(text=f"${name}"), scope)
+        except InputError:
+            words = (os.environ.get(name, ""),)
+        if len(words) != 1 or not words[0]:
+            raise self.mistake(token, f"has a name with '${name}', which is no word above.")
+        return words[0]
 
     def merge(self, token: _Token, dictionary: Dictionary) -> None:
         """Merge the dictionary of a macro into this one."""

@@ -44,7 +44,7 @@ _HEADER = "header"
 """Name of the array with the header."""
 _OLD = b"foamprb checkpoint "
 """First bytes of a checkpoint of format 13 or before; the number of the format follows."""
-_NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.(?:npz|checkpoint)")
+_NAME = re.compile(r"(-?\d+(?:\.\d+)?(?:e[-+]\d+)?)\.(?:npz|checkpoint)")
 _INCOMPLETE = "it is incomplete or does not match its checksums"
 _LOCAL_HEADER = struct.Struct("<26xHH")
 """What precedes a file in a zip archive: the lengths of its name and of the extra field, which follow."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,6 +19,8 @@ from foamprb.cloud.tracker import Models
 from foamprb.cloud.viscosity import medium_at, viscosity_at_nodes
 from foamprb.flow.base import Flow
 from foamprb.flow.nodes import NodeValues
+from foamprb.flow.read.caveats import PHASES, TURBULENT
+from foamprb.flow.read.openfoam import INSTANT
 from foamprb.settings.settings import Settings
 from foamprb.settings.solution import Solution
 
@@ -32,6 +35,8 @@ _SHORT_STEPS, _SMALL_TOLERANCE, _OFTEN = (1, 2), 1e-6, 20
 ``tools/benchmark -only observed``."""
 _MANY_STEPS = 1e7
 """Least number of steps of a particle above which the user is warned."""
+_SMALL_BODY, _LAMINAR = 1e-3, 1e4
+"""Least size of a body over its cell, and largest Reynolds number of a steady laminar flow, without a warning."""
 _LIGHT = 20.0
 """Density below which a fluid is a gas, and a solid is unlikely, kg/m³."""
 _OF_GASES = (4e-6, 2e-4)
@@ -178,6 +183,30 @@ def doubtful_densities(settings: Settings) -> list[str]:
 
 def _in_grams(rho: float) -> str:
     return f"If {rho:g} g/cm3 are meant: {1000.0 * rho:g} kg/m3."
+
+
+def doubtful_lengths(settings: Settings, cloud: Cloud, size: float) -> list[str]:
+    """Return a warning if bodies or the Reynolds number show that lengths in mm were read as m.
+
+    Turbulent flows, phases and instants of unsteady flows may have any Reynolds number, and large cells.
+
+    Parameters
+    ----------
+    settings, cloud
+        The input, and the cloud before its first step.
+    size
+        Largest diameter over the size of its cell; NaN without particles.
+    """
+    flow, others = cloud.flow, (TURBULENT, PHASES, INSTANT)
+    excused = settings.dispersion or settings.solution.transient or settings.fluid.varying is not None
+    if excused or any(note.startswith(others) for note in flow.notes):
+        return []
+    speed = float(np.linalg.norm(flow.at_some_nodes().u, axis=1).max(initial=0.0))
+    reynolds = speed * flow.width / settings.fluid.nu if settings.fluid.nu else 0.0
+    signs = [f"bodies of {size:.2g} cells"] if size < _SMALL_BODY else []
+    if math.isfinite(reynolds) and reynolds > _LAMINAR:
+        signs.append(f"a Reynolds number of {reynolds:.2g} in a laminar flow of {flow.width:.3g} m")
+    return [f"the flow has {' and '.join(signs)}. Are its lengths in m?"] if signs else []
 
 
 def late_releases(settings: Settings, cloud: Cloud, injector: int, n: int) -> list[str]:

@@ -30,6 +30,7 @@ from foamprb.run.checks import (
     costly_settings,
     dimensionless_groups,
     doubtful_densities,
+    doubtful_lengths,
     extension_rates,
     late_releases,
     validity_warnings,
@@ -69,6 +70,8 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             liquid = MATERIALS[models.material].liquid
             warnings += validity_warnings(g, models.integrator, f"injection model {injection.name}", liquid)
             warnings += late_releases(settings, cloud, index, g.n)
+    sizes = [i["size"][1] for i in injections if "size" in i]
+    warnings += doubtful_lengths(settings, cloud, max(sizes, default=math.nan))
     p = _surveyed(cloud)
     medium = medium_at(cloud.medium, flow, p, cloud.time) if models.surroundings else cloud.medium
     survey = Survey(p, flow, medium, cloud.dt, cloud.make_ready())

@@ -26,7 +26,8 @@ from foamprb.flow.base import Caveat, Floats, Patch, PatchFaces
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.case import is_only_decomposed, regions
-from foamprb.flow.read.caveats import pseudo_time, turbulence_fields
+from foamprb.flow.read.caveats import is_unsteady, pseudo_time, turbulence_fields
+from foamprb.flow.read.describe import size_of
 from foamprb.flow.read.flows import check_region, open_case, read_flow
 from foamprb.flow.read.fluid import (
     FILES,
@@ -63,6 +64,8 @@ _ROUND_OFF = 1e-6
 """Speed over √(g L), and rate times L over the speed, below which they are round-off."""
 _LEAST_WAY = 1e-4
 """Way in the solver's time, in cells, below which a fluid is at rest."""
+_CROSSINGS, _WRITTEN = 100.0, 100.0
+"""Longest run, over the time to cross the flow at the largest speed, and over the last time of an unsteady flow."""
 _PATHS, _MOVES, _MOVE = 200, 400, 0.5
 """Number of paths, of moves along each, and length of a move in cells."""
 
@@ -119,8 +122,6 @@ def write_template(case: Path, source: FlowSource | None = None, output: Path | 
         log.info("The case has the regions %s: -region NAME. These settings are for the mesh beside them.",
                  ", ".join(names))  # fmt: skip
     flow = read_flow(case, "latestTime", _with_fractions(case, source))
-    for note in flow.notes if source.file else ():
-        log.log(logging.WARNING if isinstance(note, Caveat) else logging.INFO, "%s", note)
     text = template(case, flow, source)
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -135,10 +136,19 @@ def write_template(case: Path, source: FlowSource | None = None, output: Path | 
 
 
 def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
-    """Return the text of a dictionary for the flow of a case."""
+    """Return the text of a dictionary for the flow of a case, and log the notes of the flow."""
+    for note in flow.notes:
+        if isinstance(note, Caveat) or source.file:
+            log.log(logging.WARNING if isinstance(note, Caveat) else logging.INFO, "%s", note)
+    log.info("    %s", size_of(*flow.bounds, source.file is not None))
     scales = scales_of(flow)
     if _is_at_rest(case, flow, source, scales):
         scales = replace(scales, speed=0.0, inlet="")
+    written = (
+        float(flow.at_nodes()[0] or 0.0) if is_unsteady(case, source.region) and not source.file else 0.0
+    )
+    if written > 0.0:
+        scales = replace(scales, duration=min(scales.duration, _WRITTEN * written))
     fluid = _fluid(case, flow, source, scales)
     for line in fluid.remarks:
         log.info("    %s", " ".join(line.removeprefix("// ").split()))
@@ -233,7 +243,9 @@ def scales_of(flow: MeshFlow) -> FlowScales:
     inlet, rate_of_flow = _inlet(flow, speed, volume)
     duration = 1.0
     if speed > 0.0:
-        duration = 2.0 * volume / rate_of_flow if inlet else 10.0 * length / speed
+        duration = (
+            min(2.0 * volume / rate_of_flow, _CROSSINGS * length / speed) if inlet else 10.0 * length / speed
+        )
     return FlowScales(
         speed,
         step or (0.2 * float(np.quantile(sizes, 0.05)) / speed if speed > 0.0 else 0.0),

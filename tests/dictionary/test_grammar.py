@@ -91,6 +91,11 @@ def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, t
         ("f { #includeFunc probes(p, U)\n#includeFunc y }\nd 1;", {"f": {"#includeFunc": "y"}, "d": "1"}),
         ("a { b 1; c $b; } a { d 1; }", {"a": {"b": "1", "c": "1", "d": "1"}}),
         ("a.b 1; c $a.b;", {"a.b": "1", "c": "1"}),
+        # As in decayIsoTurb: the dictionary that another entry names.
+        (
+            "k { C 1; } b { m k; ${:$m}; d ${:${m}.C}; }",
+            {"k": {"C": "1"}, "b": {"m": "k", "C": "1", "d": "1"}},
+        ),
     ],
 )
 def test_macros_and_duplicates(tmp_path: Path, text: str, expected: object) -> None:

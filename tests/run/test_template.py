@@ -453,6 +453,19 @@ def test_a_fluid_at_rest_is_told_by_scale(tmp_path, u, time, g, rests):
     assert ("cellZoneInjection" if rests else "patchInjection") in text
 
 
+def test_a_run_is_not_much_longer_than_the_solvers(tmp_path):
+    """A unit cube that is replaced in 500 s; a solver that has computed 2 s allows a hundred times that, rounded up."""
+    write_case(tmp_path, perturbation=0.0, times=("2",))
+    put_uniform(tmp_path, 4e-3)
+    ends = []
+    for scheme in ("steadyState", "Euler"):
+        (tmp_path / "system").mkdir(exist_ok=True)
+        (tmp_path / "system/fvSchemes").write_text(f"ddtSchemes {{ default {scheme}; }}")
+        text = write_template(tmp_path, output=tmp_path / scheme).read_text()
+        ends.append(float(re.search(r"endTime +(.*?);", text)[1]))
+    assert ends == [500.0, 250.0]
+
+
 def test_the_regions_beside_the_mesh_are_named(tmp_path, capsys):
     """As splitMeshRegions leaves them without -overwrite."""
     write_box(tmp_path)

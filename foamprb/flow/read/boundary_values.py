@@ -155,7 +155,8 @@ def _missing(patch: PatchInfo, entry: PatchField, rule: Rule | None) -> str:
     what = f"patch {patch.name} is of type {entry.type} and has no value"
     if rule is not None:
         return f"{what}, nor what OpenFOAM computes it from. Add the entry value, as OpenFOAM writes it."
-    meant = closest(entry.type, RULES)
+    # Other conditions of OpenFOAM have similar names and another meaning.
+    meant = closest(entry.type, RULES, 0.85)
     hint = f" Did you mean {meant}?" if meant else ""
     return f"{what}. Allowed: value uniform (x y z), or nonuniform and a list.{hint}"
 

@@ -23,7 +23,7 @@ class MissingFieldError(InputError):
     """Error: a field is missing at a time."""
 
 
-_TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
+_TIME_NAME = re.compile(r"-?\d+(\.\d*)?([eE][-+]?\d+)?")
 
 
 _OFF = frozenset({"no", "off", "false", "n", "f", "none"})

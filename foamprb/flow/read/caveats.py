@@ -17,6 +17,7 @@ from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.fluxes import Conservation, UnbalancedFlowError
+from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
@@ -36,10 +37,17 @@ _LEAST_PHASE = 1e-3
 _ZERO = re.compile(rb"internalField\s+uniform\s+0(?:\.0*)?\s*;")
 _VARIES = re.compile(rb"internalField\s+nonuniform")
 _HEAD = 1 << 16
+TURBULENT, PHASES = (
+    "the flow is the mean or the resolved part of a turbulent one",
+    "the flow has several phases",
+)
+"""Beginnings of caveats."""
 LEAST_LOSS = 1e-3
 """Fraction of the flux by which inflow and outflow must differ for a warning."""
 _MOST_LOSS = 0.5
 """The fraction of ``phi`` from which on fates are worthless; values on patches may be stale."""
+_MOST_MADE = 0.3
+"""Fraction of the flux through cells by which ``phi`` may differ between their inflow and outflow."""
 ROUND_OFF = 1e-9
 """Fraction of the largest velocity times the area of the boundary by which they must differ, too."""
 
@@ -129,6 +137,17 @@ def _time_scheme(case: Path, region: str) -> str:
     return next((word for word in words if word != "bounded"), "")
 
 
+def in_degrees(case: Path, region: str) -> bool:
+    """Return whether the times of a case are degrees of an engine's crank."""
+    try:
+        engine, control = (find_dictionary(case, region, name) for name in ("engineGeometry", "controlDict"))
+    except InputError:
+        return False
+    user = control.entries.get("userTime") if control is not None else None
+    by_user = isinstance(user, Dictionary) and word_of(user, "type") == "engine"
+    return by_user or (engine is not None and "rpm" in engine.entries)
+
+
 def is_unsteady(case: Path, region: str) -> bool:
     """Return whether the times of a case are those of an unsteady solver."""
     return _time_scheme(case, region) not in ("", *_PSEUDO)
@@ -166,6 +185,15 @@ def caveat_of_flux(
     if "." in velocity or (compressible and (unsteady or phi is None)):
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
+    if phi and (made := _made_by_cells(mesh, phi[0], phi[3])) > _MOST_MADE:
+        return [
+            Caveat(
+                f"phi makes or loses {100.0 * made:.3g} % of the fluid that crosses a cell, on average. Allowed: "
+                f"{100.0 * _MOST_MADE:g} %. Is the mesh numbered as this time's fields? After renumberMesh, all "
+                "times need the new numbering: compute them again, or use the mesh from before.",
+                "unbalanced",
+            )
+        ]
     flux = phi[0] if phi else np.einsum("ni,ni->n", boundary, mesh.boundary_areas)
     areas, speeds = np.linalg.norm(mesh.boundary_areas, axis=1), np.linalg.norm(cells, axis=1)
     outflow, inflow = float(flux[flux > 0.0].sum()), float(-flux[flux < 0.0].sum())
@@ -181,6 +209,20 @@ def caveat_of_flux(
             "unbalanced" if phi and lost > _MOST_LOSS * most else "",
         )
     ]
+
+
+def _made_by_cells(mesh: Mesh, outer: Floats, inner: Floats) -> float:
+    """Return what cells make or lose over the flux through them, means; 0 without values at inner faces."""
+    n, cells = mesh.n_internal, mesh.n_cells
+    # Of a decomposed case only the values on patches are read.
+    if len(inner) != n or not inner.any():
+        return 0.0
+    flux = np.concatenate([inner, outer])
+    made, size = (
+        np.bincount(mesh.owner, f, cells) + sign * np.bincount(mesh.neighbour, f[:n], cells)
+        for f, sign in ((flux, -1.0), (np.abs(flux), 1.0))
+    )
+    return float(np.abs(made).sum() / (0.5 * size.sum()))
 
 
 def _rotating(case: Path, region: str, relative: bool) -> Iterator[Caveat]:
@@ -218,7 +260,7 @@ def _turbulent(folder: Path) -> Iterator[Caveat]:
             hint = "subModels/dispersionModel stochasticDispersionRAS adds the dispersion, from "
             hint += f"{' and '.join(fields)}."
         yield Caveat(
-            f"the flow is the mean or the resolved part of a turbulent one (there is {name}): particles "
+            f"{TURBULENT} (there is {name}): particles "
             "follow and feel that part alone, without dispersion by the eddies and without their stresses. "
             f"{hint}"
         )
@@ -252,7 +294,7 @@ def _phases(folder: Path, read: Callable[[str, Kind], FoamField]) -> Iterator[Ca
     if any(_LEAST_PHASE < _mean(read(name, FRACTION_FIELD)) < 1.0 - _LEAST_PHASE for name in names):
         hint = " solution/mixture true takes those of the local mixture." if len(names) <= 2 else ""
         yield Caveat(
-            f"the flow has several phases ({', '.join(names)}), but to particles the fluid is one, with "
+            f"{PHASES} ({', '.join(names)}), but to particles the fluid is one, with "
             f"rhoInf and one viscosity everywhere: they cross interfaces as if there were none.{hint}"
         )
 
@@ -298,8 +340,11 @@ def _zones(
 
 def _flux(
     read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo]
-) -> tuple[Floats, str, str] | None:
-    """Return the flux out of the boundary faces (n,), its name and its unit; None if ``phi`` is missing."""
+) -> tuple[Floats, str, str, Floats] | None:
+    """Return the flux out of the boundary faces (n,), its name, its unit, and the flux through inner faces.
+
+    Returns None if ``phi`` is missing.
+    """
     try:
         phi = read("phi", FLUX_FIELD)
     except InputError:
@@ -314,4 +359,4 @@ def _flux(
             values_there = np.zeros((1, 1))
         values.append(np.broadcast_to(values_there, (patch.faces, 1))[:, 0])
     unit = "kg/s" if phi.dimensions == MASS_FLUX else "m3/s"
-    return np.concatenate([np.empty(0), *values]), "phi", unit
+    return np.concatenate([np.empty(0), *values]), "phi", unit, phi.cells[:, 0]

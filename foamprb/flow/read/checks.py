@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats
+from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import KINDS
 from foamprb.flow.read.boundary import PatchInfo
@@ -21,6 +21,9 @@ _SINGLE = 6e-8
 """Relative error of coordinates in single precision, which meshes of other programs may have."""
 _LEAST_TURN = 1e-6
 """Tolerance of the angle between faces, rad, with exact coordinates."""
+_UNORDERED, _LEAST_SPREAD, _FEW_CELLS = 0.6, 0.01, 100
+"""Difference of neighbouring cells over that of random ones beyond which their order is doubtful, least difference
+over the speed, and least number of cells, for :func:`caveat_of_order`."""
 
 
 def require_numbers(values: Floats, source: Path, what: str, where: str = "number") -> None:
@@ -102,6 +105,27 @@ def _require_flat(mesh: Mesh, rows: Floats, normals: Floats, doubt: Floats, sour
                 f"{'xyz'[direction]}, not 2; the mesh has several layers of cells there, and is not one of "
                 "two dimensions (checkMesh tells)."
             )
+
+
+def caveat_of_order(mesh: Mesh, cells: Floats) -> list[Caveat]:
+    """Return a warning if the velocities (n_cells, 3) of neighbouring cells differ as those of random cells.
+
+    They do if the field and the mesh have different numberings.
+    """
+    first, second = mesh.owner[: mesh.n_internal], mesh.neighbour
+    if mesh.n_cells < _FEW_CELLS or len(first) == 0:
+        return []
+    random = np.random.default_rng(1).permutation(mesh.n_cells)[second]
+    beside, apart = (float(np.abs(cells[first] - cells[rows]).mean()) for rows in (second, random))
+    if beside <= max(_UNORDERED * apart, _LEAST_SPREAD * float(np.abs(cells).mean())):
+        return []
+    return [
+        Caveat(
+            f"velocities of neighbouring cells differ by {beside:.3g} m/s on average, those of random cells by "
+            f"{apart:.3g} m/s (usual: below {100.0 * _UNORDERED:g} % of that): either the field has the numbering "
+            "of another mesh, as before renumberMesh, or it is noise."
+        )
+    ]
 
 
 def notes_of_types(patches: Sequence[PatchInfo]) -> list[str]:

@@ -100,7 +100,7 @@ def describe_file(
     grid, mesh, _, patches, remarks, _ = open_file(path, velocity, "latestTime", division, scale)
     bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
     kinds = _kinds(mesh.face_start, mesh.owner, mesh.neighbour, mesh.n_cells)
-    lines = [f"File    {path}", "", *_lines_of_mesh(mesh.n_points, kinds, bounds)]
+    lines = [f"File    {path}", "", *_lines_of_mesh(mesh.n_points, kinds, bounds, True)]
     lines += [*(f"    {line}" for line in patches), "", "Arrays"]
     for where, data in (("cells", grid.cell_data), ("points", grid.point_data)):
         lines += [f"    {name:20s} at {where}, {np.shape(data[name])[1:] or 'scalar'}" for name in list(data)]
@@ -130,13 +130,22 @@ def _kinds(start: Ints, owner: Ints, neighbour: Ints, n_cells: int) -> dict[str,
     return {name: n for name, n in by_kind.items() if n}
 
 
-def _lines_of_mesh(points: int, cells: dict[str, int], bounds: tuple[Floats, Floats]) -> list[str]:
+def size_of(low: Floats, high: Floats, file: bool) -> str:
+    """Return a sentence about the size of a flow between two corners, m, of a mesh file or a case."""
+    scale = "-scale 1e-3" if file else 'transformPoints -scale "(1e-3 1e-3 1e-3)"'
+    return f"Lengths are taken as metres: {' x '.join(f'{x:.4g}' for x in high - low)} m. If they are mm: {scale}."
+
+
+def _lines_of_mesh(
+    points: int, cells: dict[str, int], bounds: tuple[Floats, Floats], file: bool = False
+) -> list[str]:
     low, high = ("({:g} {:g} {:g})".format(*corner) for corner in bounds)
     return [
         "Mesh",
         f"    {'points':20s} {points:10d}",
         *(f"    {kind:20s} {n:10d}" for kind, n in cells.items()),
         f"    {'bounds [m]':20s} {low} {high}",
+        f"    {size_of(*bounds, file)}",
         "",
         "Patches",
     ]

@@ -34,6 +34,8 @@ _MEAN_KINDS = {"rho": DENSITY_FIELD, "p": PRESSURE_FIELD, "T": TEMPERATURE_FIELD
 _GAS_CONSTANT = 8314.46
 """J/(kmol K)."""
 _MIXTURE_FILE = "thermophysicalProperties"
+_PHASE_FILES = (_MIXTURE_FILE, "physicalProperties")
+"""Dictionaries of phases, before the names of these: ``physicalProperties.air``."""
 _CONSTANT = ("Newtonian", "constant")
 _CONSTANT_TRANSPORT = ("const", "constTransport")
 _GENERALISED, _WITHOUT_K = "generalisedNewtonian", "generalizedNewtonian"
@@ -115,6 +117,8 @@ def fluid_file(case: Path, region: str) -> Path | None:
     ``thermoType`` goes before a viscosity that the solver does not read.
     """
     files = tuple(find_files(case, region, *FILES))
+    if not files and len(of_phases := _files_of_phases(case, region)) == 1:
+        return next(iter(of_phases.values()))
     first = None
     for file in files:
         try:
@@ -419,7 +423,8 @@ def read_density(file: Path, case: Path) -> float | None:
     ``rhoConst`` or ``Boussinesq``.
     """
     root = read_dictionary(file, case)
-    for key in (*_DENSITIES, f"rho.{word_of(root, 'continuousPhase')}"):
+    continuous = word_of(root, "continuousPhase") or word_of(root, "continuousPhaseName")
+    for key in (*_DENSITIES, f"rho.{continuous}"):
         if key in root.entries:
             return float(read_entry(root, key, Annotated[Density, Positive]))
     try:
@@ -547,15 +552,20 @@ def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
     if isinstance(listed, DictionaryList):
         return {phase.key: phase for phase in listed.items}
     # Beside a mixture of the case, such files are alternatives to it.
-    files = () if "thermoType" in entries else (case / "constant" / region).glob(f"{_MIXTURE_FILE}.*")
-    names = sorted(file.name.removeprefix(f"{_MIXTURE_FILE}.").removesuffix(".gz") for file in files)
+    names = [] if "thermoType" in entries else sorted(_files_of_phases(case, region))
     if isinstance(listed, Stream):
         names = re.findall(r"[\w.]+", listed.text)
-    own = {key: find_dictionary(case, region, f"{_MIXTURE_FILE}.{key}") for key in names}
+    own = {key: find_dictionary(case, region, *(f"{name}.{key}" for name in _PHASE_FILES)) for key in names}
     phases = {key: own[key] or entries.get(key) for key in names}
     return {
         key: phase for key, phase in phases.items() if isinstance(phase, Dictionary) and not _is_solid(phase)
     }
+
+
+def _files_of_phases(case: Path, region: str) -> dict[str, Path]:
+    """Return the dictionaries of phases by the names of these."""
+    files = (file for name in _PHASE_FILES for file in (case / "constant" / region).glob(f"{name}.*"))
+    return {file.name.partition(".")[2].removesuffix(".gz"): file for file in files}
 
 
 def _is_solid(phase: Dictionary) -> bool:

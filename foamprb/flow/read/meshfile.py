@@ -28,7 +28,7 @@ from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.patches import VALUELESS
 from foamprb.flow.read.caveats import balanced, balanced_in_time
-from foamprb.flow.read.checks import require_numbers, require_volumes
+from foamprb.flow.read.checks import caveat_of_order, require_numbers, require_volumes
 from foamprb.flow.read.division import (
     boundary_velocity,
     divided,
@@ -178,6 +178,7 @@ class _NodalVelocity:
                 self.notes = ["The file has velocities of cells alone: they are continued to the boundary."]
                 self.notes += ["The fluid is at rest on walls, as they show."] * bool(faces.any())
             self._reconstruct = Reconstruction(mesh, valued=faces)
+            self.notes += caveat_of_order(mesh, _array(grid.cell_data, velocity, path, "at cell"))
         elif velocity in grid.point_data:
             self.notes = ["Velocities are point values; their gradient is first-order accurate."]
         else:

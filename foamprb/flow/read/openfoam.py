@@ -40,12 +40,14 @@ from foamprb.flow.read.caveats import (
     balanced_in_time,
     caveat_of_flux,
     caveats_of_case,
+    in_degrees,
     is_unsteady,
     pseudo_time,
     refuse_absolute,
 )
 from foamprb.flow.read.checks import (
     at_cells,
+    caveat_of_order,
     notes_of_types,
     require_numbers,
     require_patch_shapes,
@@ -73,6 +75,10 @@ _STEADY = 0.01
 
 By then the fluid must have crossed the domain.
 """
+
+
+INSTANT = "the flow of an unsteady solver (ddtSchemes) is used as a steady flow, of one instant"
+"""Beginning of a caveat."""
 
 
 class Case:
@@ -233,6 +239,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     cells, boundary = velocities(field, whole)
     read, unsteady = partial(case.field, name), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, cells, boundary, read, source.velocity, unsteady)
+    flux += caveat_of_order(whole.mesh, cells)
     rotating: list[RotatingZone] = []
     if rotations:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
@@ -257,7 +264,9 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     prepared = PreparedTimes(source.cache, whole.mesh)
     u, l, fluxes = prepared.get((cells, boundary, mass), make)
     if float(name) == 0.0:
-        notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
+        initial = f"the flow is that of time {name}, which is usually the initial guess and no solution"
+        uniform = bool((cells == cells[0]).all())
+        notes.append(Caveat(f"{initial}; it is uniform. Run the solver first.") if uniform else f"{initial}.")
     caveats = _caveats(case, name, source, relative=bool(rotations))
     if unsteady and all(caveat.fault != "movingMesh" for caveat in caveats):
         caveats += _instant(case, name, source.velocity, cells, whole.mesh)
@@ -298,6 +307,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     first = velocities(field, whole)
     read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
+    flux += caveat_of_order(whole.mesh, first[0])
     operators = _Operators(whole.mesh)
     prepared = PreparedTimes(source.cache, whole.mesh)
 
@@ -324,6 +334,13 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
     notes = [*notes, *case.notes, *whole.notes]
     notes += _caveats(case, names[-1], source, moving=False)
+    if float(names[0]) == 0.0 and not first[0].any():
+        notes.append(
+            Caveat(
+                f"at time {names[0]}, the first of the flow, the fluid is at rest, and until {names[1]} s it is "
+                f"interpolated. If that is no solution, as where setFlow or setFields made the flow: -time {names[1]}:."
+            )
+        )
     zones = partial(case.zones, names[0])
     notes += flux
     return series_of(
@@ -344,6 +361,11 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
     selected, notes = case.select_times(selection), []
     damaged = case.damaged(selected, velocity)
     names = [name for name in selected if name not in damaged] or list(selected)
+    if len(names) > 1 and in_degrees(case.root, case.region):
+        raise InputError(
+            f"{case.root}: the times {names[0]} to {names[-1]} are degrees of an engine's crank (rpm), not "
+            "seconds. Allowed: one time, with solution/transient no."
+        )
     if damaged:
         kind = Caveat if {*damaged.values()} - {"missing"} else str
         times = listed(f"{name} ({fault})" for name, fault in damaged.items())
@@ -401,7 +423,7 @@ def _caveats(case: Case, time: str, source: FlowSource, **options: bool) -> list
 
 def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) -> list[Caveat]:
     """Return a warning that an unsteady flow stands still, unless it has become steady."""
-    text = "the flow of an unsteady solver (ddtSchemes) is used as a steady flow, of one instant"
+    text = INSTANT
     earlier = [time for time in case.times() if 0.0 < float(time) < float(name)]
     with suppress(InputError):
         if earlier and case.mesh_folder(earlier[-1]) == case.mesh_folder(name):

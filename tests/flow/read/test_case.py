@@ -56,7 +56,7 @@ def test_times_are_folders_named_like_numbers(tmp_path):
     for name in ("0", "0.5", "10", "2", "1e-3", "5.", "constant", "1x", "-1", ".5", "0.orig", "1e"):
         (tmp_path / name).mkdir()
     (tmp_path / "3").touch()
-    assert available_times(tmp_path) == ("0", "1e-3", "0.5", "2", "5.", "10")
+    assert available_times(tmp_path) == ("-1", "0", "1e-3", "0.5", "2", "5.", "10")
 
 
 def test_regions_have_a_mesh_or_are_listed(tmp_path):

@@ -237,6 +237,60 @@ def test_a_mixture_is_offered_for_two_phases(case):
         assert ("solution/mixture true" in caveat) == ("oil" not in names)
 
 
+def test_phi_of_another_numbering_is_a_fault(tmp_path):
+    """Of a uniform flow, whose phi is exact, with the fluxes of the inner faces in another order."""
+    mesh = write_case(tmp_path, perturbation=0.0)
+    corners = mesh.points[mesh.face_points].reshape(-1, 4, 3)
+    phi = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])[:, 0] / 2.0
+    for order, faults in ((slice(None), []), (slice(None, None, -1), ["unbalanced"])):
+        boundary = "".join(
+            f"{p.name} {{ type calculated; value {scalars(phi[mesh.n_internal + a : mesh.n_internal + b])}; }}"
+            for p, a, b in zip(mesh.patches, mesh.patch_start, mesh.patch_start[1:], strict=False)
+        )
+        inner = scalars(phi[: mesh.n_internal][order])
+        text = f"dimensions [0 3 -1 0 0 0 0]; internalField {inner}; boundaryField {{ {boundary} }}"
+        put(tmp_path / "1e1/phi", text, "surfaceScalarField")
+        found = [
+            note for note in read_case(tmp_path).notes if isinstance(note, Caveat) and "phi makes" in note
+        ]
+        assert [note.fault for note in found] == faults
+
+
+def test_times_in_degrees_are_no_seconds(case):
+    """Of an engine, whose first times are negative; one of them is a flow."""
+    shutil.copytree(case / "0.5", case / "-180")
+    assert read_case(case, "-180").mesh.n_cells == 8
+    for name, text in (
+        ("constant/engineGeometry", "rpm 1500;"),
+        ("system/controlDict", "userTime { type engine; }"),
+    ):
+        put(case / name, text)
+        with pytest.raises(InputError, match="-180 to 1e1 are degrees of an engine's crank"):
+            read_series(case)
+        (case / name).unlink()
+    assert read_series(case).span == (-180.0, 10.0)
+
+
+def test_a_flow_that_no_solver_made_is_told(case):
+    for name in ("0.5", "1e1"):
+        shutil.rmtree(case / name)
+    (note,) = (note for note in read_case(case).notes if "time 0" in note)
+    assert not isinstance(note, Caveat)
+    text = (case / "0/U").read_text()
+    rest = re.sub(
+        r"internalField.*?boundaryField",
+        "internalField uniform (0 0 0); boundaryField",
+        text,
+        flags=re.DOTALL,
+    )
+    (case / "0/U").write_text(rest)
+    assert "the flow is that of time 0" in caveats(case)[0]
+    (case / "2").mkdir()
+    (case / "2/U").write_text(text)
+    (found,) = (note for note in read_series(case).notes if isinstance(note, Caveat))
+    assert "at time 0, the first of the flow, the fluid is at rest, and until 2 s" in found
+
+
 def test_round_off_in_a_closed_domain_is_no_loss(case):
     fluxes(case, -1e-17, 2e-17)
     assert caveats(case) == []

@@ -7,11 +7,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from mesh_shapes import boundary, corners, grid
+from mesh_shapes import block, boundary, box_patches, corners, grid
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.read.checks import (
+    caveat_of_order,
     require_numbers,
     require_patch_shapes,
     require_volumes,
@@ -33,6 +34,19 @@ def test_rows_of_numbers_are_finite_and_below_any_length(bad, column):
     assert str(caught.value) == (
         f"file: 2 of 4 points are not finite numbers below 1e+30; the first is ({first}) at cell 2."
     )
+
+
+def test_velocities_in_another_order_are_told():
+    """Of a parabola between two plates; a uniform flow with noise has no order."""
+    cube = block(6, 0.0)
+    mesh = build_mesh(cube, box_patches(cube))
+    u = np.zeros((mesh.n_cells, 3))
+    u[:, 0] = mesh.centres[:, 1] * (1.0 - mesh.centres[:, 1])
+    assert caveat_of_order(mesh, u) == []
+    (found,) = caveat_of_order(mesh, np.random.default_rng(1).permutation(u))
+    assert "velocities of neighbouring cells differ by 0." in found
+    noise = 1.0 + 1e-3 * np.random.default_rng(1).normal(size=u.shape)
+    assert caveat_of_order(mesh, noise) == []
 
 
 @pytest.mark.parametrize("volume", [0.0, -1.0, np.nan])

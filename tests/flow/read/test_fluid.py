@@ -119,7 +119,9 @@ PLACES = [
     ("transportProperties", "mul 2e-3; rhol 850;", (None, 2e-3), 850.0),
     ("transportProperties", "nul 4e-6; rhol 850;", (4e-6, None), 850.0),
     ("transportProperties", "continuousPhase air; rho.air 1.2; nu 1.5e-5;", (1.5e-5, None), 1.2),
+    ("transportProperties", "continuousPhaseName air; rho.air 1.2; nu 1.5e-5;", (1.5e-5, None), 1.2),
     ("physicalProperties", "viscosityModel constant; nu 1e-05 [m^2/s]; rho 1.2;", (1e-5, None), 1.2),
+    ("physicalProperties.air", "viscosityModel constant; nu 1e-05; rho 1.2;", (1e-5, None), 1.2),
     ("thermophysicalProperties", AIR % ("const", "rhoConst", "rho 1.2;", "mu 2e-5;"), (None, 2e-5), 1.2),
     ("thermophysicalProperties", AIR % ("const", "Boussinesq", "rho0 1.1;", "mu 2e-5;"), (None, 2e-5), 1.1),
     (
@@ -163,6 +165,17 @@ def test_the_places_where_openfoam_keeps_a_fluid(name, text, viscosities, rho, t
     assert fluid_file(tmp_path, "") == file
     assert read_viscosity(file, tmp_path, time="latestTime")[:2] == viscosities
     assert find_density(tmp_path, "", file, "latestTime")[0] == pytest.approx(rho, rel=1e-12)
+
+
+def test_phases_of_openfoam_org_have_a_file_each(tmp_path):
+    write(tmp_path, "constant/phaseProperties", "phases (water air);")
+    for name, nu, rho in (("water", 1e-6, 1000.0), ("air", 1.5e-5, 1.2)):
+        write(
+            tmp_path, f"constant/physicalProperties.{name}", f"viscosityModel constant; nu {nu}; rho {rho};"
+        )
+    phases = phases_of(tmp_path, "")
+    assert [*phases] == ["air", "water"]
+    assert phase_values(tmp_path, "", "air", phases["air"], 1.0, "latestTime") == (1.5e-5, 1.2)
 
 
 def test_a_liquid_of_openfoams_code_is_unknown(tmp_path):
