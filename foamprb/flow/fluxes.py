@@ -153,8 +153,8 @@ class Conservation:
                     f"{left:.2g} times the flow through their faces (root mean squares; allowed: "
                     f"{_LARGEST_CHANGE:g} and {10.0 * BALANCED:g}). Without the correction followers gather, "
                     "and stick at walls. Possible causes: a velocity that is no solution of the flow "
-                    "equations, a mesh that moves, a gas that expands by heat or reactions (without rho, or p "
-                    "and T, beside U), or cells without volume (see checkMesh)."
+                    "equations, a mesh that moves, a gas that expands by heat or reactions (no rho, or p "
+                    "and T), or cells without volume (see checkMesh)."
                 )
         return fluxes
 

@@ -36,7 +36,8 @@ _SHORT_STEPS, _SMALL_TOLERANCE, _OFTEN = (1, 2), 1e-6, 20
 _MANY_STEPS = 1e7
 """Least number of steps of a particle above which the user is warned."""
 _SMALL_BODY, _LAMINAR = 1e-3, 1e4
-"""Least size of a body over its cell, and largest Reynolds number of a steady laminar flow, without a warning."""
+"""Least size of a body over its cell, and largest Reynolds number of a steady laminar flow, without a
+warning."""
 _LIGHT = 20.0
 """Density below which a fluid is a gas, and a solid is unlikely, kg/m³."""
 _OF_GASES = (4e-6, 2e-4)

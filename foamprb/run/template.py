@@ -65,7 +65,7 @@ _ROUND_OFF = 1e-6
 _LEAST_WAY = 1e-4
 """Way in the solver's time, in cells, below which a fluid is at rest."""
 _CROSSINGS, _WRITTEN = 100.0, 100.0
-"""Longest run, over the time to cross the flow at the largest speed, and over the last time of an unsteady flow."""
+"""Longest run, over the time to cross the flow at the largest speed, and over an unsteady solver's."""
 _PATHS, _MOVES, _MOVE = 200, 400, 0.5
 """Number of paths, of moves along each, and length of a move in cells."""
 

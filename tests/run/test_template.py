@@ -454,7 +454,7 @@ def test_a_fluid_at_rest_is_told_by_scale(tmp_path, u, time, g, rests):
 
 
 def test_a_run_is_not_much_longer_than_the_solvers(tmp_path):
-    """A unit cube that is replaced in 500 s; a solver that has computed 2 s allows a hundred times that, rounded up."""
+    """A unit cube is replaced in 500 s; 2 s of the solver allow 200 s, rounded up."""
     write_case(tmp_path, perturbation=0.0, times=("2",))
     put_uniform(tmp_path, 4e-3)
     ends = []

@@ -22,8 +22,8 @@ _SINGLE = 6e-8
 _LEAST_TURN = 1e-6
 """Tolerance of the angle between faces, rad, with exact coordinates."""
 _UNORDERED, _LEAST_SPREAD, _FEW_CELLS = 0.6, 0.01, 100
-"""Difference of neighbouring cells over that of random ones beyond which their order is doubtful, least difference
-over the speed, and least number of cells, for :func:`caveat_of_order`."""
+"""Difference of neighbouring cells over that of random ones beyond which their order is doubtful, least
+difference over the speed, and least number of cells, for :func:`caveat_of_order`."""
 
 
 def require_numbers(values: Floats, source: Path, what: str, where: str = "number") -> None:
@@ -121,9 +121,9 @@ def caveat_of_order(mesh: Mesh, cells: Floats) -> list[Caveat]:
         return []
     return [
         Caveat(
-            f"velocities of neighbouring cells differ by {beside:.3g} m/s on average, those of random cells by "
-            f"{apart:.3g} m/s (usual: below {100.0 * _UNORDERED:g} % of that): either the field has the numbering "
-            "of another mesh, as before renumberMesh, or it is noise."
+            f"velocities of neighbouring cells differ by {beside:.3g} m/s on average, those of random cells "
+            f"by {apart:.3g} m/s (usual: below {100.0 * _UNORDERED:g} % of that): either the field has the "
+            "numbering of another mesh, as after renumberMesh, or it is noise."
         )
     ]
 

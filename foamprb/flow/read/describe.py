@@ -132,8 +132,9 @@ def _kinds(start: Ints, owner: Ints, neighbour: Ints, n_cells: int) -> dict[str,
 
 def size_of(low: Floats, high: Floats, file: bool) -> str:
     """Return a sentence about the size of a flow between two corners, m, of a mesh file or a case."""
+    size = " x ".join(f"{x:.4g}" for x in high - low)
     scale = "-scale 1e-3" if file else 'transformPoints -scale "(1e-3 1e-3 1e-3)"'
-    return f"Lengths are taken as metres: {' x '.join(f'{x:.4g}' for x in high - low)} m. If they are mm: {scale}."
+    return f"Lengths are taken as metres: {size} m. If they are mm: {scale}."
 
 
 def _lines_of_mesh(

@@ -78,7 +78,6 @@ By then the fluid must have crossed the domain.
 
 
 INSTANT = "the flow of an unsteady solver (ddtSchemes) is used as a steady flow, of one instant"
-"""Beginning of a caveat."""
 
 
 class Case:
@@ -337,8 +336,9 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     if float(names[0]) == 0.0 and not first[0].any():
         notes.append(
             Caveat(
-                f"at time {names[0]}, the first of the flow, the fluid is at rest, and until {names[1]} s it is "
-                f"interpolated. If that is no solution, as where setFlow or setFields made the flow: -time {names[1]}:."
+                f"at time {names[0]}, the first of the flow, the fluid is at rest, and until {names[1]} s it "
+                "is interpolated. If that is no solution, as where setFlow or setFields made the flow: "
+                f"-time {names[1]}:."
             )
         )
     zones = partial(case.zones, names[0])

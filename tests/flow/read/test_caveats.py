@@ -243,8 +243,9 @@ def test_phi_of_another_numbering_is_a_fault(tmp_path):
     corners = mesh.points[mesh.face_points].reshape(-1, 4, 3)
     phi = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])[:, 0] / 2.0
     for order, faults in ((slice(None), []), (slice(None, None, -1), ["unbalanced"])):
+        outer = phi[mesh.n_internal :]
         boundary = "".join(
-            f"{p.name} {{ type calculated; value {scalars(phi[mesh.n_internal + a : mesh.n_internal + b])}; }}"
+            f"{p.name} {{ type calculated; value {scalars(outer[a:b])}; }}"
             for p, a, b in zip(mesh.patches, mesh.patch_start, mesh.patch_start[1:], strict=False)
         )
         inner = scalars(phi[: mesh.n_internal][order])
