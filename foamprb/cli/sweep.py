@@ -54,7 +54,7 @@ def execute(arguments: argparse.Namespace) -> int:
             log.info("%*d  %s", len(str(n)), number, study.described(number))
         return 0
     flows: dict[FlowSource, Flow] = {}
-    failed = 0
+    failed, comparable = 0, list[int]()
     start_from: StartFrom = "startTime" if arguments.overwrite else "latestTime"
     for number in numbers:
         what = f"Run {number} of {n}: {study.described(number)}"
@@ -66,12 +66,16 @@ def execute(arguments: argparse.Namespace) -> int:
             raise RunInterrupted(f"{what}: stopped. The same command continues.", stopped.signal) from stopped
         except (InputError, RunStopped) as error:
             failed += 1
+            # Of a run that did not start, the folder may hold an earlier one.
+            comparable += [number] * isinstance(error, RunStopped)
             log.warning("%s: %s", what, error)
             continue
+        comparable.append(number)
         counts = job.cloud.particles.counts()
         fates = ", ".join(f"{count} {status.name.lower()}" for status, count in counts.items() if count)
         log.info("%s: %s", what, fates)
-    if arguments.run is None and failed < n:
-        folder = study.file.with_suffix("")
-        log.info("Comparison: %s", write_comparison(open_runs(folder / "*"), folder / "comparison.html"))
+    if arguments.run is None and comparable:
+        runs = open_runs(*map(study.folder, comparable), if_any=True)
+        page = study.file.with_suffix("") / "comparison.html"
+        log.info("Comparison: %s", write_comparison(runs, page))
     return int(failed > 0)

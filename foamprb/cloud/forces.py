@@ -194,6 +194,14 @@ class DuctLift(Force):
         origin = tuple(map(float, self.origin))
         return origin, e, weights, float(self.size), float(self.shearRate), *corners, *unused
 
+    @property
+    def normals(self) -> list[Any]:
+        """Normals of planes that all hold the middle of the duct, each (3,)."""
+        if self.shape == "channel":
+            return [self.direction]
+        across = np.linalg.svd(np.array([self.direction], dtype=np.float64))[2][1:]
+        return [*across]
+
     def __str__(self) -> str:
         """Return the entries for the log."""
         zeros = ", ".join(f"{s:.3g}" for s in balances(self._table))
@@ -240,6 +248,11 @@ class RectangularDuctLift(Force):
             self.direction
         ):
             raise InputError("needs an axis and a direction at a right angle to it")
+
+    @property
+    def normals(self) -> list[Any]:
+        """Normals of planes that all hold the middle of the duct, each (3,)."""
+        return [self.direction, np.cross(self.axis, self.direction)]
 
     @property
     def coefficients(self) -> tuple[Any, ...]:

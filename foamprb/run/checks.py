@@ -12,6 +12,7 @@ from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS, STEADY_CAPILLARY
 from foamprb.body.morphology import drop_growth
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.forces import DuctLift, RectangularDuctLift
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import as_slice, path_stokes_number, shear_rate_at
 from foamprb.cloud.state import Particles
@@ -208,6 +209,30 @@ def doubtful_lengths(settings: Settings, cloud: Cloud, size: float) -> list[str]
     if math.isfinite(reynolds) and reynolds > _LAMINAR:
         signs.append(f"a Reynolds number of {reynolds:.2g} in a laminar flow of {flow.width:.3g} m")
     return [f"the flow has {' and '.join(signs)}. Are its lengths in m?"] if signs else []
+
+
+def outside_flow(settings: Settings, flow: Flow) -> list[str]:
+    """Return a sentence for each plane of a cloud function, or middle of a duct, that misses the flow."""
+    planes: dict[str, list[tuple[Any, Any]]] = {}
+    for name, function in settings.functions.items():
+        if hasattr(function, "origin") and hasattr(function, "normal"):
+            planes[f"cloudFunctions/{name}: its plane"] = [(function.origin, function.normal)]
+    for name, force in settings.forces.items():
+        if isinstance(force, DuctLift | RectangularDuctLift):
+            planes[f"particleForces/{name}: its axis or middle plane"] = [
+                (force.origin, normal) for normal in force.normals
+            ]
+    low, high = flow.bounds
+    sentences = []
+    for what, missed in planes.items():
+        for origin, normal in missed:
+            # Products of a normal and the sides of a box are the farthest at its corners.
+            ends = np.stack([low - origin, high - origin]) * normal
+            if np.isfinite(ends).all() and not ends.min(axis=0).sum() <= 0.0 <= ends.max(axis=0).sum():
+                corners = " to ".join("({:.3g} {:.3g} {:.3g})".format(*corner) for corner in (low, high))
+                sentences.append(f"{what} misses the flow, which is in {corners} m.")
+                break
+    return sentences
 
 
 def late_releases(settings: Settings, cloud: Cloud, injector: int, n: int) -> list[str]:

@@ -33,6 +33,7 @@ from foamprb.run.checks import (
     doubtful_lengths,
     extension_rates,
     late_releases,
+    outside_flow,
     validity_warnings,
 )
 from foamprb.settings.settings import Settings
@@ -79,6 +80,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     notes = [line for remark in remarks for line in remark.notes]
     warnings += [line for remark in remarks for line in remark.warnings]
     warnings += doubtful_densities(settings)
+    warnings += outside_flow(settings, flow)
     warnings += costly_settings(settings.solution, cloud, steps)
     if cloud.size == 0:
         warnings.append("there is no particle: no injection model releases any.")

@@ -7,6 +7,7 @@ import math
 import time as clock
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,8 @@ _GROUPS = {
 }
 _ROUND_OFF = 1e-12
 """Numbers of the flow and of dimensionless groups below this are shown as 0."""
+_COST, _COST_OF_CALL = 0.12, 2.0
+"""Processor time per particle of a tracking step and of a call of the loop, about, µs."""
 _BETWEEN_LINES = 30.0
 """Time between two lines about the progress, s."""
 
@@ -122,7 +125,10 @@ def _log_range(name: str, ends: Sequence[float | None]) -> None:
 
 def log_dry_run(job: Job) -> None:
     """Log the plan of a run that is not executed."""
-    log.info("\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.size, job.steps)
+    steps, call = job.steps, max(1, min(job.next_write(0), job.cloud.tracker.stretch_steps))
+    seconds = 1e-6 * (_COST + _COST_OF_CALL / call) * job.cloud.size * steps
+    log.info("\nDry run: %d particles, %d steps, nothing written. Tracking takes about %.1g s of processor "
+             "time, without reading and compilation.\n\nEnd", job.cloud.size, steps, seconds)  # fmt: skip
 
 
 class RunLog:
@@ -171,6 +177,25 @@ class RunLog:
         if finished:
             log.info("End")
 
+    def warnings_at_end(self) -> list[str]:
+        """Return the warnings of a run that its particles show at its end, for its record."""
+        models, counts = self._job.cloud.models, self._job.cloud.counts()
+        record = self._paths
+        warnings = warnings_of(record.n, record.beyond, models.material) if record else []
+        if counts[Status.PENDING]:
+            warnings.append(f"{counts[Status.PENDING]} particles were not yet injected at the end time.")
+        if counts[Status.FAILED]:
+            table = self._job.folder.table(FAILURES)
+            warnings.append(f"{counts[Status.FAILED]} particles failed; {table.name} lists them.")
+        return warnings
+
+    @cached_property
+    def _paths(self) -> PathRecord | None:
+        """Largest values on the paths at the end; None without released particles."""
+        models, rho = self._job.cloud.models, self._job.settings.fluid.rho
+        record = PathRecord.total([*self._job.cloud.map_by_id(PathRecord.of, rho, models)])
+        return record if record.n else None
+
     def _log_steps(self) -> None:
         """Log the mean step, and the number of steps per tracking step."""
         cloud = self._job.cloud
@@ -217,8 +242,9 @@ class RunLog:
         worst = self._slip.reynolds
         if before <= SMALL_REYNOLDS < worst:
             log.warning(
-                "the Reynolds number of slip is up to %.3g: drag is that of Stokes flow, which is %.2g %% "
-                "too small for a sphere there.", worst, 100.0 * drag_excess(worst))  # fmt: skip
+                "the Reynolds number of slip exceeds %g: drag is that of Stokes flow, which is %.2g %% or "
+                "more too small for a sphere there. The end of the log has its largest value.",
+                SMALL_REYNOLDS, 100.0 * drag_excess(SMALL_REYNOLDS))  # fmt: skip
 
     def _log_fates(self) -> None:
         """Log number and share of the particles by fate and patch; their sum is the number injected."""
@@ -255,10 +281,8 @@ class RunLog:
 
     def _log_paths(self) -> None:
         """Log the largest values on the paths, and the particles for which they are beyond the model."""
-        models, rho = self._job.cloud.models, self._job.settings.fluid.rho
-        parts = [*self._job.cloud.map_by_id(PathRecord.of, rho, models)]
-        record = PathRecord.total(parts)
-        if record.n == 0:
+        models, record = self._job.cloud.models, self._paths
+        if record is None:
             return
         log.info("Largest values on the paths")
         for line in record.lines(affine=not models.has_quadratic):

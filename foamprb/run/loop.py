@@ -73,7 +73,7 @@ def execute(
                 counts = {time: cloud.counts_at(time) for time in map(cloud.time_of, steps)}
                 results.write(steps)
                 log.write_times(counts)
-        results.end()
+        results.end(log.warnings_at_end())
         failing = _failing(job)
         log.end(finished=not failing)
     if failing:

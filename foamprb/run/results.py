@@ -202,8 +202,8 @@ class Results:
         memory = {**self._job.functions.state(), **cloud.stored}
         self._write_checkpoint(cloud, memory, self._write_parts(), cloud.comm.rank.moments.times)
 
-    def end(self) -> None:
-        """Write ``fates``, a row per particle, and ``failed`` if a particle failed.
+    def end(self, warnings: Sequence[str] = ()) -> None:
+        """Write ``fates``, a row per particle, ``failed`` if a particle failed, and warnings into the record.
 
         ``fates`` marks a finished run: it takes its name after the last snapshot and checkpoint.
         """
@@ -212,6 +212,10 @@ class Results:
 
         def finish() -> None:
             self._writer.finish()
+            if warnings:
+                description = self._job.description
+                all_warnings = [*description["warnings"], *warnings]
+                write_record(self._job.folder.record, {**description, "warnings": all_warnings})
             self._manifest.settle([self._fates, self._failures] if failed else [self._fates])
             if failed:
                 write_rows(self._failures, cloud.map_by_id(_failures_of, cloud.models, cloud.limits))
@@ -359,6 +363,12 @@ class Results:
         description = job.description
         where = f"{job.folder.path}: cannot continue from t = {checkpoint.time:.12g} s"
         refuse_changes(checkpoint, self._fingerprint, where)
+        end = job.settings.solution.endTime
+        if checkpoint.time > end + _ROUND_OFF * job.cloud.dt:
+            raise InputError(
+                f"{where}: endTime is {end:g}. Allowed: {checkpoint.time:.12g} or more; or start over: "
+                "-overwrite, or startFrom startTime."
+            )
         if not self._is_at_step(checkpoint):
             raise InputError(
                 f"{where}: the run before has ended there, and no step of deltaT = {job.cloud.dt:g} s does. "

@@ -32,8 +32,11 @@ class Slip(NamedTuple):
 
     def lines(self) -> list[str]:
         """Return a line for each number; none without slip."""
-        names = ("Reynolds number of slip", "Stokes number")
-        return [f"{name:24s} at most {value:.3g}" for name, value in zip(names, self, strict=True) if value]
+        share = 100.0 * drag_excess(self.reynolds)
+        too_small = f"; the drag of a sphere is {share:.2g} % more than Stokes'" if share > 1.0 else ""
+        names = ("Reynolds number of slip", too_small), ("Stokes number", "")
+        pairs = zip(names, self, strict=True)
+        return [f"{name:24s} at most {value:.3g}{more}" for (name, more), value in pairs if value]
 
 
 def drag_excess(reynolds: float) -> float:

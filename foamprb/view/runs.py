@@ -60,7 +60,7 @@ class Runs(Mapping[str, Run]):
     def numbers(self) -> dict[str, int | None]:
         """Number of each run in its study, by the names of its folders; None without one."""
         return {
-            name: next((int(part) for part in reversed(path.parts) if part.isdigit()), None)
+            name: next((int(part) for part in reversed(path.parts) if part.isdecimal()), None)
             for name, path in self.paths.items()
         }
 
@@ -116,14 +116,16 @@ class Runs(Mapping[str, Run]):
         return frame_of(self.table(name))
 
 
-def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
+def open_runs(*patterns: os.PathLike[str] | str, if_any: bool = False) -> Runs:
     """Open the results of several runs.
 
     Parameters
     ----------
     patterns
         Cases, folders of results as of ``foamprb run -output``, or folders of one cloud in these. ``*`` is
-        any name. A match without results is left out.
+        any name, unless a folder has it in its own. A match without results is left out.
+    if_any
+        Whether folders without results are left out, too.
 
     Raises
     ------
@@ -132,7 +134,8 @@ def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
     """
     paths = {}
     for pattern in [os.fspath(pattern) for pattern in patterns]:
-        matches = sorted(glob.glob(pattern)) if glob.has_magic(pattern) else [pattern]  # noqa: PTH207
+        several = glob.has_magic(pattern) and not Path(pattern).is_dir()
+        matches = sorted(glob.glob(pattern)) if several else [pattern]  # noqa: PTH207
         for path in map(Path, matches):
             if path.suffix == ".html" and path.is_file():
                 # The page of a study, which the shell finds among its runs.
@@ -140,7 +143,7 @@ def open_runs(*patterns: os.PathLike[str] | str) -> Runs:
             try:
                 paths[path] = _open(path)
             except InputError:
-                if not glob.has_magic(pattern):
+                if not (several or if_any):
                     raise
     if not paths:
         raise InputError(f"{' '.join(map(str, patterns))}: no results there. foamprb run writes them.")

@@ -11,7 +11,16 @@ from numpy.typing import NDArray
 from foamprb.results.intervals import share
 from foamprb.view.results import Table
 
-__all__ = ["QUANTITIES", "Design", "design_of", "index_table", "places_of", "samples_of", "sobol_indices"]
+__all__ = [
+    "QUANTITIES",
+    "Design",
+    "design_of",
+    "index_table",
+    "largest_deformation",
+    "places_of",
+    "samples_of",
+    "sobol_indices",
+]
 
 Floats = NDArray[np.float64]
 
@@ -19,7 +28,7 @@ _RESAMPLES = 1000
 _FEWEST = 4
 """Fewest rows for which indices are computed."""
 _ROUND_OFF = 1e-12
-QUANTITIES = {"residence time": "s", "D": "1"}
+QUANTITIES = {"residence time": "s", "largest D": "1"}
 """Quantities of particles whose medians are results, with their units."""
 
 
@@ -42,8 +51,12 @@ def places_of(fates: Table) -> NDArray[np.str_]:
 
 def samples_of(fates: Table) -> dict[str, Floats]:
     """Return the values of :data:`QUANTITIES` of particles, (n,) each; NaN if they are unknown."""
-    unknown = np.full(len(fates["id"]), np.nan)
-    return {"residence time": fates["t1"] - fates["t0"], "D": fates.get("D", unknown)}
+    return {"residence time": fates["t1"] - fates["t0"], "largest D": largest_deformation(fates)}
+
+
+def largest_deformation(fates: Table) -> Floats:
+    """Return the largest D on the path of each particle, (n,); NaN if it is unknown."""
+    return fates.get("maxD", fates.get("D", np.full(len(fates["id"]), np.nan)))
 
 
 def design_of(
@@ -69,7 +82,9 @@ def design_of(
     if not paths or not names:
         return None
     width = len(paths) + 2
-    groups = [range(k + 1, k + width + 1) for k in range(0, max(names), width)]
+    # Folders may be named by any numbers.
+    starts = sorted({(number - 1) // width * width for number in names})
+    groups = [range(k + 1, k + width + 1) for k in starts]
     whole = [[names[number] for number in group] for group in groups if all(n in names for n in group)]
     for group in whole:
         a, *mixed, b = ([entries[name].get(path, "") for path in paths] for name in group)
@@ -78,7 +93,7 @@ def design_of(
     if len(whole) < _FEWEST:
         return None
     n = 1 << (len(whole).bit_length() - 1)
-    return Design(paths, np.array(whole[:n]), len(groups) - n)
+    return Design(paths, np.array(whole[:n]), -(-max(names) // width) - n)
 
 
 def index_table(design: Design, released: Mapping[str, Table]) -> Table:

@@ -50,6 +50,12 @@ def test_values_of_a_poiseuille_flow(integrator, dt):
     assert (values["maxD"] >= p.D * (1.0 - 1e-12)).all()
 
 
+def test_a_short_life_has_a_curvature_number():
+    """Of three time steps, where the means of longer lives are of one sample in 64."""
+    numbers = path_values(in_pipe(steps=(3,)), RHO, False)["curvatureNumber"]
+    np.testing.assert_allclose(numbers, np.sqrt(0.8) * R / PLACES, rtol=1e-4)
+
+
 def fading_shear(x, y, z, t):
     return 100.0 * y * math.exp(-((t / 0.01) ** 2)), 0.0, 0.0
 

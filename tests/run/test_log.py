@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import re
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ import foamprb
 import foamprb.run.log as log_module
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
+from foamprb.cloud.forces import DuctLift
 from foamprb.cloud.measures import path_stokes_number
 from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import drops, spheres, with_relaxation
@@ -22,7 +24,13 @@ from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.run import log
-from foamprb.run.checks import dimensionless_groups, extension_rates, validity_warnings
+from foamprb.run.checks import (
+    dimensionless_groups,
+    doubtful_lengths,
+    extension_rates,
+    outside_flow,
+    validity_warnings,
+)
 
 OIL = Medium(1.0, 1000.0, (0.0, 0.0, 0.0))
 
@@ -167,3 +175,40 @@ def test_a_modulus_that_round_off_limits_is_a_doubt():
     (text,) = warnings_about(falling(1.0, g=0.0, G=1e7))
     assert "the shear modulus is 5.6e+08 times mu/deltaT" in text
     assert warnings_about(falling(1.0, g=0.0, G=1e5)) == []
+
+
+def test_planes_and_ducts_that_miss_the_flow_are_named():
+    """A unit cube; of a slanted plane, the corners decide."""
+    flow = SimpleNamespace(bounds=(np.zeros(3), np.ones(3)))
+    duct = {"direction": (1.0, 0.0, 0.0), "size": 0.5, "shearRate": 1.0}
+
+    def missed(origin, normal, shape, at):
+        functions = {"camera": SimpleNamespace(origin=origin, normal=normal)}
+        forces = {"ductLift": DuctLift(shape=shape, origin=at, **duct)}
+        return outside_flow(SimpleNamespace(functions=functions, forces=forces), flow)
+
+    assert missed((9.0, 9.0, 1.0), (0.0, 0.0, -2.0), "pipe", (9.0, 0.5, 0.5)) == []
+    assert missed((1.4, 1.5, 0.0), (1.0, 1.0, 1.0), "channel", (0.5, 9.0, 9.0)) == []
+    plane, middle = missed((1.6, 1.5, 0.0), (1.0, 1.0, 1.0), "pipe", (0.5, 0.5, 1.1))
+    assert plane == "cloudFunctions/camera: its plane misses the flow, which is in (0 0 0) to (1 1 1) m."
+    assert middle.startswith("particleForces/ductLift: its axis or middle plane misses the flow")
+
+
+def test_a_channel_of_mm_read_as_m_is_told():
+    """Of 1 mm and 10 mm/s of water, bodies of 10 um in cells of 20 um; no flow of eddies has such limits."""
+    speed = SimpleNamespace(u=np.array([[0.02, 0.0, 0.0]]))
+
+    def told(width, size, *notes):
+        flow = SimpleNamespace(width=width, notes=notes, at_some_nodes=lambda: speed)
+        fluid = SimpleNamespace(nu=1e-6, varying=None)
+        settings = SimpleNamespace(dispersion={}, solution=SimpleNamespace(transient=False), fluid=fluid)
+        return doubtful_lengths(settings, SimpleNamespace(flow=flow), size)
+
+    assert told(1e-3, 0.5) == []
+    (text,) = told(1.0, 5e-4)
+    assert text.startswith(
+        "the flow has bodies of 0.0005 cells and a Reynolds number of 2e+04 in a laminar flow of 1 m"
+    )
+    assert (
+        told(1.0, 5e-4, "the flow is the mean or the resolved part of a turbulent one (there is nut)") == []
+    )

@@ -36,7 +36,7 @@ def record(case):
     return json.loads(text, parse_constant=lambda word: pytest.fail(word))
 
 
-def test_record_describes_a_run_and_its_continuation(case):
+def test_record_describes_a_run_and_its_continuation(case, capsys):
     assert main(["run", "-case", str(case)]) == 0
     first = record(case)
     assert first["settings"]["text"] == (case / "constant/softCloudProperties").read_text()
@@ -48,6 +48,9 @@ def test_record_describes_a_run_and_its_continuation(case):
     assert first["mesh"]["cells"] > 1000
     change(case, "endTime", "0.003")
     assert main(["run", "-case", str(case), "-resume"]) == 0
+    change(case, "endTime", "0.002")
+    assert main(["run", "-case", str(case), "-resume"]) == 1
+    assert "endTime is 0.002. Allowed: 0.003 or more; or start over" in capsys.readouterr().err
     second = record(case)
     assert second["time"]["end"] == 0.003
     assert "0.003" in second["settings"]["text"]
@@ -74,7 +77,10 @@ def test_the_record_has_every_model_and_warning_of_the_log(case, capsys):
         assert f"    {note}" in log
     warned = [line.partition(" : ")[2] for line in log.splitlines() if "foamprb Warning" in line]
     assert found["warnings"]
-    assert warned[: len(found["warnings"])] == found["warnings"]
+    at_start = prepare(case).description["warnings"]
+    assert warned[: len(at_start)] == found["warnings"][: len(at_start)] == at_start
+    # Of the end of the run.
+    assert {*found["warnings"]} <= {*warned}
 
 
 def test_caveat_of_the_flow_is_logged_once_and_recorded(case, monkeypatch):

@@ -38,7 +38,7 @@ def test_largest_of_both_numbers():
         largest = largest.or_more(largest_in(sliding(speeds)))
     assert largest == pytest.approx((10.0, RATE * RHO * D**2 / (18.0 * WATER.mu)))
     assert largest.lines() == [
-        "Reynolds number of slip  at most 10",
+        "Reynolds number of slip  at most 10; the drag of a sphere is 73 % more than Stokes'",
         "Stokes number            at most 0.139",
     ]
 
@@ -69,4 +69,5 @@ def test_a_large_reynolds_number_is_warned_of_once(caplog):
         log._log_slip()
         log._log_slip()
     (record,) = caplog.records
-    assert "slip is up to 1: drag is that of Stokes flow, which is 15 % too small" in record.message
+    assert "slip exceeds 0.1: drag is that of Stokes flow, which is 3.1 % or more too small" in record.message
+    assert "at most 1; the drag of a sphere is 15 % more than Stokes'" in log._slip.lines()[0]

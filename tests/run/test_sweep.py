@@ -167,6 +167,7 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
         assert own == (tmp_path / f"alone{number}/softCloud/fates.csv").read_text()
     log = (tmp_path / "study/001/log.foamprb").read_text()
     assert "Fate of the particles" in log
+    page = (tmp_path / "study/comparison.html").read_text()
     # Going on keeps what has ended, and does not mix it with other values.
     before = {
         number: (tmp_path / f"study/00{number}/softCloud/run.json").stat().st_mtime_ns for number in (1, 2)
@@ -180,6 +181,8 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
         number: (tmp_path / f"study/00{number}/softCloud/run.json").stat().st_mtime_ns for number in (1, 2)
     }
     assert before == after
+    # The earlier second run is none of this study.
+    assert "1 runs that have ended" in (tmp_path / "study/comparison.html").read_text()
     runs = foamprb.open_runs(tmp_path / "study/*")
     assert list(runs) == ["001", "002"]
     clouds = foamprb.open_runs(tmp_path / "study/*/softCloud")
@@ -190,7 +193,6 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
     n = len(runs["001"].table()["id"])
     np.testing.assert_array_equal(table["D"][table["run"] == "002"], runs["002"].table()["D"])
     assert len(table["id"]) == 2 * n
-    page = (tmp_path / "study/comparison.html").read_text()
     # A pattern that the shell has expanded, which finds the page, too.
     assert list(foamprb.open_runs(*sorted((tmp_path / "study").iterdir()))) == ["001", "002"]
     for text in (
@@ -201,7 +203,7 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
         assert text in page
     for name, run in runs.items():
         fates = run.table()
-        D = fates["D"][fates["fate"] != "pending"]
+        D = fates["maxD"][fates["fate"] != "pending"]
         last = "".join(rf'<td class="n">{np.quantile(D, share):.4g} \([^<]*\)</td>' for share in (0.5, 0.95))
         assert re.search(rf"<tr><t[dh][^>]*>{name}</t[dh]>(?:(?!</tr>).)*{last}</tr>", page)
 
@@ -222,11 +224,14 @@ def test_a_study_without_its_case_starts_no_run(tmp_path, capsys):
 
 
 def test_a_run_that_cannot_start_does_not_stop_the_others(case, tmp_path, capsys):
+    """Nor do brackets in its name, which are no pattern."""
     path = study(tmp_path, 'case = "pipe"\n[entries]\n"solution/deltaT" = [-1.0, 2e-5]\n')
+    path = path.rename(tmp_path / "s[1].toml")
     assert main(["sweep", str(path)]) == 1
     out = capsys.readouterr().out
     assert "Run 1 of 2: deltaT -1: " in out
     assert "Run 2 of 2: deltaT 2e-05: " in out
+    assert "1 runs that have ended" in (tmp_path / "s[1]/comparison.html").read_text()
     assert not (case / "postProcessing").exists()
 
 

@@ -1,8 +1,8 @@
 """Largest values on the path of each particle, and the curvature of the flow there.
 
-The values are those of the states in which its steps start. The second derivatives of the flow are sampled
-once in :data:`INTERVAL` tracking steps, or in a stretch that is longer. Only their means are used: where no
-model needs their reconstruction, they are those of single tetrahedra.
+The values are those of the states in which its steps start. The second derivatives of the flow are sampled in
+the first step of a body, and once in :data:`INTERVAL` tracking steps, or in a stretch that is longer. Only
+their means are used: where no model needs their reconstruction, they are those of single tetrahedra.
 """
 
 from __future__ import annotations
@@ -80,9 +80,10 @@ def sample_curvature(
     if remaining <= 0.0 or block[values.sample_step * LANES + i] == first:
         return
     block[values.sample_step * LANES + i] = first
-    if first // INTERVAL == (first - stretch) // INTERVAL:
-        return
     a, place = block[at.R * LANES + i], values.curved * LANES + i
+    # Also the first step of each body, which may live for less than an interval.
+    if first // INTERVAL == (first - stretch) // INTERVAL and block[place + 2 * LANES] > 0.0:
+        return
     S = parts(curvature(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i])).S
     block[place] += a * np.sqrt(square(S))
     block[place + LANES] += resolved_strain(a, sym(load9(block, at.l, i)), load3(block, at.u, i))

@@ -188,9 +188,9 @@ def caveat_of_flux(
     if phi and (made := _made_by_cells(mesh, phi[0], phi[3])) > _MOST_MADE:
         return [
             Caveat(
-                f"phi makes or loses {100.0 * made:.3g} % of the fluid that crosses a cell, on average (allowed: "
-                f"{100.0 * _MOST_MADE:g} %). Do mesh and fields have one numbering? After renumberMesh, earlier "
-                "times need the mesh from before.",
+                f"phi makes or loses {made:.3g} % of the fluid that crosses a cell, on average (allowed: "
+                f"{100.0 * _MOST_MADE:g} %). Do mesh and fields have one numbering? After renumberMesh, "
+                "earlier times need the mesh from before.",
                 "unbalanced",
             )
         ]

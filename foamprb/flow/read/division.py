@@ -50,7 +50,7 @@ _LEAST_SLIP, _MOST_SHEAR, _PLANE = 1e-3, 0.3, 1e-5
 at the plane, over the velocity, and the relative difference of its area from that of its projection."""
 _AT_REST = 0.5
 """Velocity that is continued to a wall at rest over that in the cells, at most; rms."""
-_MOST_LOST = 0.2
+_MOST_LOST = 0.1
 """Fraction by which inflow and outflow through the openings may differ without a warning."""
 
 

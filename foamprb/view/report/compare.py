@@ -16,7 +16,15 @@ from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, page, table
 from foamprb.view.results import Table, released_of
 from foamprb.view.runs import Runs
-from foamprb.view.sensitivity import QUANTITIES, Design, design_of, index_table, places_of, samples_of
+from foamprb.view.sensitivity import (
+    QUANTITIES,
+    Design,
+    design_of,
+    index_table,
+    largest_deformation,
+    places_of,
+    samples_of,
+)
 from foamprb.view.show import PAGE_BEGINS, spread
 
 Floats = NDArray[np.float64]
@@ -98,7 +106,7 @@ def _rows(runs: Runs, released: dict[str, Table]) -> str:
     rows = []
     for name, fates in released.items():
         counts = [int((fates["fate"] == fate).sum()) for fate in fates_of]
-        D = fates.get("D", np.zeros(0))
+        D = largest_deformation(fates)
         rows.append(
             (
                 name,
@@ -112,9 +120,9 @@ def _rows(runs: Runs, released: dict[str, Table]) -> str:
         )  # fmt: skip
     head = (
         *("run", *(path.split("/")[-1] for path in paths), "injected", *fates_of),
-        *("median residence time", "median D", "D of 19 in 20 below"),
+        *("median residence time", "median largest D", "largest D of 19 in 20 below"),
     )
-    caption = "A row for each run; D at the end of each particle; in parentheses 95 % intervals"
+    caption = "A row for each run; the largest D on each path; in parentheses 95 % intervals"
     return table(caption, head, rows)
 
 
@@ -204,10 +212,10 @@ def _indices(released: dict[str, Table], design: Design) -> str:
 def _distributions(labels: dict[str, str], released: dict[str, Table]) -> str:
     shown = [list(released)[k] for k in spread(len(released), _MOST_CURVES)]
     few = f"<p>{len(shown)} of {len(released)} runs, evenly spread.</p>" if len(shown) < len(released) else ""
-    D = [(labels[name], released[name]["D"]) for name in shown if "D" in released[name]]
+    D = [(labels[name], largest_deformation(released[name])) for name in shown]
     times = [(labels[name], released[name]["t1"] - released[name]["t0"]) for name in shown]
     return few + grid(
-        _distribution(D, ("D", "1"), "Taylor's deformation at the end of each particle"),
+        _distribution(D, ("D", "1"), "the largest D on the path of each particle"),
         _distribution(times, ("t", "s"), "residence time"),
     )
 

@@ -121,7 +121,11 @@ def write_report(
             f"{title_of(case)}: {run.name}",
             _subtitle(run),
             _cards(fates),
-            [*run.record.get("warnings", ()), *_beyond(fates, run), *_leftovers(run), *missing],
+            [
+                *dict.fromkeys([*run.record.get("warnings", ()), *_beyond(fates, run)]),
+                *_leftovers(run),
+                *missing,
+            ],
             [section for section in sections if section is not None],
         )
     for name, plot in report.made.items():
