@@ -272,14 +272,19 @@ class Tracks:
 
 def write_tracks(path: Path, tracks: Tracks) -> None:
     """Write paths as VTK PolyData, in one step: a polyline per path, with point and cell arrays."""
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(tracks_data(tracks))
+    _write_xml(path, writer)
+
+
+def tracks_data(tracks: Tracks) -> vtkPolyData:
+    """Return paths as the PolyData of :func:`write_tracks`."""
     data = _points(tracks.points, tracks.values)
     data.SetLines(_cells(tracks.start))
     for name, array in tracks.tracks.items():
         data.GetCellData().AddArray(_vtk_array(name, array))
-    _add_texts(data, tracks.units, tracks.names)
-    writer = vtkXMLPolyDataWriter()
-    writer.SetInputData(data)
-    _write_xml(path, writer)
+    _add_texts(data, tracks.units, {name: meanings for name, meanings in tracks.names.items() if meanings})
+    return data
 
 
 def write_triangles(path: Path, corners: NDArray[np.float64]) -> None:

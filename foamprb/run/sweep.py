@@ -386,6 +386,8 @@ def _require_same(folder: ResultsFolder, job: Job) -> None:
 @contextmanager
 def _logged_to(path: Path) -> Iterator[None]:
     """Redirect the log to a file."""
+    if path.exists() and not path.is_file() and path != Path(os.devnull):
+        raise InputError(f"{path}: no regular file, so that the log of the run cannot be written. Remove it.")
     handlers = log.handlers[:]
     handler = logging.FileHandler(path, mode="a", encoding="utf-8")
     log.handlers[:] = [handler]

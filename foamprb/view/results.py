@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
@@ -27,9 +27,10 @@ from foamprb.results.reading import reading
 from foamprb.results.record import Record, read_record
 from foamprb.results.shapes import DERIVED, SOURCES, derived
 from foamprb.results.tables import read_table
-from foamprb.results.vtk import PointCloud, Tracks, poly_data
+from foamprb.results.vtk import PointCloud, Tracks, poly_data, tracks_data
 from foamprb.results.vtk_check import is_sealed
 from foamprb.view.surfaces import MODE, bulges, unfolded
+from foamprb.view.vtk_read import PolyFile, joined, read_own
 
 if TYPE_CHECKING:
     import pyvista
@@ -189,7 +190,7 @@ class Run:
         names = tuple(self.components) if arrays is None else tuple(arrays)
         stored = names if DERIVED.keys().isdisjoint(names) else (*names, *SOURCES)
         data = _read(path, stored)
-        arrays_of_file = _arrays(data.GetPointData())
+        arrays_of_file = dict(data.arrays)
         # Files contain them if the run was asked to write them.
         following = [name for name in names if name in DERIVED and name not in arrays_of_file]
         if missing := [name for name in stored if name not in arrays_of_file and name not in following]:
@@ -199,11 +200,11 @@ class Run:
         if following:
             glyph, d, status = (arrays_of_file[name] for name in SOURCES)
             arrays_of_file |= derived(glyph, d, status, following)
-        n = data.GetNumberOfPoints()
+        n = len(data.points)
         # In a file without bodies VTK does not keep the number of components.
         shapes = {name: (n,) if self.components[name] == 1 else (n, self.components[name]) for name in names}
         values = {name: arrays_of_file[name].reshape(shape) for name, shape in shapes.items()}
-        return PointCloud(entry.time, _points(data), values, self.units, self.names)
+        return PointCloud(entry.time, data.points.astype(np.float64), values, self.units, self.names)
 
     def snapshot(self, time: float | None = None) -> pyvista.PolyData:
         """Return the cloud at the written time nearest to ``time``, s, by default the last, with all arrays.
@@ -260,7 +261,13 @@ class Run:
     def tracks(self) -> pyvista.PolyData | None:
         """Paths of ``particleTracks``, one line each, with ``time`` at its points; None without."""
         file = self.results.tracks
-        return load("pyvista").wrap(_read(file)) if file else None
+        if file is None:
+            return None
+        data = _read(file)
+        units, names = _units_of(data), {name: data.texts.get(f"{name}Names", ()) for name in data.arrays}
+        values = {name: array[data.order] for name, array in data.arrays.items()}
+        paths = Tracks(data.points[data.order], data.start, values, data.of_lines, units, names)
+        return load("pyvista").wrap(tracks_data(paths))
 
     def paths(self, arrays: Iterable[str] = ()) -> Tracks | None:
         """Read the paths of ``particleTracks`` with ``time``, ``origId`` and further arrays at the points.
@@ -279,23 +286,13 @@ class Run:
             return None
         wanted = ("time", *arrays)
         data = _read(file, wanted)
-        if data.GetNumberOfLines() == 0:
+        if len(data.start) == 1:
             return None
-        at_points, at_lines = _arrays(data.GetPointData()), _arrays(data.GetCellData())
-        start, order = (
-            vtk_to_numpy(part).astype(np.int64)
-            for part in (data.GetLines().GetOffsetsArray(), data.GetLines().GetConnectivityArray())
-        )
-        sound = (np.diff(start) >= 0).all() and ((order >= 0) & (order < data.GetNumberOfPoints())).all()
-        sound &= len(start) > 0 and start[0] == 0 and start[-1] == len(order)
-        if (
-            not sound
-            or any(name not in at_points for name in wanted)
-            or len(at_lines.get("origId", ())) != len(start) - 1
-        ):
+        if any(name not in data.arrays for name in wanted) or "origId" not in data.of_lines:
             raise InputError(f"{file}: not the paths that the cloud function particleTracks writes.")
-        values = {name: at_points[name][order] for name in wanted}
-        return Tracks(_points(data)[order], start, values, {"origId": at_lines["origId"]})
+        values = {name: data.arrays[name][data.order] for name in wanted}
+        points = data.points.astype(np.float64)[data.order]
+        return Tracks(points, data.start, values, {"origId": data.of_lines["origId"]})
 
 
 def released_of(fates: Table) -> Table:
@@ -339,61 +336,67 @@ def open_run(
     # Units, names and components stand in the last file, which has the most particles.
     file = folder.path / entries[-1].file
     data = _read(file)
-    arrays = _arrays(data.GetPointData())
-    components = {key: 1 if array.ndim == 1 else array.shape[1] for key, array in arrays.items()}
+    components = {key: 1 if array.ndim == 1 else array.shape[1] for key, array in data.arrays.items()}
     missing = [key for key in NEEDED if key not in components]
     if missing:
         raise InputError(f"{file}: no array '{missing[0]}'; not a cloud that foamprb run wrote.")
-    fields = data.GetFieldData()
-    units = dict(text.split(" ", 1) for text in _texts(fields, "units"))
+    units = _units_of(data)
     for name, (unit, number) in DERIVED.items():
         components.setdefault(name, number)
         units.setdefault(name, unit)
-    names = {key: meanings for key in components if (meanings := _texts(fields, f"{key}Names"))}
+    names = {key: meanings for key in components if (meanings := tuple(data.texts.get(f"{key}Names", ())))}
     return Run(folder, entries, units, names, components)
 
 
-def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
-    """Read a VTK file of points or lines, with all its point arrays or some of them."""
+def _units_of(data: PolyFile) -> dict[str, str]:
+    """Return the units of arrays by the names of these."""
+    return {name: unit for name, _, unit in (text.partition(" ") for text in data.texts.get("units", ()))}
+
+
+def _read(path: Path, arrays: Collection[str] | None = None) -> PolyFile:
+    """Read a file of points or lines, with all its point arrays or some of them.
+
+    VTK reads files that are not foamprb's, after a second process has read them.
+    """
     if not path.exists():
         raise InputError(f"{path}: missing, though the list of files names it. {_AGAIN}")
-    _require_sound(path)
+    with reading(path, remedy=_AGAIN):
+        files = files_of(path)
+        pieces = [file for file in files if file.suffix == ".vtp"]
+        sealed = [is_sealed(file) for file in pieces]
+        if all(sealed):
+            return joined([read_own(file, arrays) for file in pieces])
+        for file in files:
+            require_survival(file)
     reader = vtkXMLPPolyDataReader() if path.suffix == ".pvtp" else vtkXMLPolyDataReader()
     reader.SetFileName(str(path))
     with vtk_messages() as said:
-        reader.UpdateInformation()
-        if arrays is not None:
-            selection = reader.GetPointDataArraySelection()
-            selection.DisableAllArrays()
-            for name in arrays:
-                selection.EnableArray(name)
         reader.Update()
     if said.errors:
         raise InputError(f"{path}: damaged ({said.errors[0].rstrip('.')}). {_AGAIN}")
-    return reader.GetOutput()
+    with reading(path, "is none of foamprb's"):
+        return _of_vtk(reader.GetOutput())
 
 
-def _require_sound(path: Path) -> None:
-    """Refuse a file on which VTK could crash."""
-    with reading(path, remedy=_AGAIN):
-        for file in files_of(path):
-            if not is_sealed(file):
-                # A list of pieces, or a file of another program.
-                require_survival(file)
-
-
-def _points(data: Any) -> NDArray[np.float64]:
-    points = data.GetPoints()
-    return vtk_to_numpy(points.GetData()).astype(np.float64) if points else np.zeros((0, 3))
-
-
-def _arrays(attributes: Any) -> Table:
-    """Return the arrays of numbers of points, or of cells, by name."""
-    arrays = [attributes.GetArray(k) for k in range(attributes.GetNumberOfArrays())]
-    return {array.GetName(): vtk_to_numpy(array) for array in arrays}
-
-
-def _texts(fields: Any, name: str) -> tuple[str, ...]:
-    """Return an array of texts; empty without it."""
-    array = fields.GetAbstractArray(name)
-    return tuple(array.GetValue(k) for k in range(array.GetNumberOfValues())) if array else ()
+def _of_vtk(data: Any) -> PolyFile:
+    """Return points, lines and arrays that VTK has read."""
+    at_points, at_lines, fields = (
+        [part.GetAbstractArray(k) for k in range(part.GetNumberOfArrays())]
+        for part in (data.GetPointData(), data.GetCellData(), data.GetFieldData())
+    )
+    texts = [array for array in fields if array.IsA("vtkStringArray")]
+    lines, points = data.GetLines(), data.GetPoints()
+    start, order = (
+        vtk_to_numpy(part).astype(np.int64)
+        for part in (lines.GetOffsetsArray(), lines.GetConnectivityArray())
+    )
+    if not ((order >= 0) & (order < data.GetNumberOfPoints())).all() or (np.diff(start) < 0).any():
+        raise ValueError("its lines have points that are not there")
+    return PolyFile(
+        np.zeros((0, 3)) if points is None else vtk_to_numpy(points.GetData()),
+        {array.GetName(): vtk_to_numpy(array) for array in at_points},
+        start if len(start) else np.zeros(1, dtype=np.int64),
+        order,
+        {array.GetName(): vtk_to_numpy(array) for array in at_lines},
+        {t.GetName(): tuple(t.GetValue(k) for k in range(t.GetNumberOfValues())) for t in texts},
+    )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -209,7 +211,13 @@ def test_a_study_is_the_runs_of_its_values_with_one_flow(case, tmp_path, monkeyp
 
 
 def test_one_run_of_a_job_array(case, tmp_path, capsys):
+    """The log of the first would never be opened."""
     path = study(tmp_path, f'case = "pipe"\n[entries]\n"{STIFFNESS}" = [0.1, 0.5]\n')
+    (tmp_path / "study/001").mkdir(parents=True)
+    os.mkfifo(tmp_path / "study/001/log.foamprb")
+    assert main(["sweep", str(path), "-run", "1"]) == 1
+    assert "log.foamprb: no regular file" in capsys.readouterr().out
+    shutil.rmtree(tmp_path / "study")
     assert main(["sweep", str(path), "-run", "3"]) == 1
     assert "-run 3: the study has the runs 1 to 2" in capsys.readouterr().err
     assert main(["sweep", str(path), "-run", "2"]) == 0
