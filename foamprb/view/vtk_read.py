@@ -128,10 +128,7 @@ class _Data:
             part = result[done : total if k == n - 1 else done + block]
             done += len(part)
             source = np.frombuffer(bytearray(self._file.read(min(length, self._size))), dtype=np.uint8)
-            # A block that does not become smaller is stored as it is.
-            if len(source) == len(part):
-                part[:] = source
-            elif len(source) != length or decompress(source, part) != len(part):
+            if len(source) != length or decompress(source, part) != len(part):
                 raise ValueError("a block of data is damaged")
         return result
 
