@@ -24,11 +24,11 @@ def pipe_job(folder: Path, text: str = SETTINGS, flow=None, threads: int = 1) ->
 
 
 def seen_cells(
-    job: Job, n: int, noise: float = 1.0, seed: int = 0
+    job: Job, n: int, noise: float = 1.0, seed: int = 0, viscosity: float = 1.0
 ) -> tuple[Measured, np.ndarray, np.ndarray]:
     """Cells at x = 1 mm, with errors of 2 % of the strain and 0.02 rad, and their properties."""
     random = np.random.default_rng(seed)
-    G, eta = 300.0 * np.exp(random.normal(0.0, 0.3, n)), np.exp(random.normal(0.0, 0.3, n))
+    G, eta = 300.0 * np.exp(random.normal(0.0, 0.3, n)), viscosity * np.exp(random.normal(0.0, 0.3, n))
     d, y = random.normal(15e-6, 1e-6, n), random.uniform(3e-5, 8e-5, n) * random.choice([-1.0, 1.0], n)
     plane = plane_of("x=1e-3", job)
     device = Device(job, plane, view_of("z", job, plane))

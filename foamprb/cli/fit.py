@@ -76,7 +76,7 @@ def read_device(arguments: argparse.Namespace, output: Path | None = None) -> Jo
 def execute(arguments: argparse.Namespace) -> int:
     """Execute the command; return the exit status."""
     from foamprb.distributed.launch import caught_signals
-    from foamprb.run.fit import fit_job
+    from foamprb.run.fit import fault_of, fit_job
     from foamprb.run.measured import read_measured
     from foamprb.view.report.fits import write_fit_page
 
@@ -100,4 +100,6 @@ def execute(arguments: argparse.Namespace) -> int:
         log.info("%s: median %.4g%s", name, median, interval)
     page = write_fit_page(fits, fits.folder / "fit.html")
     log.info("Page: %s", page)
+    if fault := fault_of(fits, measured, job):
+        raise InputError(fault)
     return show_page(arguments, page)

@@ -78,7 +78,11 @@ class PlaneFunction(PathFunction):
         columns = [crossing.number, (1.0 - share) * t0 + share * t1, x, sense, F]
         if crossing.has_mode:
             columns += [crossing.mode_between(share), v]
-        return np.column_stack(columns)
+        return np.column_stack([*columns, *self.more(crossing, share)])
+
+    def more(self, crossing: Steps, share: Floats) -> list[Floats]:  # noqa: ARG002
+        """Return further columns of the crossings after a share, (n,), of their steps; by default none."""
+        return []
 
     def crossings(self, memory: Memory, cloud: ObservedCloud) -> Crossings:
         """Return all crossings, in the order of time."""

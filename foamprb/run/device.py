@@ -21,7 +21,7 @@ from foamprb.cloud.paths import Steps, step
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.tracker import never
 from foamprb.cloudfunctions.base import Memory, ObservedCloud
-from foamprb.cloudfunctions.crossings import PlaneFunction, unit
+from foamprb.cloudfunctions.crossings import Crossings, PlaneFunction, unit
 from foamprb.cloudfunctions.deformability_cytometry import (
     LARGEST_RATIO,
     Channel,
@@ -132,7 +132,7 @@ def view_of(text: str | None, job: Job, plane: Plane) -> Floats:
             direction = axes[words[0]] if len(words) == 1 else tuple(map(float, words))
         except (KeyError, ValueError):
             direction = ()
-        if len(direction) != 3 or not any(direction):
+        if len(direction) != 3 or not 0.0 < math.hypot(*direction) < math.inf:
             raise InputError(f"-view '{text}'. Allowed: x, y or z, or a vector (0 0 1).")
         return unit(direction)
     views = [f.view for f in job.settings.functions.values() if hasattr(f, "view")]
@@ -143,7 +143,7 @@ def view_of(text: str | None, job: Job, plane: Plane) -> Floats:
 
 @dataclass(frozen=True)
 class _Passages(PlaneFunction):
-    """Crossings of a plane through the origin, moved along its normal for each particle."""
+    """Crossings of a plane through the origin, moved along its normal for each particle; dF/dt is added."""
 
     origin: Vector3
     normal: Vector3
@@ -161,6 +161,32 @@ class _Passages(PlaneFunction):
         rows = super().add(memory, cloud, steps._replace(tables=tables), fresh)
         rows[:, 2:5] += self.offsets[rows[:, 0].astype(np.int64), None] * normal
         return rows
+
+    def initial(self, cloud: ObservedCloud) -> Memory:
+        """Return an empty table, with dF/dt."""
+        table = super().initial(cloud)["crossings"]
+        return {"crossings": np.empty((0, table.shape[1] + 9))}
+
+    def more(self, crossing: Steps, share: Floats) -> list[Floats]:
+        """Return dF/dt = l F there, 1/s, with l linear in time from its start on, and the right mean.
+
+        The mean is ln(F₁ F₀⁻¹)/Δt = 2 artanh(W)/Δt, W = (F₁ F₀⁻¹ − 1)(F₁ F₀⁻¹ + 1)⁻¹.
+        """
+        F0, F1 = (F.reshape(-1, 3, 3) for F in crossing.both("F"))
+        l0 = crossing.rate.reshape(-1, 3, 3) @ (rest := np.linalg.inv(F0))
+        change, one = F1 @ rest, np.eye(3)
+        W = (change - one) @ np.linalg.inv(change + one)
+        W2 = W @ W
+        h = (crossing.t[1] - crossing.t[0])[:, None, None]
+        mean = 2.0 * W @ (one + W2 / 3.0 + W2 @ W2 / 5.0) / h
+        l = l0 + 2.0 * share[:, None, None] * (mean - l0)
+        return [(l @ crossing.between(share)[2].reshape(-1, 3, 3)).reshape(-1, 9)]
+
+    def crossings(self, memory: Memory, cloud: ObservedCloud) -> Crossings:
+        """Return all crossings, with dF/dt of the particles."""
+        rows = memory["crossings"]
+        there = super().crossings({"crossings": rows[:, :-9]}, cloud)
+        return there._replace(particles=there.particles._replace(A=rows[:, -9:].copy()))
 
 
 class Device:
@@ -394,7 +420,7 @@ class Device:
             there = function.crossings({"crossings": rows[first]}, observed)
             seen.passed[number], seen.t[number], seen.x[number] = True, there.t - p.t0[number], there.x
             seen.F[number], seen.B[number] = there.particles.F.reshape(-1, 3, 3), there.particles.B
-            seen.spin[number] = self._spin(p.take(number))
+            seen.spin[number] = self._spin(there.particles)
             p.status[number[p.status[number] == Status.ACTIVE]] = Status.ESCAPED
         return seen
 

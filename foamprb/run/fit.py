@@ -19,14 +19,16 @@ from foamprb.cloud.tracker import never
 from foamprb.cloud.viscosity import viscosity_at_rate
 from foamprb.errors import InputError, RunInterrupted, suggestion
 from foamprb.flow.read.source import FlowSource
-from foamprb.results.atomic import write_text
+from foamprb.results.atomic import only_writer, write_text
 from foamprb.results.intervals import quantile
+from foamprb.results.reading import reading
 from foamprb.results.tables import read_table, write_table
 from foamprb.run.compilation import compile_run
 from foamprb.run.device import UNKNOWNS, Bodies, Device, plane_of, spread, view_of
 from foamprb.run.job import Job, prepare
-from foamprb.run.least_squares import Solution, gauss_newton
+from foamprb.run.least_squares import WIDEST, Solution, gauss_newton
 from foamprb.run.measured import Measured, read_measured
+from foamprb.run.restart import Fingerprint, changes, fingerprint
 
 log = logging.getLogger("foamprb")
 
@@ -49,6 +51,10 @@ _CURVED = 1.0
 _BULLET = 0.26
 """Largest amplitude of the quadratic mode, which is of first order; its deformation is 0.05."""
 _WALLS = "it is away from the axis of the channel, or too large for it"
+_BOUNDED = ("viscosity", "surfaceTension")
+"""Unknowns that may be 0; the logarithms of the others are fitted."""
+_OTHER_UNIT = 30.0
+"""Factor between measured sizes and those of the case from which units are probably wrong."""
 _RESAMPLES, _AT_ONCE = 1000, 20
 _TEXTS = ("id", "reason")
 
@@ -178,15 +184,26 @@ def fit_job(
     device.warn_of_walls(
         measured.of("d") if measured.size == "d" else 2.0 * np.sqrt(measured.of("area") / np.pi)
     )
+    if doubt := _doubt_of_size(measured, job):
+        log.warning("%s: bodies that differ.%s", measured.file, doubt)
     compile_run(job.cloud, job.compilation)
     folder = job.folder.path / "fit"
-    folder.mkdir(parents=True, exist_ok=True)
-    problem = _Problem(device, measured, unknown)
+    with only_writer(folder):
+        return _fit(
+            _Problem(device, measured, unknown),
+            folder,
+            _marks(job, measured, unknown, plane, view),
+            overwrite,
+        )
+
+
+def _fit(problem: _Problem, folder: Path, marks: Fingerprint, overwrite: bool) -> Fits:
+    """Fit the bodies that the tables of an earlier fit lack; write the tables."""
+    measured, unknown = problem.measured, problem.unknown
     target, sign = folder / "fits.csv", folder / "fit.json"
-    text = json.dumps({"sign": _sign(job, measured, unknown, plane, view)})
-    table = {} if overwrite else _earlier(target, sign, text)
+    table = {} if overwrite else _earlier(target, sign, marks)
     ready = len(table.get("id", ()))
-    write_text(sign, text)
+    write_text(sign, json.dumps(marks))
     for first in range(ready, measured.n, _BATCH):
         try:
             part = problem.solve(slice(first, first + _BATCH))
@@ -203,21 +220,23 @@ def fit_job(
     return Fits(table, population, unknown, measured.shapes, folder)
 
 
-def _sign(job: Job, measured: Measured, *options: object) -> str:
-    """Return a checksum of everything that determines the results."""
-    sums = hashlib.sha256(repr((options, job.settings.overrides)).encode())
-    sums.update(job.settings.file.read_bytes())
+def _marks(job: Job, measured: Measured, *options: object) -> Fingerprint:
+    """Return the fingerprint of everything that determines the results: that of a run, and the table."""
+    sums = hashlib.sha256(repr(measured.ids.tolist()).encode())
     for name, column in sorted(measured.columns.items()):
         sums.update(name.encode() + column.tobytes())
-    for name, values in job.cloud.flow.traits().items():
-        sums.update(name.encode())
-        sums.update(np.ascontiguousarray(values).data)
-    return sums.hexdigest()
+    table = [[float(measured.n), float(int(sums.hexdigest()[:12], 16))]]
+    return {"the table": table, "options": repr(options), **fingerprint(job.settings, job.cloud)}
 
 
-def _earlier(target: Path, sign: Path, text: str) -> dict[str, NDArray[Any]]:
-    """Return the table of a fit that was stopped; empty if there is none, or one of other bodies."""
-    if not target.exists() or not sign.exists() or sign.read_text(encoding="utf-8") != text:
+def _earlier(target: Path, sign: Path, marks: Fingerprint) -> dict[str, NDArray[Any]]:
+    """Return the table of the same fit that was stopped; empty if there is none."""
+    if not target.exists() or not sign.exists():
+        return {}
+    with reading(sign, "is no description of a fit", "Start over: -overwrite."):
+        earlier = json.loads(sign.read_text(encoding="utf-8"))
+    if changed := changes(earlier, marks):
+        log.info("The fit in %s is another one, and is replaced: %s", target.parent, changed[0])
         return {}
     return read_table(target, _TEXTS)
 
@@ -247,17 +266,20 @@ class _Problem:
             "surfaceTension": float(np.median(p.mu * p.R)),
         }
         properties = device.properties(p)
-        self.start = [math.log(_median(properties[name]) or relevant[name]) for name in unknown]
+        self.scales = np.array([_median(properties[name]) or relevant[name] for name in unknown])
+        self.bounded = np.isin(unknown, _BOUNDED)
 
     def solve(self, rows: slice) -> dict[str, NDArray[Any]]:
         """Return the table of some bodies."""
         batch = _Batch(self, rows)
         able = batch.able
-        start = np.tile(self.start, (len(able), 1))
+        start, bounded = np.tile(self.bounded.astype(float), (len(able), 1)), self.bounded
         if batch.size_is_unknown:
-            start = np.column_stack([start, np.log(batch.d[able])])
+            start, bounded = np.column_stack([start, np.log(batch.d[able])]), np.append(bounded, False)
         positive = np.array([name != "angle" for name in self.names])
-        solution = gauss_newton(batch.predict, batch.values[able], batch.errors[able], start, positive)
+        solution = gauss_newton(
+            batch.predict, batch.values[able], batch.errors[able], start, positive, bounded
+        )
         return batch.table(solution)
 
 
@@ -302,7 +324,10 @@ class _Batch:
     ) -> tuple[Floats, NDArray[np.bool_]]:
         """Return predictions of the values; an estimate ``moves`` the release towards the measured place."""
         problem, rows = self._problem, self.able[some]
-        properties = {name: np.exp(theta[:, k]) for k, name in enumerate(problem.unknown)}
+        properties = {
+            name: problem.scales[k] * (theta[:, k] if problem.bounded[k] else np.exp(theta[:, k]))
+            for k, name in enumerate(problem.unknown)
+        }
         d = np.exp(theta[:, -1]) if self.size_is_unknown else self.d[rows]
         bodies = Bodies(self._guide[rows], self._release[rows], d, properties)
         seen = problem.device.follow(bodies, self._offsets[rows])
@@ -325,6 +350,8 @@ class _Batch:
         near = apart < _NEAR * self.d[able]
         reason = np.full(len(able), "", dtype=object)
         reason[~solution.converged] = "the steps do not converge"
+        for k, name in enumerate(problem.unknown):
+            reason[~(solution.spread[:, k] < WIDEST)] = f"its shape does not determine {name}"
         if problem.has_errors or not freedom.any():
             worst = np.argmax(np.nan_to_num(np.abs(deviations)), axis=1)
             for row in np.flatnonzero(squares > chi2.isf(_UNLIKELY, np.maximum(freedom, 1))):
@@ -344,10 +371,11 @@ class _Batch:
         half = _NORMAL * scale * solution.spread
         columns: dict[str, Floats] = {}
         for k, name in enumerate(problem.unknown):
-            for ending, logarithms in (
-                ("", theta[:, k]), ("Low", theta[:, k] - half[:, k]), ("High", theta[:, k] + half[:, k])
-            ):  # fmt: skip
-                columns[name + ending] = np.exp(np.clip(logarithms, -700.0, 700.0))
+            middle, unit = theta[:, k], np.maximum(theta[:, k], 1.0) if problem.bounded[k] else 1.0
+            for ending, sign in (("", 0.0), ("Low", -1.0), ("High", 1.0)):
+                end = middle + (sign * half[:, k] * unit if sign else 0.0)
+                value = np.maximum(end, 0.0) if problem.bounded[k] else np.exp(end)
+                columns[name + ending] = problem.scales[k] * value
         columns |= {f"{name}Predicted": solution.predicted[:, k] for k, name in enumerate(problem.names)}
         columns["residual"] = np.sqrt(squares / np.maximum(count, 1))
         self._reason[able] = reason
@@ -358,6 +386,24 @@ class _Batch:
         return {**table, "reason": self._reason.astype(str)}
 
 
+def fault_of(fits: Fits, measured: Measured, job: Job) -> str:
+    """Return why no body could be fitted; empty if one was."""
+    if fits.fitted.any():
+        return ""
+    text = "; ".join(f"{count}: {reason}" for reason, count in fits.reasons.items())
+    return f"{measured.file}: 0 of {measured.n} bodies are fitted ({text}).{_doubt_of_size(measured, job)}"
+
+
+def _doubt_of_size(measured: Measured, job: Job) -> str:
+    """Return how bodies differ in size from those of the case; empty if the same unit explains them."""
+    d = measured.diameters[np.isfinite(measured.diameters)]
+    ratio = float(np.median(d) / np.median(2.0 * job.cloud.particles.R)) if len(d) else 1.0
+    if 1.0 / _OTHER_UNIT < ratio < _OTHER_UNIT:
+        return ""
+    more = f"{ratio:.3g} times larger" if ratio > 1.0 else f"{1.0 / ratio:.3g} times smaller"
+    return f" By {measured.size} they are {more} than in the case: is its unit right?"
+
+
 def _median(values: Floats) -> float:
     """Return the median; 0 for one that is zero to round-off."""
     median = float(np.median(values))
@@ -365,20 +411,24 @@ def _median(values: Floats) -> float:
 
 
 def _population(table: Mapping[str, NDArray[Any]], unknown: Sequence[str]) -> dict[str, NDArray[Any]]:
-    """Return median and spread of each property with 95 % intervals; that of the spread by resampling."""
+    """Return median and spread of each property with 95 % intervals; that of the spread by resampling.
+
+    Values of 0 have no logarithm, and so no spread.
+    """
     from scipy.stats import bootstrap
 
     rows = []
     for name in unknown:
-        logs = np.log(table[name][np.isfinite(table[name]) & (table["reason"] == "")])
+        values = table[name][np.isfinite(table[name]) & (table["reason"] == "")]
         spread = low = high = math.nan
+        logs = np.log(values) if (values > 0.0).all() else values[:0]
         if len(logs):
             spread = float(logs.std())
         if len(logs) > 1:
             low, high = bootstrap(
                 (logs,), np.std, n_resamples=_RESAMPLES, batch=_AT_ONCE, method="percentile", rng=0
             ).confidence_interval
-        rows.append((len(logs), *np.exp(quantile(logs)), spread, float(low), float(high)))
+        rows.append((len(values), *quantile(values), spread, float(low), float(high)))
     heads = ("bodies", "median", "medianLow", "medianHigh", "sdLog", "sdLogLow", "sdLogHigh")
     columns = dict(zip(heads, np.array(rows).T, strict=True))
     return {"property": np.array(list(unknown)), **columns, "bodies": columns["bodies"].astype(np.int64)}

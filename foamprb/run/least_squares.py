@@ -1,4 +1,4 @@
-"""Least squares of many small problems at once: Gauss–Newton steps in logarithms of the unknowns."""
+"""Least squares of many small problems at once: Gauss–Newton steps of logarithms, or of values from 0 on."""
 
 from __future__ import annotations
 
@@ -14,15 +14,17 @@ Predict: TypeAlias = Callable[[NDArray[np.int64], Floats, bool], tuple[Floats, N
 
 _MOST_STEPS = 25
 _DIFFERENCE = 0.02
-"""Change of a logarithm for a derivative."""
+"""Change of an unknown for a derivative, in its unit: 1 for a logarithm, max(θ, 1) for a value."""
 _LONGEST, _SMALL = 1.5, 2e-3
-"""Longest step of a logarithm, and largest last one."""
+"""Longest step, and largest last one, in units."""
 _GAIN = 1e-4
 """Largest decrease of the sum of squares by a last step."""
 _DAMPING = 0.1
 """Added to the squares of sensitivities in standard errors: an unknown without influence does not move."""
-_RANGE = math.log(1e4)
-"""Farthest from the start that a logarithm may be."""
+WIDEST = _DAMPING**-0.5
+"""Standard error, in units, beyond which an unknown stays near its start."""
+_RANGE = 1e4
+"""Largest factor between an unknown and its start."""
 _FAR = 0.2
 """Logarithm of measured over predicted value beyond which the residual is that of logarithms."""
 
@@ -35,7 +37,7 @@ class Solution(NamedTuple):
     predicted: Floats
     """Predicted values there, (n, k)."""
     spread: Floats
-    """Standard errors of the unknowns, (n, q), by the errors of the values."""
+    """Standard errors of the unknowns, (n, q), in their units, by the errors of the values."""
     valid: NDArray[np.bool_]
     """Whether there is a prediction, (n,)."""
     converged: NDArray[np.bool_]
@@ -43,12 +45,18 @@ class Solution(NamedTuple):
 
 
 def gauss_newton(
-    predict: Predict, values: Floats, errors: Floats, start: Floats, positive: NDArray[np.bool_]
+    predict: Predict,
+    values: Floats,
+    errors: Floats,
+    start: Floats,
+    positive: NDArray[np.bool_],
+    bounded: NDArray[np.bool_],
 ) -> Solution:
-    """Solve n problems of q unknown logarithms each.
+    """Solve n problems of q unknowns each.
 
     A step that leaves the valid range or increases the sum of squares is halved. Far from the solution, the
-    residuals of ``positive`` values are those of their logarithms.
+    residuals of ``positive`` values are those of their logarithms. A prediction that is not finite is
+    invalid.
 
     Parameters
     ----------
@@ -61,41 +69,48 @@ def gauss_newton(
         Unknowns at the start, (n, q).
     positive
         Which values are above 0, (k,).
+    bounded
+        Which unknowns are values from 0 on; the others are logarithms, (q,).
     """
     (n, q), k = start.shape, values.shape[1]
     s = Solution(
         start.copy(), np.full((n, k), np.nan), np.full((n, q), np.nan), np.zeros(n, bool), np.zeros(n, bool)
     )
     theta, last = start.copy(), np.zeros((n, q))
-    low, high = start - _RANGE, start + _RANGE
+    low = np.where(bounded, 0.0, start - math.log(_RANGE))
+    high = np.where(bounded, start * _RANGE, start + math.log(_RANGE))
     cost, going = np.full(n, np.inf), np.ones(n, dtype=bool)
     for _ in range(_MOST_STEPS):
         rows = np.flatnonzero(going)
         if not len(rows):
             break
         y, well = predict(rows, theta[rows], True)
+        measured = np.isfinite(values[rows])
+        well = well & (np.isfinite(y) | ~measured).all(axis=1)
         ranked = _residuals(values[rows], y, errors[rows], positive, weighted_by=values[rows])
         now = np.where(well, (ranked**2).sum(axis=1), np.inf)
         better = now <= cost[rows] * (1.0 + 1e-6) + 1e-9
         better &= well
-        _turn_back(rows[~better], s, theta, last, going, high)
-        rows, y = rows[better], y[better]
+        _turn_back(rows[~better], s, theta, last, going, high, bounded)
+        rows, y, measured = rows[better], y[better], measured[better]
         if not len(rows):
             continue
         s.theta[rows], s.predicted[rows], s.valid[rows], cost[rows] = theta[rows], y, True, now[better]
-        shifted = (theta[rows][:, None] + _DIFFERENCE * np.eye(q)).reshape(-1, q)
+        unit = _units(theta[rows], bounded)
+        shifted = (theta[rows][:, None] + _DIFFERENCE * unit[:, None] * np.eye(q)).reshape(-1, q)
         moved, fine = predict(np.repeat(rows, q), shifted, False)
         slopes = (moved.reshape(-1, q, k) - y[:, None]) / _DIFFERENCE
         J = np.nan_to_num(np.where(fine.reshape(-1, q, 1), slopes, 0.0)).transpose(0, 2, 1)
-        Jw = J * np.where(np.isfinite(values[rows]), 1.0 / errors[rows], 0.0)[:, :, None]
+        Jw = J * np.where(measured, 1.0 / errors[rows], 0.0)[:, :, None]
         normal = np.einsum("nki,nkj->nij", Jw, Jw)
         slope = np.einsum("nki,nk->ni", Jw, _residuals(values[rows], y, errors[rows], positive))
-        step = np.linalg.solve(normal + _DAMPING * np.eye(q), slope[:, :, None])[:, :, 0]
+        room = np.where(bounded, theta[rows] / unit, np.inf)
+        step = _bounded_step(normal + _DAMPING * np.eye(q), slope, room)
         step *= np.minimum(1.0, _LONGEST / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-300))
         s.spread[rows] = _spread(normal)
-        aim = np.clip(theta[rows] + step, low[rows], high[rows])
-        step = aim - theta[rows]
-        theta[rows], last[rows] = aim, step
+        aim = np.clip(theta[rows] + unit * step, low[rows], high[rows])
+        last[rows] = aim - theta[rows]
+        step, theta[rows] = last[rows] / unit, aim
         ends = (np.abs(step).max(axis=1) < _SMALL) | ((slope * step).sum(axis=1) < _GAIN)
         ended = rows[ends]
         s.theta[ended] = theta[ended]
@@ -111,16 +126,38 @@ def _turn_back(
     last: Floats,
     going: NDArray[np.bool_],
     high: Floats,
+    bounded: NDArray[np.bool_],
 ) -> None:
-    """Halve the last steps of some problems; without any estimate so far, raise the first unknown."""
-    first = ~s.valid[rows]
-    theta[rows[first], 0] += math.log(4.0)
-    going[rows[first]] = theta[rows[first], 0] <= high[rows[first], 0]
+    """Halve the last steps of some problems; without any estimate so far, raise the first logarithm."""
+    first, k = ~s.valid[rows], int(np.argmin(bounded))
+    raised = 4.0 * theta[rows, k] if bounded[k] else theta[rows, k] + math.log(4.0)
+    theta[rows[first], k] = raised[first]
+    going[rows[first]] = raised[first] <= high[rows[first], k]
     others = rows[~first]
     last[others] *= 0.5
     theta[others] = s.theta[others] + last[others]
-    ended = others[np.abs(last[others]).max(axis=1, initial=0.0) < _SMALL]
+    ended = others[np.abs(last[others] / _units(theta[others], bounded)).max(axis=1, initial=0.0) < _SMALL]
     going[ended], s.converged[ended] = False, True
+
+
+def _units(theta: Floats, bounded: NDArray[np.bool_]) -> Floats:
+    """Return the units of unknowns, (n, q)."""
+    return np.where(bounded, np.maximum(theta, 1.0), 1.0)
+
+
+def _bounded_step(normal: Floats, slope: Floats, room: Floats) -> Floats:
+    """Return the steps, (n, q), that solve normal · step = slope with step ≥ −room."""
+    held = np.zeros_like(slope, dtype=bool)
+    while True:
+        ends = np.where(held, -room, 0.0)
+        free = ~(held[:, :, None] | held[:, None, :])
+        A = np.where(free, normal, np.eye(slope.shape[1]))
+        b = np.where(held, ends, slope - np.einsum("nij,nj->ni", normal, ends))
+        step = np.linalg.solve(A, b[:, :, None])[:, :, 0]
+        beyond = (step < -room) & ~held
+        if not beyond.any():
+            return step
+        held |= beyond
 
 
 def _spread(normal: Floats) -> Floats:

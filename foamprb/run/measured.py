@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import logging
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -16,6 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.errors import InputError, closest
 from foamprb.optional import load
+
+log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
 
@@ -32,7 +35,9 @@ _UNITS = {
 SHAPES = ("strain", "deformation", "angle", "treading")
 """Measured quantities that depend on the shape."""
 _WITH_ERRORS = ("area", *SHAPES)
-_HEAD = re.compile(r"\s*([^\[\]]*?)\s*(?:\[\s*(.*?)\s*\])?\s*")
+_HEAD = re.compile(r"\s*([^\[\]()]*?)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*")
+_COMMA = re.compile(r"^(\s*[-+]?\d*),(\d*(?:[eE][-+]?\d+)?\s*)$")
+_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
@@ -92,7 +97,8 @@ def read_measured(table: PathLike[str] | str | Mapping[str, ArrayLike]) -> Measu
     Parameters
     ----------
     table
-        A ``.csv`` file whose heads have units, ``d [um]``; a file of dclab, ``.rtdc`` or ``.tsv``; the
+        A ``.csv`` file whose heads have units, ``d [um]``, with commas, semicolons or tabs between cells;
+        decimals may have commas beside the latter two. A file of dclab, ``.rtdc`` or ``.tsv``; the
         ``_evaluated.csv`` of shear flow deformation cytometry; or arrays in SI units by the names of
         :class:`Measured`.
 
@@ -115,7 +121,11 @@ def read_measured(table: PathLike[str] | str | Mapping[str, ArrayLike]) -> Measu
         raise InputError(f"{path}: not a readable table ({error}).") from error
     if path.suffix == ".tsv":
         return _of_dclab(path, *_split_tsv(path, lines))
-    rows = [row for row in csv.reader(lines) if any(cell.strip() for cell in row)]
+    separator = max(",;\t", key=lines[0].count) if lines else ","
+    rows = [row for row in csv.reader(lines, delimiter=separator) if any(cell.strip() for cell in row)]
+    if separator != ",":
+        # A decimal comma.
+        rows[1:] = [[_COMMA.sub(r"\1.\2", cell) for cell in row] for row in rows[1:]]
     if len(rows) < 2:
         raise InputError(f"{path}: no rows. Needed: a line of heads and a line for each body.")
     if {"long_axis", "short_axis", "radial_position"} <= {*rows[0]}:
@@ -141,6 +151,8 @@ def _factor(path: Path, head: str) -> tuple[str, float]:
         meant = closest(name, [*_UNITS, *(f"{q}Error" for q in _WITH_ERRORS)])
         if meant and meant.lower() == name.lower():
             raise InputError(f"{path}: a column {name}. Did you mean '{meant}'?")
+        hint = f" Is it '{meant}'?" if meant else ""
+        log.info("%s: the column '%s' is not used.%s", path, head.strip(), hint)
         return "", 1.0
     allowed = _UNITS[quantity]
     text = (unit or "").replace("µ", "u").replace("μ", "u").replace("²", "2").replace("°", "deg")
@@ -189,6 +201,8 @@ def _checked(file: str, columns: dict[str, NDArray[Any]]) -> Measured:
         product = np.where((a > 0.0) & (b > 0.0), a * b, np.nan)
         values.setdefault("strain", np.abs(a - b) / np.sqrt(product))
         values.setdefault("area", np.pi * product)
+    if "angle" in values:
+        values["angle"] = _acute(file, values["angle"])
     measured = Measured(file, values, ids)
     if n == 0 or not ({"d", "area"} & values.keys()):
         raise InputError(
@@ -205,6 +219,19 @@ def _checked(file: str, columns: dict[str, NDArray[Any]]) -> Measured:
                 f"{' > 0' if (column <= 0.0).any() else ''}."
             )
     return measured
+
+
+def _acute(file: str, angle: Floats) -> Floats:
+    """Return the angles of lines, without a sign, from 0 to π/2.
+
+    Raises
+    ------
+    InputError
+        If they are probably degrees.
+    """
+    if (largest := float(np.nanmax(np.abs(angle), initial=0.0))) > _TURN:
+        raise InputError(f"{file}: an angle of {largest:g} rad. Allowed: up to 2π; or degrees, angle [deg].")
+    return np.asarray(np.abs((angle + 0.5 * np.pi) % np.pi - 0.5 * np.pi))
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -257,6 +284,6 @@ def _of_evaluation(path: Path, rows: Sequence[Sequence[str]]) -> Measured:
         return np.bincount(index, values) / frames
 
     a, b = mean(0.5e-6 * columns["long_axis"]), mean(0.5e-6 * columns["short_axis"])
-    angle = mean(np.abs(np.radians(columns["angle"])))
+    angle = mean(_acute(str(path), np.radians(columns["angle"])))
     y = mean(1e-6 * columns["radial_position"])
     return _checked(str(path), {"id": cells.astype(np.int64), "y": y, "a": a, "b": b, "angle": angle})

@@ -214,7 +214,7 @@ def refuse_changes(checkpoint: StoredCheckpoint, marks: Fingerprint, where: str)
     where
         What the message begins with.
     """
-    changed = _differences(checkpoint.header["fingerprint"], marks)
+    changed = changes(checkpoint.header["fingerprint"], marks)
     if changed:
         more = f", and {len(changed) - _MOST_NAMED} more" if len(changed) > _MOST_NAMED else ""
         of_times = any("memoryRates" in change for change in changed)
@@ -392,7 +392,8 @@ def _totals(values: NDArray[np.float64], numbers: NDArray[np.int64]) -> NDArray[
     return of_rows(values.reshape(len(values), math.prod(values.shape[1:])), numbers)
 
 
-def _differences(old: Mapping[str, str | Sums], new: Mapping[str, str | Sums]) -> list[str]:
+def changes(old: Mapping[str, str | Sums], new: Mapping[str, str | Sums]) -> list[str]:
+    """Return in words how a fingerprint differs from an old one."""
     changed = []
     for name in dict.fromkeys((*old, *new)):
         before, now = old.get(name, "absent"), new.get(name, "absent")

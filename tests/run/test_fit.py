@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pipe_case import copy_of_pipe
@@ -9,6 +11,7 @@ from pipe_cells import MEAN, RADIUS, SETTINGS, pipe_job, seen_cells
 
 from foamprb.cli import main
 from foamprb.errors import InputError, RunInterrupted
+from foamprb.results.atomic import only_writer
 from foamprb.results.tables import read_table
 from foamprb.run import fit as module
 from foamprb.run.device import Bodies, Device, plane_of, view_of
@@ -85,7 +88,54 @@ def test_bodies_without_a_fit_have_a_reason(job):
     assert np.isfinite(fits.table["shearModulus"]).tolist() == (fits.table["reason"] == "").tolist()
 
 
-def test_an_interrupted_fit_continues(job, monkeypatch):
+def test_one_process_at_a_time_fits_in_a_folder(job):
+    measured, *_ = seen_cells(job, 2, noise=0.0)
+    with only_writer(job.folder.path / "fit"), pytest.raises(InputError, match="is writing here"):
+        fit_job(job, measured, BOTH, "x=1e-3")
+
+
+def test_elastic_cells_have_no_viscosity(job):
+    measured, G, _ = seen_cells(job, 200, viscosity=0.0)
+    fits = fit_job(job, measured, BOTH, "x=1e-3", overwrite=True)
+    table, fitted = fits.table, fits.fitted
+    assert fitted.mean() > 0.985
+    # The estimate is at the bound for half of the bodies; its interval is one-sided there.
+    at_bound = table["viscosity"][fitted] == 0.0
+    assert 0.4 < at_bound.mean() < 0.6
+    assert (table["viscosityLow"][fitted] == 0.0).mean() > 0.95
+    assert (table["viscosityHigh"][fitted] > 0.0).all()
+    held = (table["shearModulusLow"] <= G) & (table["shearModulusHigh"] >= G)
+    assert held[fitted].mean() > 0.93
+    assert np.median(table["shearModulus"][fitted] / G[fitted]) == pytest.approx(1.0, abs=0.01)
+    assert fits.population["bodies"].tolist() == 2 * [fitted.sum()]
+    assert fits.population["medianLow"][1] == 0.0
+
+
+def test_shapes_without_information_determine_nothing(job):
+    measured, *_ = seen_cells(job, 4, noise=0.0)
+    columns = {**measured.columns, "strainError": np.full(4, 1e300)}
+    fits = fit_job(job, read_measured(columns), ("shearModulus",), "x=1e-3", overwrite=True)
+    del columns["angle"]
+    fits = fit_job(job, read_measured(columns), ("shearModulus",), "x=1e-3", overwrite=True)
+    assert set(fits.reasons) == {"its shape does not determine shearModulus"}
+    with pytest.raises(InputError, match="-view 'nan nan nan'"):
+        fit_job(job, measured, BOTH, "x=1e-3", "nan nan nan")
+
+
+def test_treading_is_that_at_the_plane(job, monkeypatch):
+    spins = []
+    for calls in (4, 400):
+        monkeypatch.setattr("foamprb.run.device._CALLS", calls)
+        plane = plane_of("x=2e-4", job)
+        device = Device(job, plane, view_of("z", job, plane))
+        device.pass_guides(2e-4)
+        guide, release, _ = device.lead_to(np.array([[np.nan, 8e-5, np.nan]]))
+        bodies = Bodies(guide, release, np.array([15e-6]), {"shearModulus": np.array([300.0])})
+        spins.append(device.follow(bodies, np.array([2e-4])).spin[0])
+    assert spins[0] == pytest.approx(spins[1], rel=1e-3)
+
+
+def test_an_interrupted_fit_continues(job, monkeypatch, tmp_path):
     monkeypatch.setattr(module, "_BATCH", 16)
     measured, *_ = seen_cells(job, 40)
     whole = fit_job(job, measured, BOTH, "x=1e-3", overwrite=True)
@@ -102,10 +152,14 @@ def test_an_interrupted_fit_continues(job, monkeypatch):
     assert [rows.start for rows in batches] == [16, 32]
     for name, column in whole.table.items():
         np.testing.assert_array_equal(continued.table[name], column)
-    # Another table is another fit.
-    batches.clear()
-    fit_job(job, measured.take(slice(0, 20)), BOTH, "x=1e-3")
-    assert [rows.start for rows in batches] == [0, 16]
+    # Another table is another fit, as is the same one in another fluid, or with other names of the bodies.
+    few = measured.take(slice(0, 20))
+    thicker = replace(pipe_job(tmp_path, SETTINGS.replace("mu 1;", "mu 1.1;")), output=job.output)
+    renamed = replace(few, ids=few.ids + 1)
+    for its_job, table in ((job, few), (thicker, few), (job, few), (job, renamed)):
+        batches.clear()
+        fit_job(its_job, table, BOTH, "x=1e-3")
+        assert [rows.start for rows in batches] == [0, 16]
 
 
 def test_each_body_has_its_own_plane(job):
@@ -192,7 +246,9 @@ def test_gauss_newton_solves_a_regression():
         # Points outside the unit square are invalid: steps there are halved.
         return theta @ A.T, np.abs(theta).max(axis=1) < 40.0
 
-    solution = gauss_newton(predict, values, np.tile(errors, (3, 1)), np.full((3, 2), 2.0), np.zeros(5, bool))
+    free = np.zeros(2, bool)
+    start, sign = np.full((3, 2), 2.0), np.zeros(5, bool)
+    solution = gauss_newton(predict, values, np.tile(errors, (3, 1)), start, sign, free)
     weighted = A / errors[:, None]
     expected = np.linalg.lstsq(weighted, (values / errors).T, rcond=None)[0].T
     np.testing.assert_allclose(solution.theta, expected, atol=0.02)
@@ -217,8 +273,6 @@ def test_a_case_that_is_no_device_is_refused(tmp_path, change, message):
         text = text.replace(change, "endTime 0.02;")
     job = pipe_job(tmp_path, text)
     if change.startswith("solution"):
-        from dataclasses import replace
-
         solution = replace(job.settings.solution, transient=True)
         job = replace(job, settings=replace(job.settings, solution=solution))
     measured = read_measured({"y": [5e-5], "d": [1e-5], "strain": [0.3]})
@@ -252,6 +306,11 @@ def test_command_writes_tables_and_a_page(tmp_path, capsys):
     page = (folder / "fit.html").read_text()
     assert page.count("<svg") == 3
     assert (folder / "fitPlots/strainPredicted.png").exists()
+    table.write_text(table.read_text().replace("y [mm],d [µm]", "y [m],d [nm]"))
+    assert main(["fit", *options, "-measured", str(table)]) == 1
+    said = capsys.readouterr().err
+    assert "0 of 3 bodies are fitted (3: its place is outside the flow)" in said
+    assert "By d they are 1e+03 times smaller than in the case: is its unit right?" in said
     assert main(["fit", *options[:2], "-measured", str(table), "-noBrowser"]) == 1
     assert "where were the bodies seen? Needed: -plane" in capsys.readouterr().err
 
@@ -261,8 +320,22 @@ def test_an_unknown_without_influence_stays():
         return np.exp(theta[:, :1]) * [1.0, 2.0], np.ones(len(theta), bool)
 
     values, start = np.array([[3.0, 6.0]]), np.zeros((1, 2))
-    solution = gauss_newton(predict, values, np.ones((1, 2)), start, np.ones(2, bool))
+    solution = gauss_newton(predict, values, np.ones((1, 2)), start, np.ones(2, bool), np.zeros(2, bool))
     np.testing.assert_allclose(solution.theta, [[np.log(3.0), 0.0]], atol=1e-4)
     # ∂y/∂ ln is 3 and 6, by differences of 2 %.
     assert solution.spread[0, 0] == pytest.approx(1.0 / np.sqrt(45.0), rel=0.02)
     assert np.isinf(solution.spread[0, 1])
+
+
+def test_values_from_zero_on_meet_their_bound():
+    """min (x − 1)² + (x + y + 2)² with y ≥ 0 is at x = −1/2, y = 0; a prediction of NaN is invalid."""
+
+    def predict(rows, theta, moves):
+        x, y = theta.T
+        return np.where(x[:, None] < 3.0, np.stack([x, x + y], axis=1), np.nan), np.ones(len(x), bool)
+
+    start, plain = np.array([[0.5, 1.0], [4.0, 1.0]]), np.zeros(2, bool)
+    values, bounded = np.tile([1.0, -2.0], (2, 1)), np.array([False, True])
+    solution = gauss_newton(predict, values, np.full((2, 2), 1e-3), start, plain, bounded)
+    np.testing.assert_allclose(solution.theta[0], [-0.5, 0.0], atol=1e-4)
+    assert solution.valid.tolist() == [True, False]

@@ -30,6 +30,27 @@ def test_units_and_errors_are_read(tmp_path):
     assert measured.shapes == ("strain", "angle")
 
 
+@pytest.mark.parametrize("text", ["d [µm];strain\n10,5;0,1\n9;2e-1\n", "d (um)\tstrain\n10,5\t0.1\n9\t.2\n"])
+def test_semicolons_tabs_and_decimal_commas_are_read(tmp_path, text):
+    measured = read_measured(table(tmp_path, text))
+    np.testing.assert_allclose(measured.of("d"), [10.5e-6, 9e-6])
+    np.testing.assert_allclose(measured.of("strain"), [0.1, 0.2])
+
+
+def test_columns_that_are_not_used_are_named(tmp_path, caplog):
+    with caplog.at_level("INFO", "foamprb"):
+        read_measured(table(tmp_path, "d [um],strain,angles [deg],note\n10,0.1,3,a\n"))
+    said = [record.getMessage().partition(": ")[2] for record in caplog.records]
+    assert said == ["the column 'angles [deg]' is not used. Is it 'angle'?", "the column 'note' is not used."]
+
+
+def test_angles_of_lines_have_no_sign(tmp_path):
+    measured = read_measured(table(tmp_path, "d [um],angle [deg]\n9,-30\n9,150\n9,330\n9,90\n"))
+    np.testing.assert_allclose(np.degrees(measured.of("angle")), [30.0, 30.0, 30.0, 90.0])
+    with pytest.raises(InputError, match=r"an angle of 30 rad. Allowed: up to 2π; or degrees"):
+        read_measured(table(tmp_path, "d [um],angle [rad]\n9,30\n"))
+
+
 def test_semi_axes_give_size_and_strain(tmp_path):
     measured = read_measured(table(tmp_path, "a [um],b [um]\n8,2\n"))
     assert measured.of("area")[0] == pytest.approx(16e-12 * np.pi)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _UNITS = {
     "shearModulus": "Pa", "viscosity": "Pa s", "surfaceTension": "N/m", "area": "m²", "angle": "rad",
-    "treading": "1/s",
+    "treading": "1/s", "k": "Pa", "alpha": "1",
 }  # fmt: skip
 
 
