@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 from validation.fits import MEAN, RADIUS, SETTINGS
 
 from foamprb import analytic
@@ -47,9 +48,11 @@ CYTOMETER, VOLUME_FLOW = 10.94e-6, 0.04e-9
 """Radius of the tube that acts as a channel of 20 µm, m, and its volume flow, m³/s."""
 
 
-def cytometer_job(folder: Path, channel: str = f"channel {{ type tube; radius {CYTOMETER}; }}") -> Job:
+def cytometer_job(
+    folder: Path, channel: str = f"channel {{ type tube; radius {CYTOMETER}; }}", mu: float = 0.015
+) -> Job:
     """The job of cells with the quadratic mode on the axis of the tube of a deformability cytometer."""
-    text = SETTINGS.replace("mu 1;", "mu 0.015;").replace(
+    text = SETTINGS.replace("mu 1;", f"mu {mu};").replace(
         "shearModulus 300; viscosity 1;", "shearModulus 1000;"
     )
     text = text.replace("deltaT 2e-3; endTime 2;", "deltaT 5e-6; endTime 0.01;").replace("15e-6", "8e-6")
@@ -70,3 +73,16 @@ def cytometer_job(folder: Path, channel: str = f"channel {{ type tube; radius {C
     """
     flow = analytic.pipe(CYTOMETER, VOLUME_FLOW / (np.pi * CYTOMETER**2), 1e-3)
     return pipe_job(folder, text, flow)
+
+
+def write_rtdc(path: Path, area_um, deform, **metadata) -> Path:
+    """Write a file of dclab with these features; skip the test without dclab."""
+    dclab = pytest.importorskip("dclab")
+    with dclab.RTDCWriter(path, mode="reset") as writer:
+        n = len(area_um)
+        writer.store_metadata(
+            {"experiment": {"sample": "beads", "run index": 1, "event count": n}, **metadata}
+        )
+        writer.store_feature("area_um", np.array(area_um))
+        writer.store_feature("deform", np.array(deform))
+    return path

@@ -36,6 +36,8 @@ _NEAR_AXIS = 0.2
 """Largest distance from the axis, in radii of a body."""
 LARGEST_RATIO = 0.7
 """Largest radius of a body, in radii of the tube."""
+TUBE_OF_SQUARE = 0.547
+"""Radius of the tube that acts as a square channel, in widths of this (Mietke et al. 2015)."""
 
 
 class Outline(NamedTuple):
@@ -114,8 +116,8 @@ class Channel:
 
     @property
     def tube_radius(self) -> float:
-        """Radius of the tube that acts as the channel (Mietke et al. 2015), m."""
-        return self.radius if self.radius is not None else 0.547 * (self.width or 0.0)
+        """Radius of the tube that acts as the channel, m."""
+        return self.radius if self.radius is not None else TUBE_OF_SQUARE * (self.width or 0.0)
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from foamprb.cloudfunctions.base import Memory, ObservedCloud
 from foamprb.cloudfunctions.crossings import Crossings, PlaneFunction, unit
 from foamprb.cloudfunctions.deformability_cytometry import (
     LARGEST_RATIO,
+    TUBE_OF_SQUARE,
     Channel,
     DeformabilityCytometry,
     outline,
@@ -34,12 +35,13 @@ from foamprb.errors import InputError, RunInterrupted
 from foamprb.run.job import Job
 from foamprb.run.measured import Measured
 from foamprb.run.release import lame_of, with_power_law
+from foamprb.settings.injections import Solid
 
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
 
-UNKNOWNS = ("shearModulus", "viscosity", "surfaceTension", "k", "alpha")
+UNKNOWNS = ("shearModulus", "youngsModulus", "viscosity", "surfaceTension", "k", "alpha")
 """Properties that can be fitted, as far as a solid has them."""
 _LARGEST_EXPONENT = 0.99
 _MOST_GUIDES = 2000
@@ -228,6 +230,7 @@ class Device:
         self._guides.t0[:] = self._guides.t[:] = cloud.start
         solids = [injection.solid for injection in settings.injections]
         self._frequencies = np.array([solid.referenceFrequency for solid in solids])
+        self._youngs = np.array([youngs_factor(solid) for solid in solids])
         # Of a power law.
         self._times = 1.0 / self._guides.memoryRates[0] if kind.power_law else None
         self._steps, self._call = job.steps, max(1, job.steps // _CALLS)
@@ -367,7 +370,8 @@ class Device:
         """Return the properties of particles that can be fitted, (n,) each, by their entries."""
         values = {"viscosity": p.eta, "surfaceTension": p.gamma}
         if self._times is None:
-            return {"shearModulus": p.steady_modulus, **values}
+            G = p.steady_modulus
+            return {"shearModulus": G, "youngsModulus": self._youngs[p.injector] * G, **values}
         series = series_of_power_law(p.k, self._times)
         k = p.mu / series.modulus
         law = {"k": k * self._frequencies[p.injector] ** p.k, "alpha": p.k}
@@ -385,6 +389,8 @@ class Device:
     def with_properties(self, p: Particles, changed: Mapping[str, Floats]) -> Particles:
         """Return particles with other properties; the modulus is NaN for an exponent of 1 or more."""
         values = {**self.properties(p), **changed}
+        if "youngsModulus" in changed:
+            values["shearModulus"] = changed["youngsModulus"] / self._youngs[p.injector]
         p.gamma[:], p.eta[:] = values["surfaceTension"], values["viscosity"]
         if self._times is None:
             relaxing = p.memoryShares * p.mu[:, None]
@@ -445,21 +451,30 @@ class Device:
 
         The channel is that of ``deformabilityCytometry``; 0 and False without one.
         """
-        for camera in self.job.settings.functions.values():
-            if isinstance(camera, DeformabilityCytometry) and camera.channel is not None:
+        for camera in self._cameras:
+            if camera.channel is not None:
                 ratio = camera.confinement(0.5 * d, x)
                 return ratio, ratio == 0.0
         return np.zeros(len(d)), np.zeros(len(d), dtype=bool)
 
+    @property
+    def _cameras(self) -> list[DeformabilityCytometry]:
+        return [f for f in self.job.settings.functions.values() if isinstance(f, DeformabilityCytometry)]
+
+    @property
+    def width(self) -> float:
+        """Width of the square channel, m; by default the smallest one of the flow."""
+        radii = [camera.channel.tube_radius for camera in self._cameras if camera.channel is not None]
+        return radii[0] / TUBE_OF_SQUARE if radii else self.job.cloud.flow.width
+
     def warn_of_walls(self, d: Floats) -> None:
         """Warn if walls deform bodies of diameters d, (n,), m, and the settings have no channel."""
         job, width = self.job, self.job.cloud.flow.width
-        cameras = [f for f in job.settings.functions.values() if isinstance(f, DeformabilityCytometry)]
         d = d[np.isfinite(d)]
         size = float(np.median(d)) if len(d) else math.inf
         if (
             not job.cloud.models.has_quadratic
-            or any(camera.channel is not None for camera in cameras)
+            or any(camera.channel is not None for camera in self._cameras)
             or not size < width < math.inf
         ):
             return
@@ -502,6 +517,11 @@ class Device:
             "bulletAmplitude": shadow.bullet_amplitude,
         }
         return {name: np.where(seen.passed, values[name], np.nan) for name in names}
+
+
+def youngs_factor(solid: Solid) -> float:
+    """Return E over the shear modulus; 3 for a solid that keeps its volume."""
+    return 3.0 if solid.poissonsRatio is None else 2.0 * (1.0 + solid.poissonsRatio)
 
 
 def spread(values: NDArray[Any], rows: NDArray[Any], n: int) -> NDArray[Any]:

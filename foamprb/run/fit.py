@@ -8,6 +8,8 @@ import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import combinations
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -16,19 +18,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.cloud.tracker import never
-from foamprb.cloud.viscosity import viscosity_at_rate
+from foamprb.cloud.viscosity import VaryingViscosity, viscosity_at_rate
 from foamprb.errors import InputError, RunInterrupted, suggestion
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import only_writer, write_text
-from foamprb.results.intervals import quantile
+from foamprb.results.intervals import difference, quantile
 from foamprb.results.reading import reading
 from foamprb.results.tables import read_table, write_table
 from foamprb.run.compilation import compile_run
 from foamprb.run.device import UNKNOWNS, Bodies, Device, plane_of, spread, view_of
-from foamprb.run.job import Job, prepare
+from foamprb.run.job import Job, prepare, time_of_fluid
 from foamprb.run.least_squares import WIDEST, Solution, gauss_newton
+from foamprb.run.lut import inflow, wall_rate
 from foamprb.run.measured import Measured, read_measured
 from foamprb.run.restart import Fingerprint, changes, fingerprint
+from foamprb.settings.settings import Settings, read_settings
 
 log = logging.getLogger("foamprb")
 
@@ -56,7 +60,9 @@ _BOUNDED = ("viscosity", "surfaceTension")
 _OTHER_UNIT = 30.0
 """Factor between measured sizes and those of the case from which units are probably wrong."""
 _RESAMPLES, _AT_ONCE = 1000, 20
-_TEXTS = ("id", "reason")
+_TEXTS = ("id", "reason", "group")
+_OTHER_DEVICE = 0.02
+"""Largest relative difference of width, flow rate and viscosity between measurement and case."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +74,9 @@ class Fits:
     table
         A row for each measured body: ``fits.csv``.
     population
-        A row for each property: ``population.csv``.
+        A row for each property, and group: ``population.csv``.
+    differences
+        Differences of the medians of two groups, a row for each property and pair: ``differences.csv``.
     unknown
         Names of the properties.
     shapes
@@ -79,6 +87,7 @@ class Fits:
 
     table: Mapping[str, NDArray[Any]]
     population: Mapping[str, NDArray[Any]]
+    differences: Mapping[str, NDArray[Any]]
     unknown: tuple[str, ...]
     shapes: tuple[str, ...]
     folder: Path
@@ -108,6 +117,9 @@ def fit(
     source: FlowSource | None = None,
     output: Path | str | None = None,
     overrides: Mapping[str, object] | None = None,
+    by: str | None = None,
+    error: float | None = None,
+    force: bool = False,
 ) -> Fits:
     """Fit properties of measured bodies, with a case and its settings as the model.
 
@@ -118,13 +130,18 @@ def fit(
     measured
         Table of the bodies, see :func:`foamprb.run.measured.read_measured`.
     unknown
-        ``shearModulus``, ``viscosity``, ``surfaceTension``, or ``k`` and ``alpha`` of a power law, of each
-        body.
+        ``shearModulus`` or ``youngsModulus``, ``viscosity``, ``surfaceTension``, or ``k`` and ``alpha`` of a
+        power law, of each body.
     plane
         Where the bodies were seen, ``"x=0.01"`` or ``"(0.01 0 0) (1 0 0)"``; by default the plane of a cloud
         function.
     view
         Direction of the camera, ``"z"``; by default that of ``deformabilityCytometry``.
+    by, error
+        See :func:`foamprb.run.measured.read_measured`.
+    force
+        Whether the conditions of the case hold, where those of the table differ. Otherwise the viscosity is
+        that of the table, and other differences are errors.
 
     Returns
     -------
@@ -135,8 +152,11 @@ def fit(
     InputError
         If the table or the case cannot be used.
     """
+    table, region = read_measured(measured, by, error), (source or FlowSource()).region
+    read = partial(read_settings, Path(case), dictionary, region, time_of_fluid(time))
+    overrides = {**(overrides or {}), **({} if force else entries_of(table, read(overrides=overrides)))}
     job = prepare(case, time, dictionary, threads, source, output=output, overrides=overrides)
-    return fit_job(job, read_measured(measured), unknown, plane, view)
+    return fit_job(job, table, unknown, plane, view, force=force)
 
 
 def fit_job(
@@ -147,6 +167,7 @@ def fit_job(
     view: str | None = None,
     overwrite: bool = False,
     stop: Callable[[], bool] = never,
+    force: bool = False,
 ) -> Fits:
     """Fit properties of measured bodies; a fit of the same bodies that was stopped is continued.
 
@@ -160,6 +181,8 @@ def fit_job(
         Whether to start over.
     stop
         Called several times a second; True to stop.
+    force
+        Whether to fit bodies that were measured under other conditions than those of the case.
 
     Raises
     ------
@@ -172,6 +195,8 @@ def fit_job(
     for name in unknown:
         if name not in UNKNOWNS:
             raise InputError(f"-unknown '{name}'. {suggestion(name, UNKNOWNS)}")
+    if {"shearModulus", "youngsModulus"} <= {*unknown}:
+        raise InputError("-unknown: shearModulus and youngsModulus are one property. Needed: one of them.")
     if not unknown or len(measured.shapes) < len(unknown):
         raise InputError(
             f"{measured.file}: {len(measured.shapes)} measured quantities of the shape "
@@ -179,6 +204,11 @@ def fit_job(
         )
     plane_ = plane_of(plane, job)
     device = Device(job, plane_, view_of(view, job, plane_), stop)
+    if (faults := _other_conditions(device, measured)) and not force:
+        raise InputError(
+            f"{measured.file}: {'; '.join(faults)}. Needed: a case of the same device; or -force, for the "
+            "conditions of the case."
+        )
     for name in unknown:
         device.require_property(name, f"-unknown '{name}'")
     device.warn_of_walls(
@@ -215,14 +245,63 @@ def _fit(problem: _Problem, folder: Path, marks: Fingerprint, overwrite: bool) -
         table = {name: np.concatenate([table[name], part[name]]) for name in part} if table else part
         write_table(target, table)
         log.info("%d of %d bodies", len(table["id"]), measured.n)
-    population = _population(table, unknown)
+    population, differences = _population(table, unknown)
     write_table(folder / "population.csv", population)
-    return Fits(table, population, unknown, measured.shapes, folder)
+    if differences:
+        write_table(folder / "differences.csv", differences)
+    return Fits(table, population, differences, unknown, measured.shapes, folder)
+
+
+def entries_of(measured: Measured, settings: Settings) -> dict[str, object]:
+    """Return the entries of the settings that the file of measured bodies replaces: the viscosity.
+
+    That of a fluid that varies in the case stays.
+    """
+    fluid, conditions = settings.fluid, measured.conditions
+    if (
+        conditions is None
+        or not math.isfinite(conditions.viscosity)
+        or isinstance(fluid.mu, VaryingViscosity)
+    ):
+        return {}
+    log.info(
+        "%s: the viscosity is %.4g Pa s, %s, in place of %.4g Pa s of the case.",
+        measured.file, conditions.viscosity, conditions.origin, fluid.mu,
+    )  # fmt: skip
+    return {"constantProperties/mu": conditions.viscosity}
+
+
+def _other_conditions(device: Device, measured: Measured) -> list[str]:
+    """Return in words how the conditions of a measurement differ from those of the case."""
+    conditions, job = measured.conditions, device.job
+    if conditions is None:
+        return []
+    try:
+        rate = inflow(job)
+    except InputError:
+        log.info("%s: the flow rate of the case is unknown, and not compared.", measured.file)
+        rate = math.nan
+    mu = job.cloud.medium.mu
+    in_case = viscosity_at_rate(mu, wall_rate(conditions.flow_rate, conditions.width))
+    # dclab's is the viscosity at a mean rate.
+    allowed = 0.5 if isinstance(mu, VaryingViscosity) else _OTHER_DEVICE
+    return [
+        f"its {name} is {of_file:.4g} {unit}, that of the case {of_case:.4g} {unit}"
+        for name, of_file, of_case, unit, most in (
+            ("channel width", conditions.width, device.width, "m", _OTHER_DEVICE),
+            ("flow rate", conditions.flow_rate, rate, "m3/s", _OTHER_DEVICE),
+            ("viscosity", conditions.viscosity, in_case, "Pa s", allowed),
+        )
+        if abs(of_file / of_case - 1.0) > most
+    ]
 
 
 def _marks(job: Job, measured: Measured, *options: object) -> Fingerprint:
     """Return the fingerprint of everything that determines the results: that of a run, and the table."""
-    sums = hashlib.sha256(repr(measured.ids.tolist()).encode())
+    texts = (
+        array.tolist() for array in (measured.ids, measured.groups, measured.faults) if array is not None
+    )
+    sums = hashlib.sha256(repr([*texts]).encode())
     for name, column in sorted(measured.columns.items()):
         sums.update(name.encode() + column.tobytes())
     table = [[float(measured.n), float(int(sums.hexdigest()[:12], 16))]]
@@ -317,7 +396,8 @@ class _Batch:
         places = [column for name, column in self._measured.columns.items() if name in ("x", "y", "z")]
         unplaced = np.isnan([self._offsets, *places]).any(axis=0)
         reason[unplaced] = "its place is missing"
-        return reason
+        faults = self._measured.faults
+        return reason if faults is None else np.where(faults == "", reason, faults)
 
     def predict(
         self, some: NDArray[np.int64], theta: Floats, moves: bool
@@ -380,6 +460,8 @@ class _Batch:
         columns["residual"] = np.sqrt(squares / np.maximum(count, 1))
         self._reason[able] = reason
         table: dict[str, NDArray[Any]] = {"id": self._measured.ids.astype(str)}
+        if self._measured.groups is not None:
+            table["group"] = self._measured.groups
         table |= dict(zip("xyz", self._arrival.T, strict=True))
         table |= {"d": d, **dict(zip(problem.names, self.values.T, strict=True))}
         table |= {name: spread(values, able, len(d)) for name, values in columns.items()}
@@ -410,25 +492,49 @@ def _median(values: Floats) -> float:
     return median if median > 1e-12 * float(np.abs(values).max(initial=0.0)) else 0.0
 
 
-def _population(table: Mapping[str, NDArray[Any]], unknown: Sequence[str]) -> dict[str, NDArray[Any]]:
-    """Return median and spread of each property with 95 % intervals; that of the spread by resampling.
+def _population(
+    table: Mapping[str, NDArray[Any]], unknown: Sequence[str]
+) -> tuple[dict[str, NDArray[Any]], dict[str, NDArray[Any]]]:
+    """Return median and spread of each property and group with 95 % intervals, and differences of medians.
 
-    Values of 0 have no logarithm, and so no spread.
+    The interval of the spread is by resampling. Values of 0 have no logarithm, and so no spread.
     """
     from scipy.stats import bootstrap
 
-    rows = []
+    groups = table.get("group", np.full(len(table["id"]), ""))
+    rows, differences = [], []
     for name in unknown:
-        values = table[name][np.isfinite(table[name]) & (table["reason"] == "")]
-        spread = low = high = math.nan
-        logs = np.log(values) if (values > 0.0).all() else values[:0]
-        if len(logs):
-            spread = float(logs.std())
-        if len(logs) > 1:
-            low, high = bootstrap(
-                (logs,), np.std, n_resamples=_RESAMPLES, batch=_AT_ONCE, method="percentile", rng=0
-            ).confidence_interval
-        rows.append((len(values), *quantile(values), spread, float(low), float(high)))
-    heads = ("bodies", "median", "medianLow", "medianHigh", "sdLog", "sdLogLow", "sdLogHigh")
-    columns = dict(zip(heads, np.array(rows).T, strict=True))
-    return {"property": np.array(list(unknown)), **columns, "bodies": columns["bodies"].astype(np.int64)}
+        medians = {}
+        for group in np.unique(groups):
+            values = table[name][np.isfinite(table[name]) & (table["reason"] == "") & (groups == group)]
+            spread = low = high = math.nan
+            logs = np.log(values) if (values > 0.0).all() else values[:0]
+            if len(logs):
+                spread = float(logs.std())
+            if len(logs) > 1:
+                low, high = bootstrap(
+                    (logs,), np.std, n_resamples=_RESAMPLES, batch=_AT_ONCE, method="percentile", rng=0
+                ).confidence_interval
+            medians[group] = quantile(values)
+            rows.append((name, group, len(values), *medians[group], spread, float(low), float(high)))
+        differences += [
+            (name, one, other, *difference(medians[one], medians[other]))
+            for one, other in combinations(medians, 2)
+        ]
+    heads = (
+        "property",
+        "group",
+        "bodies",
+        "median",
+        "medianLow",
+        "medianHigh",
+        "sdLog",
+        "sdLogLow",
+        "sdLogHigh",
+    )
+    population = {name: np.array(column) for name, column in zip(heads, zip(*rows, strict=True), strict=True)}
+    if "group" not in table:
+        del population["group"]
+    heads = ("property", "group", "other", "difference", "low", "high")
+    columns = zip(heads, zip(*differences, strict=True), strict=True) if differences else ()
+    return population, {name: np.array(column) for name, column in columns}

@@ -19,17 +19,16 @@ from foamprb.errors import InputError
 from foamprb.flow.patches import PatchKind
 from foamprb.results.atomic import refuse_other_kind, write_text
 from foamprb.run.compilation import compile_run
-from foamprb.run.device import Bodies, Device, plane_of, view_of
+from foamprb.run.device import Bodies, Device, plane_of, view_of, youngs_factor
 from foamprb.run.job import Job
 from foamprb.run.measured import Measured
+from foamprb.run.rtdc import LEAST
 
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
 
 _HEAD = "# Look-up table of foamprb"
-_LEAST = 5e-4
-"""Smallest deformation in a table: images do not resolve smaller ones."""
 _LARGEST = 0.05
 """Largest deformation by the quadratic mode, which is of first order."""
 _WORD = re.compile(r"[\w.+-]+")
@@ -111,23 +110,28 @@ def compute_lut(
     image = device.image(seen, d, ("area", "deformation"))
     area, deformation = image["area"], image["deformation"]
     largest = _LARGEST if job.cloud.models.has_quadratic else math.inf
-    good = seen.passed & (deformation >= _LEAST) & (deformation <= largest)
+    good = seen.passed & (deformation >= LEAST) & (deformation <= largest)
     if good.sum() < 4:
         raise InputError(
-            f"{good.sum()} of {len(d)} bodies have deformations from {_LEAST:g} to {largest:g} in the plane; "
+            f"{good.sum()} of {len(d)} bodies have deformations from {LEAST:g} to {largest:g} in the plane; "
             f"the largest is {np.max(deformation, initial=0.0, where=seen.passed):.3g}. Needed: others of "
             "-moduli or -diameters, or a place away from the axis, or shapeModel quadratic."
         )
-    # Young's modulus of a solid that keeps its volume.
     solid = job.settings.injections[0].solid
-    factor = 3.0 if solid.poissonsRatio is None else 2.0 * (1.0 + solid.poissonsRatio)
     if isinstance(medium.mu, VaryingViscosity):
         log.warning(
             "The viscosity of the table is that at the shear rate 8 Q/L³; dclab has only one viscosity."
         )
-    mu = float(viscosity_at_rate(medium.mu, 8.0 * rate / width**3))
+    mu = float(viscosity_at_rate(medium.mu, wall_rate(rate, width)))
     quadratic = job.cloud.models.has_quadratic
-    return Lut(area[good], deformation[good], factor * G[good], width, rate, mu, quadratic, solid.type)
+    return Lut(
+        area[good], deformation[good], youngs_factor(solid) * G[good], width, rate, mu, quadratic, solid.type
+    )
+
+
+def wall_rate(flow_rate: float, width: float) -> float:
+    """Return a usual shear rate in a square channel, 8 Q/L³, 1/s."""
+    return 8.0 * flow_rate / width**3
 
 
 def inflow(job: Job) -> float:

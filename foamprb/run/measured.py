@@ -7,7 +7,7 @@ import logging
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.errors import InputError, closest
-from foamprb.optional import load
+from foamprb.run.rtdc import LEAST, Conditions, pixel_noise, read_rtdc
 
 log = logging.getLogger("foamprb")
 
@@ -55,11 +55,20 @@ class Measured:
         shapes with their standard errors, ``strainError``. NaN where a value is missing.
     ids
         Numbers or names of the bodies, (n,).
+    groups
+        Group of each body, (n,); None without groups.
+    faults
+        Why bodies are left out, (n,), empty for the others.
+    conditions
+        Those of the measurement, as far as its file has them.
     """
 
     file: str
     columns: Mapping[str, Floats]
     ids: NDArray[Any]
+    groups: NDArray[Any] | None = None
+    faults: NDArray[Any] | None = None
+    conditions: Conditions | None = None
 
     @property
     def n(self) -> int:
@@ -88,10 +97,57 @@ class Measured:
     def take(self, rows: slice) -> Measured:
         """Return some of the bodies."""
         columns = {name: column[rows] for name, column in self.columns.items()}
-        return Measured(self.file, columns, self.ids[rows])
+        groups, faults = (None if a is None else a[rows] for a in (self.groups, self.faults))
+        return replace(self, columns=columns, ids=self.ids[rows], groups=groups, faults=faults)
+
+    def with_errors(self, error: float) -> Measured:
+        """Return the bodies with a standard error of the shapes without one, in their SI units."""
+        errors = {f"{name}Error": np.full(self.n, error) for name in self.shapes}
+        return replace(self, columns={**errors, **self.columns})
 
 
-def read_measured(table: PathLike[str] | str | Mapping[str, ArrayLike]) -> Measured:
+def read_all(files: Sequence[Path], by: str | None = None, error: float | None = None) -> Measured:
+    """Read tables of bodies that were measured under the same conditions, see :func:`read_measured`.
+
+    ``by`` may also be ``file``.
+
+    Raises
+    ------
+    InputError
+        If one cannot be read, or their columns or conditions differ.
+    """
+    tables = [read_measured(file, None if by == "file" else by, error) for file in files]
+    if len(tables) == 1 and by != "file":
+        return tables[0]
+    first = tables[0]
+    for other in tables[1:]:
+        if other.columns.keys() != first.columns.keys() or not _alike(first.conditions, other.conditions):
+            raise InputError(
+                f"{other.file} has other columns or conditions than {first.file}. Fit each alone."
+            )
+    groups = [np.full(table.n, Path(table.file).stem) for table in tables]
+    if by != "file":
+        groups = [table.groups for table in tables if table.groups is not None]
+    return Measured(
+        ", ".join(table.file for table in tables),
+        {name: np.concatenate([table.columns[name] for table in tables]) for name in first.columns},
+        np.concatenate([[f"{Path(table.file).stem}/{k}" for k in table.ids] for table in tables]),
+        np.concatenate(groups) if groups else None,
+        np.concatenate([np.full(t.n, "", dtype=object) if t.faults is None else t.faults for t in tables]),
+        first.conditions,
+    )
+
+
+def _alike(a: Conditions | None, b: Conditions | None) -> bool:
+    """Return whether conditions agree within 1 %."""
+    if a is None or b is None:
+        return a is b
+    return bool(np.allclose(a[:3], b[:3], rtol=0.01, equal_nan=True))
+
+
+def read_measured(
+    table: PathLike[str] | str | Mapping[str, ArrayLike], by: str | None = None, error: float | None = None
+) -> Measured:
     """Read a table of measured bodies.
 
     Parameters
@@ -101,6 +157,11 @@ def read_measured(table: PathLike[str] | str | Mapping[str, ArrayLike]) -> Measu
         decimals may have commas beside the latter two. A file of dclab, ``.rtdc`` or ``.tsv``; the
         ``_evaluated.csv`` of shear flow deformation cytometry; or arrays in SI units by the names of
         :class:`Measured`.
+    by
+        Column by which bodies are grouped; of an ``.rtdc`` file, ``sample``.
+    error
+        Standard error, in SI units, of the shapes without one; by default, of files with a size of pixels,
+        that of outlines through these.
 
     Raises
     ------
@@ -108,19 +169,34 @@ def read_measured(table: PathLike[str] | str | Mapping[str, ArrayLike]) -> Measu
         If the file cannot be read; if a unit is missing or unknown, a column that is needed is missing, or a
         cell is no number.
     """
+    if error is not None and not 0.0 < error < math.inf:
+        raise InputError(f"-error {error:g}: a number > 0 is needed.")
     if isinstance(table, Mapping):
-        return _checked("measured", {name: np.asarray(values) for name, values in table.items()})
+        columns = {name: np.asarray(values) for name, values in table.items()}
+        return _finish(_checked("measured", columns, by), error)
     path = Path(table)
     if not path.is_file():
         raise InputError(f"{path}: no such file. Needed: a table of measured bodies.")
-    if path.suffix == ".rtdc":
-        return _of_dclab(path, *_read_rtdc(path))
+    return _finish(_of_rtdc(path, by, error) if path.suffix == ".rtdc" else _read_text(path, by), error)
+
+
+def _finish(measured: Measured, error: float | None) -> Measured:
+    """Return bodies with errors, and with the fault of a deformation alone that is too small."""
+    faults = np.full(measured.n, "", dtype=object) if measured.faults is None else measured.faults
+    if measured.shapes == ("deformation",):
+        faults[measured.of("deformation") < LEAST] = f"its deformation is below {LEAST:g}"
+    measured = replace(measured, faults=faults)
+    return measured if error is None else measured.with_errors(error)
+
+
+def _read_text(path: Path, by: str | None) -> Measured:
+    """Read a table of text; see :func:`read_measured`."""
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: not a readable table ({error}).") from error
     if path.suffix == ".tsv":
-        return _of_dclab(path, *_split_tsv(path, lines))
+        return _of_tsv(path, *_split_tsv(path, lines))
     separator = max(",;\t", key=lines[0].count) if lines else ","
     rows = [row for row in csv.reader(lines, delimiter=separator) if any(cell.strip() for cell in row)]
     if separator != ",":
@@ -132,12 +208,12 @@ def read_measured(table: PathLike[str] | str | Mapping[str, ArrayLike]) -> Measu
         return _of_evaluation(path, rows)
     heads, factors = [], []
     for head in rows[0]:
-        name, factor = _factor(path, head)
+        name, factor = ("by", 1.0) if head.strip() == by else _factor(path, head)
         heads.append(name)
         factors.append(factor)
     if twice := next((name for name in heads if name and heads.count(name) > 1), ""):
         raise InputError(f"{path}: two columns {twice}. Needed: one.")
-    return _checked(str(path), _numbers(path, heads, rows[1:], 2, factors))
+    return _checked(str(path), _numbers(path, heads, rows[1:], 2, factors), by)
 
 
 def _factor(path: Path, head: str) -> tuple[str, float]:
@@ -173,7 +249,7 @@ def _numbers(
             raise InputError(f"{path}: line {line} has {len(row)} cells, the heads are {len(heads)}.")
     for k, (name, factor) in enumerate(zip(heads, factors, strict=True)):
         cells = [row[k].strip() for row in rows]
-        if name == "id":
+        if name in ("id", "by"):
             columns[name] = np.array(cells)
         elif name:
             values = np.empty(len(cells))
@@ -188,13 +264,16 @@ def _numbers(
     return columns
 
 
-def _checked(file: str, columns: dict[str, NDArray[Any]]) -> Measured:
+def _checked(file: str, columns: dict[str, NDArray[Any]], by: str | None = None) -> Measured:
     """Return measured bodies, with size and strain by the semi-axes a and b if these are measured."""
     sizes = {len(column) for column in columns.values()}
     if len(sizes) > 1:
         raise InputError(f"{file}: columns of different lengths, {', '.join(map(str, sorted(sizes)))}.")
     n = next(iter(sizes), 0)
     ids = columns.pop("id", np.arange(n))
+    groups = columns.pop("by", columns.pop(by, None) if by else None)
+    if by and groups is None:
+        raise InputError(f"{file}: no column {by}, by which bodies are grouped (-by).")
     values = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
     if {"a", "b"} <= values.keys():
         a, b = values.pop("a"), values.pop("b")
@@ -203,7 +282,7 @@ def _checked(file: str, columns: dict[str, NDArray[Any]]) -> Measured:
         values.setdefault("area", np.pi * product)
     if "angle" in values:
         values["angle"] = _acute(file, values["angle"])
-    measured = Measured(file, values, ids)
+    measured = Measured(file, values, ids, None if groups is None else groups.astype(str))
     if n == 0 or not ({"d", "area"} & values.keys()):
         raise InputError(
             f"{file}: no size of the bodies. Needed: a column d [um], area [um2], or a [um] and b [um]."
@@ -238,15 +317,26 @@ def _acute(file: str, angle: Floats) -> Floats:
 # Files of devices
 
 
-def _read_rtdc(path: Path) -> tuple[list[str], NDArray[Any]]:
-    """Return names and values of the features of a file of dclab."""
-    dclab = load("dclab", "cytometry", "files of dclab need")
-    try:
-        with dclab.new_dataset(path) as data:
-            names = [name for name in ("area_um", "deform") if name in data]
-            return names, np.array([data[name][:] for name in names], dtype=float)
-    except (OSError, ValueError, KeyError) as error:
-        raise InputError(f"{path}: not a file of dclab ({error}).") from error
+def _of_rtdc(path: Path, by: str | None, error: float | None) -> Measured:
+    """Return the events of a file of dclab, with the errors by pixels if no other is given."""
+    if by not in (None, "sample"):
+        raise InputError(f"{path}: -by {by}. Allowed of files .rtdc: sample, or file.")
+    events = read_rtdc(path)
+    columns = {"area": events.area, "deformation": events.deformation}
+    if not math.isfinite(events.pixel):
+        _log_pixels(path)
+    elif error is None:
+        noise = pixel_noise(events.area, events.pixel)
+        columns |= dict(zip(("deformationError", "areaError"), noise, strict=True))
+    measured = _checked(str(path), columns)
+    groups = np.full(measured.n, events.sample) if by else None
+    return replace(measured, groups=groups, conditions=events.conditions)
+
+
+def _log_pixels(path: Path) -> None:
+    log.warning(
+        "%s: no size of pixels, whose effect remains in the deformations; moduli are too small.", path
+    )
 
 
 def _split_tsv(path: Path, lines: Sequence[str]) -> tuple[list[str], NDArray[Any]]:
@@ -260,10 +350,11 @@ def _split_tsv(path: Path, lines: Sequence[str]) -> tuple[list[str], NDArray[Any
     return names, np.array([columns[name] for name in names])
 
 
-def _of_dclab(path: Path, names: Sequence[str], values: NDArray[Any]) -> Measured:
+def _of_tsv(path: Path, names: Sequence[str], values: NDArray[Any]) -> Measured:
     columns = dict(zip(names, values, strict=True))
     if missing := [name for name in ("area_um", "deform") if name not in columns]:
         raise InputError(f"{path}: no feature {missing[0]}. Needed: area_um and deform.")
+    _log_pixels(path)
     return _checked(str(path), {"area": 1e-12 * columns["area_um"], "deformation": columns["deform"]})
 
 

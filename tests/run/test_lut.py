@@ -9,12 +9,13 @@ import re
 import numpy as np
 import pytest
 from pipe_case import copy_of_pipe
-from pipe_cells import CYTOMETER, VOLUME_FLOW, cytometer_job, pipe_job
+from pipe_cells import CYTOMETER, VOLUME_FLOW, cytometer_job, pipe_job, write_rtdc
 from validation.quadratic import ELEMENTS
 
 from foamprb.cli import main
 from foamprb.errors import InputError
-from foamprb.run.fit import fit_job
+from foamprb.run.device import Bodies, Device, plane_of, view_of
+from foamprb.run.fit import entries_of, fit_job
 from foamprb.run.job import prepare
 from foamprb.run.lut import compute_lut, inflow, write_lut
 from foamprb.run.measured import read_measured
@@ -38,6 +39,59 @@ def test_moduli_of_cells_are_those_of_finite_elements(cytometer):
     fits = fit_job(cytometer, measured, ("shearModulus",), overwrite=True)
     assert fits.fitted.all()
     np.testing.assert_allclose(3e-3 * fits.table["shearModulus"], youngs, rtol=0.03)
+
+
+def test_moduli_of_a_measurement_follow_from_its_file(tmp_path):
+    """dclab's, by its table LE-2D-FEM-19; the conditions are not those of the settings."""
+    emodulus = pytest.importorskip("dclab.features.emodulus")
+    job = cytometer_job(tmp_path)
+    area, deformation, _ = np.array(ELEMENTS).T
+    pixels = {"px_um": 0.34, "feat_corr": "deform", "feat_absc": "area_um"}
+    deformation += emodulus.get_pixelation_delta(data_absc=area, **pixels)
+    conditions = {"channel_width": 20.0, "flow_rate": 0.04, "medium": "CellCarrier", "temperature": 24.0}
+    setup = {name.replace("_", " "): conditions[name] for name in ("channel_width", "flow_rate", "medium")}
+    more = {"setup": {**setup, "temperature": 24.0}, "imaging": {"pixel size": 0.34}}
+    measured = read_measured(write_rtdc(tmp_path / "cells.rtdc", area, deformation, **more))
+    with pytest.raises(
+        InputError, match=r"its viscosity is 0.00\d+ Pa s, that of the case 0.015 Pa s. Needed: "
+    ):
+        fit_job(job, measured, ("youngsModulus",))
+    (entry,) = entries_of(measured, job.settings).items()
+    job = cytometer_job(tmp_path, mu=entry[1])
+    assert entry[0] == "constantProperties/mu"
+    fits = fit_job(job, measured, ("youngsModulus",), overwrite=True)
+    law = {"visc_model": "buyukurganci-2022", "lut_data": "LE-2D-FEM-19", "px_um": 0.34}
+    expected = emodulus.get_emodulus(deform=deformation, area_um=area, **conditions, **law)
+    np.testing.assert_allclose(1e-3 * fits.table["youngsModulus"], expected, rtol=0.03)
+    more["setup"]["channel width"] = 30.0
+    other = read_measured(write_rtdc(tmp_path / "other.rtdc", area, deformation, **more))
+    with pytest.raises(InputError, match="its channel width is 3e-05 m, that of the case 2e-05 m"):
+        fit_job(job, other, ("youngsModulus",))
+    assert fit_job(job, other, ("youngsModulus",), force=True).fitted.all()
+
+
+def test_intervals_by_a_given_error_hold_and_groups_differ(cytometer):
+    """Images of cells of 3 and 4 kPa, with noise of 0.001."""
+    random, n = np.random.default_rng(1), 200
+    modulus, d = np.repeat([1000.0, 4000.0 / 3.0], n), random.normal(12e-6, 5e-7, 2 * n)
+    plane = plane_of(None, cytometer)
+    device = Device(cytometer, plane, view_of(None, cytometer, plane))
+    device.pass_guides(plane.point[0])
+    guide, start, _ = device.lead_to(np.full((2 * n, 3), np.nan))
+    seen = device.follow(Bodies(guide, start, d, {"shearModulus": modulus}), np.full(2 * n, plane.point[0]))
+    image = device.image(seen, d, ("area", "deformation"))
+    image["deformation"] += random.normal(0.0, 1e-3, 2 * n)
+    groups = {"sample": np.repeat(["soft", "stiff"], n)}
+    fits = fit_job(
+        cytometer, read_measured({**image, **groups}, "sample", 1e-3), ("shearModulus",), overwrite=True
+    )
+    low, high = (fits.table[f"shearModulus{end}"][fits.fitted] for end in ("Low", "High"))
+    held = ((low <= modulus[fits.fitted]) & (high >= modulus[fits.fitted])).mean()
+    assert 0.93 <= held <= 0.97
+    np.testing.assert_allclose(fits.population["median"], [1000.0, 4000.0 / 3.0], rtol=0.02)
+    (row,) = zip(*fits.differences.values(), strict=True)
+    assert row[:3] == ("shearModulus", "soft", "stiff")
+    assert row[4] < -1000.0 / 3.0 < row[5] < 0.0
 
 
 def test_a_fit_without_the_walls_says_by_how_much_it_is_wrong(tmp_path, caplog):

@@ -6,9 +6,11 @@ import sys
 
 import numpy as np
 import pytest
+from pipe_cells import write_rtdc
 
 from foamprb.errors import InputError
-from foamprb.run.measured import read_measured
+from foamprb.run.measured import read_all, read_measured
+from foamprb.run.rtdc import pixel_noise
 
 
 def table(folder, text, name="cells.csv"):
@@ -106,18 +108,69 @@ def test_an_exported_table_of_dclab_is_read(tmp_path):
         read_measured(lacking)
 
 
-def test_a_measurement_of_dclab_is_read(tmp_path):
-    dclab = pytest.importorskip("dclab")
-    path = tmp_path / "cells.rtdc"
-    with dclab.RTDCWriter(path) as writer:
-        writer.store_metadata({"experiment": {"sample": "beads", "run index": 1, "event count": 2}})
-        writer.store_feature("area_um", np.array([50.0, 60.0]))
-        writer.store_feature("deform", np.array([0.02, 0.03]))
+def test_a_measurement_of_dclab_is_read(tmp_path, caplog):
+    path = write_rtdc(tmp_path / "cells.rtdc", [50.0, 60.0, 0.0], [0.02, 0.03, 0.1])
     measured = read_measured(path)
-    np.testing.assert_allclose(measured.of("area"), [5e-11, 6e-11])
-    np.testing.assert_allclose(measured.of("deformation"), [0.02, 0.03])
+    assert "no size of pixels" in caplog.text
+    np.testing.assert_allclose(measured.of("area")[:2], [5e-11, 6e-11])
+    np.testing.assert_allclose(measured.of("deformation")[:2], [0.02, 0.03])
+    assert np.isnan(measured.of("area")[2])
+    pytest.importorskip("dclab")
     with pytest.raises(InputError, match="not a file of dclab"):
         read_measured(table(tmp_path, "", "empty.rtdc"))
+
+
+def test_pixels_and_medium_of_a_measurement_count(tmp_path):
+    """CellCarrier: 2.3e-6 exp(3379.7/T) γ̇^(n − 1), n = 0.00223 T − 0.0056 (Buyukurganci et al. 2022)."""
+    setup = {"channel width": 20.0, "flow rate": 0.04, "medium": "CellCarrier", "chip region": "channel"}
+    setup["temperature"] = 23.0
+    more = {"setup": setup, "imaging": {"pixel size": 0.34}}
+    path = write_rtdc(tmp_path / "cells.rtdc", [50.0, 50.0], [0.02, 0.0084], **more)
+    measured = read_measured(path, by="sample")
+    # 0.0012 + 0.02 exp(−50/7.1) + 0.01 exp(−50/38.6) + 0.005 exp(−50/296)
+    delta = 0.0012 + 1.75e-5 + 2.738e-3 + 4.223e-3
+    np.testing.assert_allclose(measured.of("deformation"), [0.02 - delta, 0.0084 - delta], rtol=2e-3)
+    assert measured.faults.tolist() == ["", "its deformation is below 0.0005"]
+    assert measured.conditions[:3] == pytest.approx((20e-6, 0.04e-9, 5.38e-3), rel=1e-3)
+    assert measured.conditions.origin == "CellCarrier at 23 °C by buyukurganci-2022"
+    assert measured.groups.tolist() == ["beads", "beads"]
+    assert np.isnan(read_measured(path, error=0.002).of("areaError")[0])
+    assert read_measured(path, error=0.002).of("deformationError")[0] == 0.002
+    both = read_all([path, path], by="file")
+    assert both.n == 4
+    assert both.ids.tolist()[:1] == ["cells/0"]
+    setup["chip region"] = "reservoir"
+    with pytest.raises(InputError, match="its events were seen in the reservoir"):
+        read_measured(write_rtdc(tmp_path / "b.rtdc", [50.0], [0.02], **more))
+
+
+def test_pixels_make_the_noise_that_is_assumed():
+    """Hulls of the pixels inside circles and ellipses, at places at random."""
+    from scipy.spatial import ConvexHull
+    from scipy.special import ellipe
+
+    random, r, spreads, means = np.random.default_rng(0), 16.0, [], []
+    grid = np.stack(np.meshgrid(*2 * [np.arange(-20.0, 21.0)]), axis=-1)
+    for ratio in (1.0, 1.15):
+        a, b = r * ratio, r / ratio
+        hulls = [
+            ConvexHull(grid[(((grid - random.uniform(-0.5, 0.5, 2)) / (a, b)) ** 2).sum(axis=-1) <= 1.0])
+            for _ in range(200)
+        ]
+        seen = np.array([1.0 - 2.0 * np.sqrt(np.pi * hull.volume) / hull.area for hull in hulls])
+        spreads.append(seen.std())
+        means.append(seen.mean() - (1.0 - np.pi * r / (2.0 * a * ellipe(1.0 - (b / a) ** 2))))
+    noise, _ = pixel_noise(np.array([np.pi * r**2]), 1.0)
+    assert spreads[0] < noise[0] < spreads[1] < 2.0 * noise[0]
+    # dclab's law for these has .0059.
+    np.testing.assert_allclose(means, 0.0059, rtol=0.05)
+
+
+def test_groups_are_those_of_a_column(tmp_path):
+    path = table(tmp_path, "d [um],strain,sample\n10,0.1,a\n11,0.2,b\n")
+    assert read_measured(path, by="sample").groups.tolist() == ["a", "b"]
+    with pytest.raises(InputError, match="no column day, by which bodies are grouped"):
+        read_measured(path, by="day")
 
 
 def test_a_measurement_names_its_extra(tmp_path, monkeypatch):

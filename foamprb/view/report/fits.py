@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,10 @@ _UNITS = {
     "shearModulus": "Pa", "viscosity": "Pa s", "surfaceTension": "N/m", "area": "m²", "angle": "rad",
     "treading": "1/s", "k": "Pa", "alpha": "1",
 }  # fmt: skip
+
+
+def _numbers(values: Sequence[float]) -> tuple[str, ...]:
+    return tuple("" if np.isnan(value) else number(value) for value in values)
 
 
 def write_fit_page(fits: Fits, target: Path) -> Path:
@@ -48,11 +53,13 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
         seen, predicted = columns[name][fitted], columns[f"{name}Predicted"][fitted]
         plot = plots.dots(seen, predicted, (f"{name}, measured", unit), ("predicted", unit), line=True)
         compared.append(drawn(f"{name}Predicted", plot, f"{name}, predicted over measured."))
+    grouped = "group" in fits.population
     numbers = [
-        (name, int(n), *("" if np.isnan(value) else number(value) for value in values))
-        for name, n, *values in zip(*fits.population.values(), strict=True)
+        (*row[: 1 + grouped], *map(int, row[1 + grouped : 2 + grouped]), *_numbers(row[2 + grouped :]))
+        for row in zip(*fits.population.values(), strict=True)
     ]
-    heads = ("property", "bodies", "median", "from", "to", "deviation of ln", "from", "to")
+    heads = ("property", *(["group"] if grouped else []), "bodies", "median", "from", "to", "deviation of ln",
+             "from", "to")  # fmt: skip
     reasons = table("Bodies that were not fitted", ("reason", "bodies"), fits.reasons.items())
     sections = [
         PageSection("population", "Population", table("Medians, with 95 % intervals", heads, numbers)),
