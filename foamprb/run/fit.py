@@ -59,6 +59,8 @@ _BOUNDED = ("viscosity", "surfaceTension")
 """Unknowns that may be 0; the logarithms of the others are fitted."""
 _OTHER_UNIT = 30.0
 """Factor between measured sizes and those of the case from which units are probably wrong."""
+_LEVELS, _SIZES = 5, 12
+"""Numbers of values and sizes of lines of equal modulus."""
 _RESAMPLES, _AT_ONCE = 1000, 20
 _TEXTS = ("id", "reason", "group")
 _OTHER_DEVICE = 0.02
@@ -77,6 +79,9 @@ class Fits:
         A row for each property, and group: ``population.csv``.
     differences
         Differences of the medians of two groups, a row for each property and pair: ``differences.csv``.
+    lines
+        Area, m², and deformation of bodies with a few values of the first property: ``lines.csv``. Empty
+        without these quantities, or of bodies that pass at different places.
     unknown
         Names of the properties.
     shapes
@@ -88,6 +93,7 @@ class Fits:
     table: Mapping[str, NDArray[Any]]
     population: Mapping[str, NDArray[Any]]
     differences: Mapping[str, NDArray[Any]]
+    lines: Mapping[str, NDArray[Any]]
     unknown: tuple[str, ...]
     shapes: tuple[str, ...]
     folder: Path
@@ -249,7 +255,9 @@ def _fit(problem: _Problem, folder: Path, marks: Fingerprint, overwrite: bool) -
     write_table(folder / "population.csv", population)
     if differences:
         write_table(folder / "differences.csv", differences)
-    return Fits(table, population, differences, unknown, measured.shapes, folder)
+    if lines := problem.lines(table):
+        write_table(folder / "lines.csv", lines)
+    return Fits(table, population, differences, lines, unknown, measured.shapes, folder)
 
 
 def entries_of(measured: Measured, settings: Settings) -> dict[str, object]:
@@ -361,6 +369,37 @@ class _Problem:
         )
         return batch.table(solution)
 
+    def lines(self, table: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        """Return areas and deformations of bodies of some sizes and values; see :class:`Fits`."""
+        rows, name = np.flatnonzero(table["reason"] == ""), self.unknown[0]
+        x = np.stack([table[axis][rows] for axis in "xyz"], axis=1)
+        d, values = table["d"][rows], table[name][rows]
+        if (
+            {"area", "deformation"} - {*self.names}
+            or len(rows) < 2
+            or np.ptp(x, axis=0).max() > _NEAR * d.min()
+            or values.min() <= 0.0
+        ):
+            return {}
+        levels = [
+            float(f"{level:.2g}") for level in np.geomspace(*np.quantile(values, (0.05, 0.95)), _LEVELS)
+        ]
+        sizes, level = (
+            a.ravel() for a in np.meshgrid(np.linspace(d.min(), d.max(), _SIZES), levels, indexing="ij")
+        )
+        one = np.full(len(sizes), rows[0])
+        other = {key: np.full(len(sizes), np.median(table[key][rows])) for key in self.unknown[1:]}
+        bodies = Bodies(self.guide[one], self.release[one], sizes, {name: level, **other})
+        seen = self.device.follow(bodies, self.offsets[one])
+        image = self.device.image(seen, sizes, ("area", "deformation"))
+        passed = np.flatnonzero(seen.passed)
+        order = passed[np.lexsort((sizes[passed], level[passed]))]
+        return {
+            "value": level[order],
+            "area": image["area"][order],
+            "deformation": image["deformation"][order],
+        }
+
 
 class _Batch:
     """Bodies that are fitted together."""
@@ -457,6 +496,8 @@ class _Batch:
                 value = np.maximum(end, 0.0) if problem.bounded[k] else np.exp(end)
                 columns[name + ending] = problem.scales[k] * value
         columns |= {f"{name}Predicted": solution.predicted[:, k] for k, name in enumerate(problem.names)}
+        errors = self.errors[able] if problem.has_errors else np.full_like(self.errors[able], np.nan)
+        columns |= {f"{name}Error": errors[:, k] for k, name in enumerate(problem.names)}
         columns["residual"] = np.sqrt(squares / np.maximum(count, 1))
         self._reason[able] = reason
         table: dict[str, NDArray[Any]] = {"id": self._measured.ids.astype(str)}

@@ -304,7 +304,7 @@ def test_command_writes_tables_and_a_page(tmp_path, capsys):
     expected = 2.5 * 0.1 * rate / np.array([0.20, 0.25, 0.30])
     np.testing.assert_allclose(values["shearModulus"], expected, rtol=0.06)
     page = (folder / "fit.html").read_text()
-    assert page.count("<svg") == 3
+    assert page.count("<svg") == 4
     assert (folder / "fitPlots/strainPredicted.png").exists()
     table.write_text(table.read_text().replace("y [mm],d [µm]", "y [m],d [nm]"))
     assert main(["fit", *options, "-measured", str(table)]) == 1

@@ -19,6 +19,7 @@ from foamprb.run.fit import entries_of, fit_job
 from foamprb.run.job import prepare
 from foamprb.run.lut import compute_lut, inflow, write_lut
 from foamprb.run.measured import read_measured
+from foamprb.view.report.fits import write_fit_page
 
 
 @pytest.fixture(scope="module")
@@ -81,6 +82,7 @@ def test_intervals_by_a_given_error_hold_and_groups_differ(cytometer):
     seen = device.follow(Bodies(guide, start, d, {"shearModulus": modulus}), np.full(2 * n, plane.point[0]))
     image = device.image(seen, d, ("area", "deformation"))
     image["deformation"] += random.normal(0.0, 1e-3, 2 * n)
+    image["deformation"][0] = 1e-4
     groups = {"sample": np.repeat(["soft", "stiff"], n)}
     fits = fit_job(
         cytometer, read_measured({**image, **groups}, "sample", 1e-3), ("shearModulus",), overwrite=True
@@ -92,6 +94,19 @@ def test_intervals_by_a_given_error_hold_and_groups_differ(cytometer):
     (row,) = zip(*fits.differences.values(), strict=True)
     assert row[:3] == ("shearModulus", "soft", "stiff")
     assert row[4] < -1000.0 / 3.0 < row[5] < 0.0
+    page = write_fit_page(fits, fits.folder / "fit.html").read_text()
+    for text in (
+        "lines of equal shearModulus, Pa",
+        "left out",
+        "shearModulus [Pa]",
+        "Differences of medians",
+    ):
+        assert text in page
+    # Bodies on a line of the page have its modulus.
+    lines = {name: values[::7] for name, values in fits.lines.items()}
+    shapes = read_measured({name: lines[name] for name in ("area", "deformation")})
+    again = fit_job(cytometer, shapes, ("shearModulus",), overwrite=True)
+    np.testing.assert_allclose(again.table["shearModulus"], lines["value"], rtol=0.01)
 
 
 def test_a_fit_without_the_walls_says_by_how_much_it_is_wrong(tmp_path, caplog):

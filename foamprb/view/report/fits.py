@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.results.atomic import atomic_write, refuse_other_kind, write_text
+from foamprb.results.intervals import Estimate
 from foamprb.view.colours import number
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, page, table
@@ -17,14 +19,12 @@ from foamprb.view.show import PAGE_BEGINS
 if TYPE_CHECKING:
     from foamprb.run.fit import Fits
 
+Floats = NDArray[np.float64]
+
 _UNITS = {
-    "shearModulus": "Pa", "viscosity": "Pa s", "surfaceTension": "N/m", "area": "m²", "angle": "rad",
-    "treading": "1/s", "k": "Pa", "alpha": "1",
+    "shearModulus": "Pa", "youngsModulus": "Pa", "viscosity": "Pa s", "surfaceTension": "N/m", "k": "Pa",
+    "alpha": "1", "area": "m²", "angle": "rad", "treading": "1/s",
 }  # fmt: skip
-
-
-def _numbers(values: Sequence[float]) -> tuple[str, ...]:
-    return tuple("" if np.isnan(value) else number(value) for value in values)
 
 
 def write_fit_page(fits: Fits, target: Path) -> Path:
@@ -37,32 +37,74 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
         made[name] = plot
         return figure(plot, caption)
 
-    over_size, over_place, compared = [], [], []
+    spreads, over_size, over_place, compared = [], [], [], []
     axis = max("xyz", key=lambda name: float(np.ptp(columns[name][fitted])) if fitted.any() else 0.0)
+    medians = _medians(fits)
     for name in fits.unknown if fitted.any() else ():
         y = (name, _UNITS[name])
-        plot = plots.dots(columns["d"][fitted], columns[name][fitted], ("d", "m"), y, log=True)
+        groups = {group: _of_group(fits, name, group) for group in medians[name]}
+        groups = {group: values for group, values in groups.items() if len(values)}
+        plot = plots.spreads(groups, medians[name], *y)
+        spreads.append(drawn(f"{name}Histogram", plot, f"{name}: median and its 95 % interval."))
+        plot = plots.dots(
+            columns["d"][fitted], columns[name][fitted], ("d", "m"), y, log=_is_positive(fits, name)
+        )
         over_size.append(drawn(f"{name}OverSize", plot, f"{name} over the diameter."))
         if np.ptp(columns[axis][fitted]) < 0.1 * np.median(columns["d"][fitted]):
             # All pass at the same place.
             continue
-        plot = plots.dots(columns[axis][fitted], columns[name][fitted], (axis, "m"), y, log=True)
+        plot = plots.dots(
+            columns[axis][fitted], columns[name][fitted], (axis, "m"), y, log=_is_positive(fits, name)
+        )
         over_place.append(drawn(f"{name}OverPlace", plot, f"{name} over the place in the plane."))
     for name in fits.shapes if fitted.any() else ():
         unit = _UNITS.get(name, "1")
         seen, predicted = columns[name][fitted], columns[f"{name}Predicted"][fitted]
-        plot = plots.dots(seen, predicted, (f"{name}, measured", unit), ("predicted", unit), line=True)
-        compared.append(drawn(f"{name}Predicted", plot, f"{name}, predicted over measured."))
+        errors = columns[f"{name}Error"][fitted]
+        plot = plots.dots(
+            seen, predicted, (f"{name}, measured", unit), ("predicted", unit), line=True,
+            errors=errors if np.isfinite(errors).any() else None,
+        )  # fmt: skip
+        compared.append(
+            drawn(f"{name}Predicted", plot, f"{name}, predicted over measured, with standard errors.")
+        )
+    events = []
+    if {"area", "deformation"} <= columns.keys() and fitted.any():
+        area, deformation = columns["area"], columns["deformation"]
+        lines = [
+            (
+                number(value),
+                *(fits.lines[name][fits.lines["value"] == value] for name in ("area", "deformation")),
+            )
+            for value in np.unique(fits.lines.get("value", ()))
+        ]
+        plot = plots.dots(
+            area[fitted], deformation[fitted], ("area", "m²"), ("deformation", "1"),
+            others=(area[~fitted], deformation[~fitted]), curves=lines,
+        )  # fmt: skip
+        caption = f"All events; lines of equal {fits.unknown[0]}, {_UNITS[fits.unknown[0]]}."
+        events.append(drawn("deformationOverArea", plot, caption))
     grouped = "group" in fits.population
-    numbers = [
-        (*row[: 1 + grouped], *map(int, row[1 + grouped : 2 + grouped]), *_numbers(row[2 + grouped :]))
+    rows = [
+        (
+            f"{row[0]} [{_UNITS[row[0]]}]",
+            *row[1 : 1 + grouped],
+            int(row[1 + grouped]),
+            *_numbers(row[2 + grouped :]),
+        )
         for row in zip(*fits.population.values(), strict=True)
     ]
     heads = ("property", *(["group"] if grouped else []), "bodies", "median", "from", "to", "deviation of ln",
              "from", "to")  # fmt: skip
+    population = table("Medians, with 95 % intervals", heads, rows)
+    if fits.differences:
+        rows = [(*row[:3], *_numbers(row[3:])) for row in zip(*fits.differences.values(), strict=True)]
+        heads = ("property", "group", "less that of", "difference", "from", "to")
+        population += table("Differences of medians, with 95 % intervals", heads, rows)
     reasons = table("Bodies that were not fitted", ("reason", "bodies"), fits.reasons.items())
     sections = [
-        PageSection("population", "Population", table("Medians, with 95 % intervals", heads, numbers)),
+        *([PageSection("events", "Events", grid(*events))] if events else []),
+        PageSection("population", "Population", population + grid(*spreads)),
         PageSection("size", "Size", grid(*over_size)),
         *([PageSection("place", "Place", grid(*over_place))] if over_place else []),
         PageSection("shapes", "Shapes", grid(*compared)),
@@ -76,3 +118,26 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
                 temporary.write_bytes(data)
     write_text(target, text)
     return target
+
+
+def _numbers(values: Sequence[float]) -> tuple[str, ...]:
+    return tuple("" if np.isnan(value) else number(value) for value in values)
+
+
+def _medians(fits: Fits) -> dict[str, dict[str, Estimate]]:
+    """Return the medians of each property by group, "" without groups."""
+    columns, medians = fits.population, {name: {} for name in fits.unknown}  # type: dict[str, dict[str, Estimate]]
+    groups = columns.get("group", np.full(len(columns["property"]), ""))
+    ends = (columns[f"median{end}"] for end in ("", "Low", "High"))
+    for name, group, *values in zip(columns["property"], groups, *ends, strict=True):
+        medians[str(name)][str(group)] = Estimate(*map(float, values))
+    return medians
+
+
+def _of_group(fits: Fits, name: str, group: str) -> Floats:
+    """Return the values of the fitted bodies of a group, those of all for ""."""
+    return np.asarray(fits.table[name][fits.fitted & ((fits.table["group"] == group) if group else True)])
+
+
+def _is_positive(fits: Fits, name: str) -> bool:
+    return bool((fits.table[name][fits.fitted] > 0.0).all())

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.optional import load
+from foamprb.results.intervals import Estimate
 from foamprb.view.colours import NAMES, number, readable
 from foamprb.view.report.deposits import FEW, Deposits
 
@@ -221,6 +222,9 @@ def dots(
     y_axis: tuple[str, str],
     line: bool = False,
     log: bool = False,
+    errors: Floats | None = None,
+    others: tuple[Floats, Floats] | None = None,
+    curves: Sequence[tuple[str, Floats, Floats]] = (),
 ) -> Plot:
     """Return a dot for each body; a selection of many.
 
@@ -234,13 +238,30 @@ def dots(
         Whether to draw the line on which both are equal.
     log
         Whether the axis of y is logarithmic.
+    errors
+        Standard errors of x, (n,), drawn as bars.
+    others
+        x and y of bodies that were left out.
+    curves
+        Label, x and y of curves.
     """
     few = slice(None, None, 1 + len(x) // _MOST_DOTS)
     (fx, nx), (fy, ny) = _scaled(x, x_axis[1]), _scaled(y, y_axis[1])
 
     def draw(_: Any, axes: Any) -> None:
+        if others is not None and len(others[0]):
+            axes.plot(others[0] / fx, others[1] / fy, "x", color=_SOFT, markersize=3.5, markeredgewidth=0.8,
+                      rasterized=True, label="left out")  # fmt: skip
+        if errors is not None:
+            axes.errorbar(x[few] / fx, y[few] / fy, xerr=errors[few] / fx, fmt="none", ecolor=NAMES[0],
+                          elinewidth=0.6, alpha=0.35)  # fmt: skip
         axes.plot(x[few] / fx, y[few] / fy, "o", color=NAMES[0], markersize=3.0, markeredgewidth=0.0,
                   alpha=0.5, rasterized=True)  # fmt: skip
+        for label, along, up in curves:
+            axes.plot(along / fx, up / fy, color=_INK, linewidth=0.9)
+            axes.annotate(label, (along[-1] / fx, up[-1] / fy), fontsize=8)
+        if others is not None and len(others[0]):
+            _legend(axes)
         if line:
             ends = np.array([np.nanmin(x), np.nanmax(x)])
             axes.plot(ends / fx, ends / fy, "--", color=NAMES[5], label="equal")
@@ -252,6 +273,25 @@ def dots(
             plain = load("matplotlib.ticker").FuncFormatter(lambda value, _: number(value))
             axes.yaxis.set_major_formatter(plain)
             axes.yaxis.set_minor_formatter(plain)
+
+    return _plot(draw)
+
+
+def spreads(groups: dict[str, Floats], medians: dict[str, Estimate], symbol: str, unit: str) -> Plot:
+    """Return histograms of a quantity of groups of bodies, with their medians and the intervals of these."""
+    everything = np.concatenate(list(groups.values()))
+    factor, name = _scaled(everything, unit)
+    low, high = np.quantile(everything, (0.005, 0.995))
+    edges = np.linspace(low, high if high > low else low + (abs(low) or 1.0), _BINS + 1)
+
+    def draw(_: Any, axes: Any) -> None:
+        for k, (group, values) in enumerate(groups.items()):
+            colour, median = NAMES[(0, 5, 2, 3, 1, 4)[k % 6]], medians[group]
+            axes.hist(values / factor, edges / factor, histtype="step", color=colour, label=group or "bodies")
+            axes.axvline(median.value / factor, color=colour, linestyle="--", linewidth=1.0)
+            axes.axvspan(median.low / factor, median.high / factor, color=colour, alpha=0.22, linewidth=0)
+        axes.set(xlabel=_label(symbol, name), ylabel="bodies")
+        _legend(axes)
 
     return _plot(draw)
 
