@@ -75,6 +75,8 @@ contact, or goes on from there; 0 without inertia."""
 _MAX_BOUNCES = 10
 # A particle near the axis of a wedge goes through it many times in a step.
 _MAX_PATCHES = 1000
+_STALL = 1e-9
+"""Share of a way below which a particle that goes back and forth between two patches makes no progress."""
 _HALVINGS = 40
 _NO_NORMAL = (0.0, 0.0, 0.0)
 
@@ -452,7 +454,8 @@ def move_centre(
     """Move the centre towards its goal in Δt, through the mesh, to the patch that ends its way.
 
     A failed walk restarts from the last point on its way that the tree finds in the mesh. If it fails again,
-    the centre stays there for the rest of the step. ``ahead`` and ``held`` are as in :func:`reach_end`.
+    the centre stays there for the rest of the step. In the gap between two coupled patches that are cut into
+    different faces the centre goes on and keeps its host. ``ahead`` and ``held`` are as in :func:`reach_end`.
 
     Returns
     -------
@@ -460,7 +463,7 @@ def move_centre(
     and the triangle at which the particle bounces, −1 for none, and the number of walks that needed the tree.
     """
     block = s.block
-    recovered, bounces = 0, 0
+    recovered, bounces, stalls, last, before = 0, 0, 0, -1, -1
     t, spent = block[at.t * LANES + i], 0.0
     x0, x1 = load3(block, at.x, i), goal
     start = x0
@@ -492,6 +495,11 @@ def move_centre(
         code = patches.code[patch]
         if code == REBOUND:
             return x0, start, x1, dt, patch, triangle, recovered
+        stalls = stalls + 1 if code == CYCLIC and fraction < _STALL else 0
+        if stalls >= 2 and patch == before != last:
+            # Between two surfaces that are cut into different faces neither side leads on at once.
+            return x1, start, x1, dt, -1, -1, recovered
+        last, before = patch, last
         spent += fraction * remaining
         if code in (STICK, ESCAPE):
             settle(s, i, patch, code)

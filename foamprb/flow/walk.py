@@ -47,6 +47,7 @@ _ATTEMPTS = 4
 _APART = 1e-6
 # Weights of a point inside a tetrahedron, off its middle and the middles of its faces.
 _INSIDE = (0.1, 0.2, 0.3, 0.4)
+_MIDDLE = (0.25, 0.25, 0.25, 0.25)
 STEADY: Vector = (0.0, 0.0, 0.0)
 """∂u/∂t of a steady flow, m/s²."""
 
@@ -589,8 +590,9 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
     Returns
     -------
     host, x, turn
-        The tetrahedron behind the neighbouring face, −1 if the patch is not coupled; the point, which lies in
-        it to round-off even if the two sides do not match; the rotation from this side to the other.
+        The tetrahedron behind the neighbouring face that holds the point, −1 if the patch is not coupled; the
+        point; the rotation from this side to the other. Where the two sides are cut into different faces, the
+        point may lie between them, outside the mesh: then the nearest tetrahedron.
     """
     first, end = flow.across[triangle, 0], flow.across[triangle, 1]
     m, k = flow.motions, flow.triangle_patch[triangle]
@@ -605,9 +607,11 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
             smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
             if smallest > depth:
                 host, depth = tet, smallest
-    if depth < -_APART:
-        # Surfaces that are cut into different faces lie apart by the difference of their chords.
-        host, y = _landed(flow, first, end, y)
+    if depth < -_APART and first < end:
+        # Surfaces that are cut into different faces lie apart, or overlap, by the difference of their chords.
+        nearest = _nearest(flow, first, end, y)
+        host, _, patch, _, _ = follow(flow, nearest, _blend3(flow, nearest, _MIDDLE), y)
+        host = nearest if patch == FAILED else host
     elif host >= 0 and depth < 0.0:
         origin, c1, c2, c3, volume = frame(flow, host)
         w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, y)
@@ -624,17 +628,16 @@ def _blend3(flow: MeshArrays, tet: int, w: Weights) -> Vector:
     return blend(nodes, 0, at, w), blend(nodes, 1, at, w), blend(nodes, 2, at, w)
 
 
-def _landed(flow: MeshArrays, first: int, end: int, y: Vector) -> tuple[int, Vector]:
-    """Return the nearest point to y on triangles across, and the tetrahedron behind it."""
-    host, best, least, nodes = _NO_TET, y, np.inf, flow.nodes
+def _nearest(flow: MeshArrays, first: int, end: int, y: Vector) -> int:
+    """Return the tetrahedron behind the triangle nearest to y among ``partners`` across."""
+    host, least, nodes = _NO_TET, np.inf, flow.nodes
     for place in range(first, end):
         triangle = int(flow.partners[place])
         a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
         p = nearest_point(arm(nodes, a, y), arm(nodes, b, y), arm(nodes, c, y))
-        distance = inner(p, p)
-        if distance < least:
-            host, least, best = int(flow.triangle_tet[triangle]), distance, plus(y, p)
-    return host, best
+        if inner(p, p) < least:
+            host, least = int(flow.triangle_tet[triangle]), inner(p, p)
+    return host
 
 
 def nearest_point(a: Vector, b: Vector, c: Vector) -> Vector:

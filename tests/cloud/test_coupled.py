@@ -103,22 +103,37 @@ def _in_sector(x, angle):
     return (at >= 0.0) & (at <= angle)
 
 
-def test_rings_that_slide_on_each_other_are_crossed_with_the_error_of_their_chords():
-    """What lies between the chords of 24 and of 36 segments is skipped or walked twice, and no more."""
+def test_straight_paths_through_rings_that_slide_on_each_other_stay_straight():
+    """Between the chords of 24 and of 36 segments the place is kept, also where a path grazes them."""
     mesh = rings()
     assert [(c.patch, c.other) for c in mesh.couplings] == [(0, 3), (3, 0)]
     flow = linear(mesh, np.zeros((3, 3)))
     a = 2.0 * np.pi * (np.arange(200) + 0.3) / 200
-    v = np.column_stack([np.cos(a), np.sin(a), np.full(200, 0.3)])
-    for start, sign in ((0.8, 1.0), (1.25, -1.0)):
-        p = moving(np.column_stack([start * v[:, :2], np.full(200, 0.4)]), sign * v, 1e13)
-        expected = p.x + 0.4 * p.v
-        cloud = tracked(p, flow, actions(flow), 400)
-        assert np.all(cloud.particles.status == Status.ACTIVE)
-        assert cloud.recovered == 0
-        error = np.linalg.norm(cloud.particles.x - expected, axis=1)
-        assert error.max() < 1.0 - np.cos(np.pi / 24)
-        assert np.median(error) > 0.0
+    r, across = (np.column_stack([f(a), g(a), 0.0 * a]) for f, g in ((np.cos, np.sin), (np.sin, np.cos)))
+    along = across * [-1.0, 1.0, 1.0]
+    up = np.array([0.0, 0.0, 0.3])
+    lanes = [(0.8 * r, r), (1.25 * r, -r), (0.995 * r - 0.2 * along, along), (1.002 * r - 0.2 * along, along)]
+    x, v = (np.concatenate([lane[k] for lane in lanes]) for k in range(2))
+    p = moving(x + [0.0, 0.0, 0.4], v + up, 1e13)
+    expected = p.x + 0.4 * p.v
+    cloud = tracked(p, flow, actions(flow), 400)
+    assert np.all(cloud.particles.status == Status.ACTIVE)
+    assert cloud.recovered == 0
+    assert cloud.particles.x == pytest.approx(expected, abs=1e-6)
+
+
+def test_bodies_that_run_along_an_interface_go_on():
+    """On a circle between the chords of 24 and of 36 segments, with a fluid that turns as a whole."""
+    mesh, l = rings(), np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    flow, r = linear(mesh, l), np.linspace(0.988, 1.004, 41)
+    start = np.column_stack([r, 0.0 * r, np.full(41, 0.5)])
+    bodies = spheres(start, d=1e-5, rho=1.2, mu=1e-3)
+    bodies.v[:] = (start - [0.0, 0.0, 0.5]) @ l.T
+    cloud = Cloud(bodies, flow, AIR, actions(flow), 5e-2, threads=1)
+    cloud.advance(10)
+    x, y, _ = bodies.x.T
+    assert np.arctan2(y, x) == pytest.approx(0.5, abs=1e-5)
+    assert np.hypot(x, y) == pytest.approx(r, abs=1e-5)
 
 
 def test_an_interaction_of_a_coupled_patch_is_refused():
