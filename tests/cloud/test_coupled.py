@@ -111,10 +111,9 @@ def test_straight_paths_through_rings_that_slide_on_each_other_stay_straight():
     a = 2.0 * np.pi * (np.arange(200) + 0.3) / 200
     r, across = (np.column_stack([f(a), g(a), 0.0 * a]) for f, g in ((np.cos, np.sin), (np.sin, np.cos)))
     along = across * [-1.0, 1.0, 1.0]
-    up = np.array([0.0, 0.0, 0.3])
     lanes = [(0.8 * r, r), (1.25 * r, -r), (0.995 * r - 0.2 * along, along), (1.002 * r - 0.2 * along, along)]
     x, v = (np.concatenate([lane[k] for lane in lanes]) for k in range(2))
-    p = moving(x + [0.0, 0.0, 0.4], v + up, 1e13)
+    p = moving(x + np.array([0.0, 0.0, 0.4]), v + np.array([0.0, 0.0, 0.3]), 1e13)
     expected = p.x + 0.4 * p.v
     cloud = tracked(p, flow, actions(flow), 400)
     assert np.all(cloud.particles.status == Status.ACTIVE)

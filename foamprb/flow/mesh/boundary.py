@@ -5,7 +5,7 @@ A baffle is a face between two cells that belongs to a patch on either side.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -55,6 +55,8 @@ class PolyMesh(NamedTuple):
     patches: Sequence[PatchSurface]
     patch_start: Index
     """(n_patches + 1,): boundary faces of patch p are ``patch_start[p]`` to ``patch_start[p + 1]``."""
+    used: Mapping[str, Mask] = {}
+    """Which of the faces that the file lists count, by the names of patches of which some do not."""
 
 
 def patches_of(surfaces: Sequence[PatchSurface], patch_start: Index) -> list[Patch]:
@@ -179,17 +181,17 @@ def find_baffles(
     return found
 
 
-def with_surface(patch: PatchSurface, points: Floats, faces: Faces, part: slice) -> PatchSurface:
-    """Return a patch with the surface of its faces, for searches on it."""
+def surface_of(points: Floats, start: Labels, lists: Labels, part: slice) -> Any:
+    """Return the vtkPolyData of some faces, for searches on it."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-    start, lists = take_lists(faces.start, faces.points, np.arange(part.start, part.stop))
+    start, lists = take_lists(start, lists, np.arange(part.start, part.stop))
     used, local = np.unique(lists, return_inverse=True)
     surface, places, polygons = vtkPolyData(), vtkPoints(), vtkCellArray()
     places.SetData(numpy_to_vtk(points[used], deep=True))
     polygons.SetData(*(numpy_to_vtkIdTypeArray(a.astype(np.int64), deep=True) for a in (start, local)))
     surface.SetPoints(places)
     surface.SetPolys(polygons)
-    return patch._replace(surface=surface)
+    return surface

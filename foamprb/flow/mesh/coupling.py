@@ -172,7 +172,7 @@ def _interface(
     for one, motion in ((0, (turn, shift)), (1, (turn.T, -turn.T @ shift))):
         a, b = faces[one], faces[1 - one]
         images = centres[a] @ motion[0].T + motion[1]
-        nearest, places = _closest(surfaces[pair[1 - one]].surface, images)
+        nearest, places = closest(surfaces[pair[1 - one]].surface, images)
         area = np.linalg.norm(areas[a], axis=1)
         partners = b[nearest]
         size = np.sqrt(np.maximum(area, np.linalg.norm(areas[partners], axis=1)))
@@ -183,7 +183,7 @@ def _interface(
     return found
 
 
-def _closest(surface: Any, points: Floats) -> tuple[Index, Floats]:
+def closest(surface: Any, points: Floats) -> tuple[Index, Floats]:
     """Return the cell of a surface that is closest to each point, and the place in it that is, m."""
     from vtkmodules.vtkCommonCore import reference
     from vtkmodules.vtkCommonDataModel import vtkCellLocator

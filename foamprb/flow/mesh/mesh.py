@@ -18,7 +18,7 @@ from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.baffles import part_points
-from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, patches_of, with_surface
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, patches_of, surface_of
 from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.faces import OPEN, TWISTED, Faces, Fans, Numbering, number_tetrahedra, split_cells
@@ -171,7 +171,7 @@ def assemble(poly: PolyMesh, source: str) -> Mesh:
 
 def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Mesh, Index]:
     """Return the mesh, and the cells with neighbouring faces that turn against each other."""
-    points, faces, surfaces, patch_start = poly
+    points, faces, surfaces, patch_start, *_ = poly
     # The bases of the fans must not depend on the number of turns of a face.
     faces = faces._replace(points=faces.points.copy())
     owner, neighbour = faces.owner, faces.neighbour
@@ -180,7 +180,9 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
     face_centres, face_areas = measured(points, faces)
     boundary_centres, boundary_areas = face_centres[n_internal:].copy(), face_areas[n_internal:].copy()
     surfaces = [
-        with_surface(patch, points, faces, slice(n_internal + first, n_internal + end))
+        patch._replace(
+            surface=surface_of(points, faces.start, faces.points, slice(n_internal + first, n_internal + end))
+        )
         if patch.type == "cyclicAMI" and patch.surface is None
         else patch
         for patch, first, end in zip(surfaces, patch_start[:-1], patch_start[1:], strict=True)

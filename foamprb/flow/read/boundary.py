@@ -17,6 +17,7 @@ from foamprb.dictionary.schema import read_entries
 from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh.boundary import PatchSurface, Transform
+from foamprb.flow.mesh.lists import Mask
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import CONSTRAINTS, KINDS
 from foamprb.flow.read.foamfile import FoamFile
@@ -38,6 +39,8 @@ class PatchInfo(NamedTuple):
     """Motion from a cyclicAMI patch to its neighbour."""
     entries: dict[str, str]
     """All entries except dictionaries."""
+    rows: Mask | None = None
+    """Which of the faces in files of the case count, if some do not; see :mod:`foamprb.flow.read.overlap`."""
 
     @property
     def groups(self) -> frozenset[str]:

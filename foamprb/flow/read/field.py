@@ -77,8 +77,15 @@ class FoamField(NamedTuple):
         """Return the entry that applies to a patch, by OpenFOAM's rules.
 
         It is the entry with its name; else the last one with the name of one of its groups; else the last one
-        whose pattern matches the name.
+        whose pattern matches the name. It has the values of the faces that count.
         """
+        entry = self._entry(patch)
+        if entry is None or patch.rows is None:
+            return entry
+        rows, fields = patch.rows, entry.fields.items()
+        return entry._replace(fields={k: v[rows] if len(v) == len(rows) > 1 else v for k, v in fields})
+
+    def _entry(self, patch: PatchInfo) -> PatchField | None:
         if patch.name in self.patches and not self.patches[patch.name].pattern:
             return self.patches[patch.name]
         backwards = list(self.patches.items())[::-1]

@@ -58,6 +58,7 @@ from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
+from foamprb.flow.read.overlap import reduced
 from foamprb.flow.read.polymesh import read_poly
 from foamprb.flow.read.prepared import PreparedTimes
 from foamprb.flow.read.sampled import kinds_of, read_sampled
@@ -153,6 +154,7 @@ class Case:
         """Read the mesh at a time; InputError if it is missing, broken or inconsistent."""
         folder = self.mesh_folder(time)
         poly, patches, notes = self.poly(time)
+        patches = reduced(patches, poly.used) if poly.used else patches
         mesh = assemble(poly, str(folder))
         require_volumes(mesh, folder)
         require_patch_shapes(mesh, folder)

@@ -11,11 +11,12 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.geometry import faces_of
-from foamprb.flow.mesh.lists import starts
+from foamprb.flow.mesh.lists import int32, starts, take_lists
 from foamprb.flow.read.boundary import PatchInfo, patches_of_mesh
 from foamprb.flow.read.case import shown
 from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.foamfile import FoamFile, read_vectors
+from foamprb.flow.read.overlap import as_interfaces, used_faces
 
 _LEAST_FACES = 4
 
@@ -85,11 +86,6 @@ def checked_poly(
     same = np.flatnonzero(owner[:n_internal] == neighbour)
     if len(same):
         raise InputError(f"{paths[3]}: face {same[0]} has cell {neighbour[same[0]]} on both sides.")
-    faces = faces_of(start, lists, owner, neighbour, n_cells)
-    few = np.flatnonzero(np.diff(faces.first) < _LEAST_FACES)
-    if len(few):
-        count = np.diff(faces.first)[few[0]]
-        raise InputError(f"{paths[2]}: cell {few[0]} has {count} faces. Allowed: at least {_LEAST_FACES}.")
     patch_start = starts(np.array([patch.faces for patch in patches], dtype=np.intp))
     first = patches[0].start if patches else n_internal
     if first != n_internal or patch_start[-1] != n_faces - n_internal:
@@ -97,4 +93,16 @@ def checked_poly(
             f"{paths[4]}: the patches have the faces from {first} to {first + patch_start[-1]}, but the "
             f"faces of one cell are those from {n_internal} to {n_faces}."
         )
-    return PolyMesh(points, faces, patches_of_mesh(patches), patch_start)
+    surfaces, used = patches_of_mesh(patches), used_faces(points, start, lists, patches, paths[4])
+    if used:
+        kept = np.concatenate([used.get(patch.name, np.ones(patch.faces, dtype=bool)) for patch in patches])
+        rows = np.concatenate([np.arange(n_internal), n_internal + np.flatnonzero(kept)])
+        start, lists = (int32(a) for a in take_lists(start, lists, rows))
+        owner, surfaces = owner[rows], as_interfaces(surfaces)
+        patch_start = starts(np.add.reduceat([*kept, False], patch_start[:-1]) * (np.diff(patch_start) > 0))
+    faces = faces_of(start, lists, owner, neighbour, n_cells)
+    few = np.flatnonzero(np.diff(faces.first) < _LEAST_FACES)
+    if len(few):
+        count = np.diff(faces.first)[few[0]]
+        raise InputError(f"{paths[2]}: cell {few[0]} has {count} faces. Allowed: at least {_LEAST_FACES}.")
+    return PolyMesh(points, faces, surfaces, patch_start, used)
