@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from strategies import flat, mild_stretches, rotations, square, tensors
 from validation.references import wall as ref
-from validation.references.near_wall import sphere_along_wall
+from validation.references.near_wall import sphere_across_wall, sphere_along_wall
 
 from foamprb.body.drag import oberbeck
 from foamprb.body.ellipsoid import integrals, reach
@@ -17,11 +17,14 @@ from foamprb.body.stokes import mobility, velocity_gradient
 from foamprb.body.tensor import dev, from_frame, principal_frame, scale, skew, sym, to_frame
 from foamprb.body.traction import disturbance
 from foamprb.body.wall import (
+    curvature_factor,
     force_gradient,
     hindered_resistance,
     hindrance,
     normal_mobility,
     parallel_mobility,
+    reflected_share,
+    stagnation_factor,
     stresslet_gradient,
     stresslet_velocity,
 )
@@ -272,6 +275,31 @@ def test_a_sphere_moves_along_a_wall_as_in_the_exact_solution(h):
     exact = sphere_along_wall(h)
     assert parallel_mobility(1.0 / h) == pytest.approx(exact.mobility, rel=4e-3)
     assert speed_in_shear(h) == pytest.approx(exact.speed, rel=1e-3)
+
+
+@pytest.mark.parametrize("h", [1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 10.0])
+def test_a_sphere_is_carried_to_a_wall_as_in_the_exact_solution(h):
+    """In u = (xz, yz, −z²) and in u = (z², 0, 0), each linear about the centre and with what that lacks."""
+    exact = sphere_across_wall(h)
+    S = -h * 20.0 / 3.0 * np.pi * np.diag([-1.0, -1.0, 2.0])
+    for _ in range(2):
+        E = square(stresslet_gradient(flat(S), flat(np.eye(3)), UP, h, 1.0))
+        S = 20.0 / 3.0 * np.pi * (E - h * np.diag([-1.0, -1.0, 2.0]))
+    v = stresslet_velocity(flat(S), flat(np.eye(3)), UP, h, 1.0)[2]
+    assert v / (2.0 * h) == pytest.approx(exact.strain, rel=1e-3)
+    q = reflected_share(1.0 / h)
+    Q = stagnation_factor(1.0 / h, 1.0 + q + q * q)
+    assert 1.0 - v / h**2 + Q == pytest.approx(exact.stagnation, rel=4e-3)
+    along = 2.0 * speed_in_shear(h) - 1.0 + curvature_factor(1.0 / h)
+    assert along == pytest.approx(sphere_along_wall(h).curved, rel=1e-3)
+
+
+def test_a_sphere_stops_where_the_flow_carries_it_onto_a_wall():
+    assert stagnation_factor(1e-3, 1.0) == pytest.approx(1e-6 / 3.0, rel=0.01)
+    assert curvature_factor(1e-3) == pytest.approx(1e-6 / 3.0, rel=0.01)
+    # The published limit (Goren & O'Neill 1971) of the speed over the mobility, and of the drag in shear.
+    exact = sphere_across_wall(1.003).stagnation
+    assert exact / normal_mobility(1.0 / 1.003) == pytest.approx(3.23, rel=5e-3)
 
 
 def test_the_exact_solution_has_the_published_drag():

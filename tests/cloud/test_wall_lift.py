@@ -7,13 +7,16 @@ import re
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
+from validation.references.near_wall import sphere_across_wall
 
 from foamprb.cloud.block import Medium, at, idle_lanes, new_block, store3
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.layout import LANES, layout
 from foamprb.cloud.patches import Escape, Rebound, Stick
-from foamprb.cloud.state import concatenate, spheres
+from foamprb.cloud.state import Status, concatenate, spheres
 from foamprb.cloud.surroundings import wall_lift
 from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.surroundings.wall_lift import WallLift, count_close, nearest_walls, share_of_close
@@ -103,6 +106,32 @@ def test_a_body_between_two_walls_is_pushed_to_the_middle():
     assert p.v[0, 2] > 0.0
     assert p.v[1, 2] == pytest.approx(0.0, abs=1e-6 * p.v[0, 2])
     assert p.v[2, 2] == pytest.approx(-p.v[0, 2], rel=1e-6, abs=0.0)
+
+
+def test_a_sphere_that_flows_onto_a_post_arrives():
+    """Head-on, on the exact path within .01 R down to a gap of .1 R; then the post holds it."""
+    radius, dt = 100.0 * R, 0.02
+    flow = analytic.posts(4.0 * radius, 2.0 * radius, (20.0 * radius, 0.0))
+    p = spheres([(-radius - 3.0 * R, 0.0, 0.0)], d=2.0 * R, rho=1000.0, mu=1e4)
+    cloud = Cloud(p, flow, OIL, [Stick()], dt, Models(surroundings=(WallLift(),)), threads=1)
+    grid = np.linspace(1.05, 3.2, 40)
+    share = CubicSpline(grid, [sphere_across_wall(h).stagnation for h in grid])
+
+    def rate(_t, h):
+        u, _ = flow.sample(np.array([[-radius - h[0] * R, 0.0, 0.0]]), np.zeros(1, np.int32), 0.0)
+        return -u[0, 0] / R * share(h)
+
+    exact = solve_ivp(rate, (0.0, 14.0), [3.0], rtol=1e-8, dense_output=True)
+    found = []
+    for _ in range(7):
+        cloud.advance(100)
+        found.append(-(p.x[0, 0] + radius) / R)
+    heights = exact.sol(2.0 * np.arange(1, 8))[0]
+    assert heights[-1] < 1.1
+    np.testing.assert_allclose(found, heights, atol=0.01)
+    cloud.advance(600)
+    assert p.status[0] == Status.STUCK
+    assert p.x[0, 0] == pytest.approx(-radius - R, abs=1e-3 * R)
 
 
 # --- Which walls are seen -----------------------------------------------------------------------------------

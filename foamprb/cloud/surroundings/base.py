@@ -171,6 +171,12 @@ def present_hindrance(_block: Block, _i: int) -> Tensor:
 
 
 @choice
+def curved_velocity(_block: Block, _i: int, _n: Vector, _h: Scalar, _e: Scalar, _share: Scalar) -> Vector:
+    """Return the velocity by second derivatives of the flow at a wall, m/s; by default they are unknown."""
+    return 0.0, 0.0, 0.0
+
+
+@choice
 def thermal_force(_block: Block, _i: int) -> Vector:
     """Return the force of molecules, N; by default none."""
     return 0.0, 0.0, 0.0

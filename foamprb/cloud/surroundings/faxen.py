@@ -10,11 +10,25 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from foamprb.body.faxen import Curvature, faxen_velocity
-from foamprb.body.tensor import Scalar, Vector, between, dot, inner, minus, scale, select, transpose
+from foamprb.body.tensor import (
+    Scalar,
+    Vector,
+    between,
+    dot,
+    dot_vector,
+    inner,
+    minus,
+    plus_scaled,
+    scale,
+    scale_vector,
+    select,
+    transpose,
+)
+from foamprb.body.wall import curvature_factor
 from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, store3
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
-from foamprb.cloud.surroundings.base import Stage, Surrounding, add3
+from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding, add3, curved_velocity
 from foamprb.compile.link import traced
 from foamprb.flow.kernels import curvature
 
@@ -56,14 +70,37 @@ def _store(block: Block, i: int, row: int, second: Curvature) -> None:
 def correct(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add ⅙ C:∇∇u to the velocity of the fluid, with the shape tensor C."""
     for i in range(LANES):
-        F, R, way = load9(block, at.new_F, i), block[at.R * LANES + i], load3(block, curved.curvature_way, i)
-        length_2, moved = inner(way, way), minus(load3(block, at.new_x, i), load3(block, at.x, i))
-        gone = select((share > 0.0) & (length_2 > 0.0), inner(moved, way) / (length_2 + 1e-300), 0.0)
-        second = (
-            _second_at(block, i, 0, gone), _second_at(block, i, 1, gone), _second_at(block, i, 2, gone),
-            _second_at(block, i, 3, gone), _second_at(block, i, 4, gone), _second_at(block, i, 5, gone),
-        )  # fmt: skip
-        add3(block, at.u, i, faxen_velocity(scale(R * R, dot(F, transpose(F))), second))
+        F, R = load9(block, at.new_F, i), block[at.R * LANES + i]
+        add3(block, at.u, i, faxen_velocity(scale(R * R, dot(F, transpose(F))), _second(block, i, share)))
+
+
+def near_wall(block: Block, i: int, n: Vector, h: Scalar, e: Scalar, share: Scalar) -> Vector:
+    """Return what a wall adds to Faxén's correction of lane i along it, less this correction across it, m/s.
+
+    ``n``, ``h`` and ``e`` are the wall's normal, its distance and the body's reach over that;
+    :func:`foamprb.body.wall.stagnation_factor` contains the correction across.
+    """
+    # ⅙ C:∇∇u of a body whose shape tensor is n n: a sixth of the second derivative along n.
+    square = (
+        n[0] * n[0], n[0] * n[1], n[0] * n[2],
+        n[0] * n[1], n[1] * n[1], n[1] * n[2],
+        n[0] * n[2], n[1] * n[2], n[2] * n[2],
+    )  # fmt: skip
+    c = faxen_velocity(square, _second(block, i, share))
+    l_n = inner(dot_vector(load9(block, at.l, i), n), n)
+    q, x = 3.0 * h * h * curvature_factor(e) - h * h * e * e, e * e
+    return plus_scaled(scale_vector(q, c), -q * inner(c, n) - x / 6.0 * h * l_n, n)
+
+
+def _second(block: Block, i: int, share: Scalar) -> Curvature:
+    """Return the second derivatives where lane i is after a share of the step."""
+    way = load3(block, curved.curvature_way, i)
+    length_2, moved = inner(way, way), minus(load3(block, at.new_x, i), load3(block, at.x, i))
+    gone = select((share > 0.0) & (length_2 > 0.0), inner(moved, way) / (length_2 + 1e-300), 0.0)
+    return (
+        _second_at(block, i, 0, gone), _second_at(block, i, 1, gone), _second_at(block, i, 2, gone),
+        _second_at(block, i, 3, gone), _second_at(block, i, 4, gone), _second_at(block, i, 5, gone),
+    )  # fmt: skip
 
 
 def _second_at(block: Block, i: int, k: int, gone: Scalar) -> Vector:
@@ -85,6 +122,10 @@ class FaxenCorrection(Surrounding):
         Stage("ahead", store_curvature_ahead, writes=(curved.curvature_end,)),
         Stage("fluid", correct, reads=(curved.curvature_start, curved.curvature_end), adds=(at.u,)),
     )
+
+    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
+        """Return the part of ``wallLift`` by the flow's second derivatives."""
+        return {curved_velocity: near_wall}
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:  # noqa: ARG002
         """Refuse drops, inside which the fluid moves."""

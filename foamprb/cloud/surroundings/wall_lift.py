@@ -19,6 +19,7 @@ from foamprb.body.ellipsoid import reach
 from foamprb.body.material import finger_of_body_in_frame
 from foamprb.body.stokes import Mobility, velocity_gradient
 from foamprb.body.tensor import (
+    Scalar,
     Tensor,
     Vector,
     add,
@@ -31,6 +32,7 @@ from foamprb.body.tensor import (
     inverse,
     minus,
     plus,
+    plus_scaled,
     principal_frame,
     scale,
     scale_vector,
@@ -47,6 +49,8 @@ from foamprb.body.wall import (
     force_gradient,
     hindered_resistance,
     hindrance,
+    reflected_share,
+    stagnation_factor,
     stresslet_gradient,
     stresslet_velocity,
 )
@@ -77,6 +81,7 @@ from foamprb.cloud.surroundings.base import (
     Survey,
     add3,
     add9,
+    curved_velocity,
     hindrance_by_walls,
     present_hindrance,
     resistances,
@@ -191,7 +196,7 @@ def lift(block: Block, medium: Medium, share: float, coefficients: Any) -> None:
         response_stage(block, medium, strain)
     for wall in range(most):
         select_wall(block, wall, share, least_gap)
-        velocity_stage(block, medium)
+        velocity_stage(block, medium, share)
         if hindered > 0.0:
             hindrance_stage(block, medium)
     if hindered > 0.0:
@@ -245,12 +250,19 @@ def response_stage(block: Block, medium: Medium, strain: float) -> None:
 
 
 @traced
-def velocity_stage(block: Block, medium: Medium) -> None:
-    """Add the velocity that the selected wall reflects."""
+def velocity_stage(block: Block, medium: Medium, share: float) -> None:
+    """Add the velocity that the selected wall reflects, and that by the flow's curvature at it.
+
+    Over a wall without slip u_n is half of the distance times its slope.
+    """
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-        S, mu_f = load9(block, near.stresslet, i), viscosity_at(block, i, medium)
-        v = stresslet_velocity(S, shape_of(block, i), n, d, mu_f)
+        S, mu_f, C = load9(block, near.stresslet, i), viscosity_at(block, i, medium), shape_of(block, i)
+        e = np.sqrt(inner(dot_vector(C, n), n)) / d
+        u_n = 0.5 * d * inner(dot_vector(load9(block, at.l, i), n), n)
+        u_n *= stagnation_factor(e, gain_of_stiff(reflected_share(e)))
+        v = plus_scaled(stresslet_velocity(S, C, n, d, mu_f), u_n, n)
+        v = plus(v, curved_velocity(block, i, n, d, e, share))
         add3(block, near.wall_lift, i, scale_vector(block[near.present * LANES + i], v))
 
 
@@ -480,6 +492,23 @@ def no_response(block: Block, i: int, medium: Medium, E: Tensor) -> Tensor:  # n
 
 
 @choice
+def gain_of_stiff(q: Scalar) -> Scalar:
+    """Return the stresslet of a stiff body that came to rest, over that without walls.
+
+    ``q`` is the share of a stresslet's strain that its image sends back. By default the body has no inertia:
+    the iteration starts from the stress that balances all of the strain, and a body without stress resists
+    by −⅔ of a rigid one.
+    """
+    p = q * (1.0 - q * (2.0 / 3.0))
+    return 1.0 + p / (1.0 - p * (5.0 / 3.0))
+
+
+def gain_of_moving(q: Scalar) -> Scalar:
+    """Return the same for a body with inertia: two reflections."""
+    return 1.0 + q * (1.0 + q)
+
+
+@choice
 def load_of(block: Block, i: int, medium: Medium, share: float) -> Vector:  # noqa: ARG001
     """Return the force of a body on the fluid, N; by default of one without inertia."""
     return balanced_load(block, i, medium)
@@ -590,9 +619,10 @@ def _nearest_walls(
 _MOTION: Slots = {
     body_gradient: moving_gradient,
     body_response: no_response,
+    gain_of_stiff: gain_of_moving,
     leave_gradient: leave_moving_gradient,
 }
-"""Velocity gradient of a body with inertia."""
+"""Velocity gradient and stresslet of a body with inertia."""
 _DRAG: Slots = {
     load_of: drag_on_fluid,
     before_lift: no_load_before_lift,

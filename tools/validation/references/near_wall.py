@@ -1,4 +1,4 @@
-"""Rigid sphere that moves along a plane wall: exact solution in bispherical coordinates.
+"""Rigid sphere near a plane wall: exact solutions in bispherical coordinates.
 
 z = c sinh ξ/(cosh ξ − cos η), ρ = c sin η/(cosh ξ − cos η): the wall is ξ = 0, the sphere of radius 1 is
 ξ = α with h = cosh α and c = sinh α. With harmonic functions Q, U₀, U₂ and w (Dean & O'Neill 1963),
@@ -7,6 +7,9 @@ z = c sinh ξ/(cosh ξ − cos η), ρ = c sin η/(cosh ξ − cos η): the wall
 
 solve Stokes' equations of viscosity 1 if div u = 0. The divergence is harmonic, so it vanishes everywhere if
 it does on both surfaces. The velocity there gives U₀, U₂ and w from Q, and the divergence there gives Q.
+
+Across the wall the flow has a stream function ψ, u_z = −ψ_ρ/ρ and u_ρ = ψ_z/ρ, with modes in ξ for each of
+P_{n−1}(cos η) − P_{n+1}(cos η) (Stimson & Jeffery 1926). On the sphere their values and slopes are those of ψ.
 """
 
 from __future__ import annotations
@@ -30,6 +33,48 @@ class Motion(NamedTuple):
     """Speed by a force, free of torque, over that without the wall."""
     drag: float
     """Drag in translation without rotation, over that without the wall."""
+    curved: float
+    """Speed in the flow z² along the wall, free of force and torque, over h²."""
+
+
+class Across(NamedTuple):
+    """Motion of a sphere across the wall, free of force."""
+
+    stagnation: float
+    """Speed in the flow u_z = −z² that turns away from the wall, over that of the flow."""
+    strain: float
+    """Speed over the strain rate u_z = D (z − h) of its own surface, in a fluid at rest, and the radius."""
+
+
+@cache
+def sphere_across_wall(h: float) -> Across:
+    """Return the motion of a sphere whose centre is h > 1 radii above the wall, to six digits."""
+    n = np.arange(1, int(max(40, 30.0 / np.arccosh(h))) + 1)
+    x, weights = np.polynomial.legendre.leggauss(3 * len(n) + 100)
+    sine, c = np.sqrt(1.0 - x * x), np.sqrt(h * h - 1.0)
+    to = h - x
+    rho, z = c * sine / to, c * c / to
+    rho_xi, z_xi = -c * rho / to, (h * to - c * c) * c / to**2
+    P = np.polynomial.legendre.legvander(x, len(n) + 1).T
+    modes = (P[:-2] - P[2:]) * (weights / (1.0 - x * x) * (0.5 * n * (n + 1) / (2 * n + 1))[:, None])
+    # Modes of even exponents that vanish with their slopes on the wall, over exp((n + 3/2) α).
+    p, q, alpha = n - 0.5, n + 1.5, np.arccosh(h)
+    a, b, d = np.exp(-2.0 * alpha), np.exp(-(p + q) * alpha), np.exp(-2.0 * q * alpha)
+    cosh_p, sinh_p, cosh_q, sinh_q = 0.5 * (a + b), 0.5 * (a - b), 0.5 * (1.0 + d), 0.5 * (1.0 - d)
+    first, slope = cosh_p - cosh_q, p * sinh_p - q * sinh_q
+    second, slope_2 = q * sinh_p - p * sinh_q, p * q * first
+
+    def force(psi: Floats, along: Floats, across: Floats) -> float:
+        value = modes @ (to**1.5 * psi)
+        by_xi = rho * (along * z_xi - across * rho_xi)
+        rate = modes @ (1.5 * c * np.sqrt(to) * psi + to**1.5 * by_xi)
+        strength = (first * rate - slope * value) / (first * slope_2 - second * slope)
+        return float(((2 * n + 1) * strength * np.exp(-q * alpha)).sum())
+
+    by_motion = force(-0.5 * rho**2, 0.0 * z, 1.0 + 0.0 * z)
+    by_flow = force(0.5 * (rho * z) ** 2, rho * z, -z * z)
+    by_strain = force(-0.5 * rho**2 * (z - h), -0.5 * rho, z - h)
+    return Across(-by_flow / by_motion / (h * h), -by_strain / by_motion)
 
 
 @cache
@@ -44,15 +89,15 @@ def sphere_along_wall(h: float) -> Motion:
     system = by_Q - 0.5 * ((by_U0 + by_U2) * rho + by_w * z)
     weights = np.concatenate([wall.scale, sphere.scale])
 
-    def load(along: Floats, across: Floats, drift: float) -> Floats:
+    def load(along: Floats, across: Floats, drift: float, curved: float = 0.0) -> Floats:
         """Return force and torque of a flow with u_x = ``along``, u_z = ``across`` cos φ on the sphere.
 
-        ``drift`` times z is added to u_x afterwards, which removes the motion from the sphere.
+        ``drift`` z + ``curved`` z² is added to u_x afterwards, which removes the motion from the sphere.
         """
         U0, w = np.concatenate([0.0 * along, 2.0 * along]), np.concatenate([0.0 * across, across])
         Q = np.linalg.lstsq(system * weights[:, None], -(by_U0 @ U0 + by_w @ w) * weights, rcond=1e-14)[0]
         U0, U2, w = U0 - 0.5 * rho * Q, -0.5 * rho * Q, w - 0.5 * z * Q
-        return sphere.load(h, Q, U0, U2, w, drift)
+        return sphere.load(h, Q, U0, U2, w, drift, curved)
 
     r = sphere.z - h
     # Translation, rotation about y, and shear past the sphere at rest.
@@ -60,7 +105,9 @@ def sphere_along_wall(h: float) -> Motion:
     resistance = np.stack(loads[:2], axis=1)
     U, spin = np.linalg.solve(resistance, -loads[2])
     by_force = np.linalg.solve(resistance, [-6.0 * np.pi, 0.0])
-    return Motion(float(U / h), float(2.0 * spin), float(by_force[0]), float(-loads[0][0] / (6.0 * np.pi)))
+    curved = np.linalg.solve(resistance, -load(-(sphere.z**2), 0.0 * r, 0.0, 1.0))[0] / (h * h)
+    drag = -loads[0][0] / (6.0 * np.pi)
+    return Motion(float(U / h), float(2.0 * spin), float(by_force[0]), float(drag), float(curved))
 
 
 class _Harmonic(NamedTuple):
@@ -97,11 +144,13 @@ class _Surface(NamedTuple):
         by_Q = 1.5 * f1.value + 0.5 * (rho * f1.rho + z * f1.z)
         return by_Q, 0.5 * f0.rho, 0.5 * (f2.rho + 2.0 / rho * f2.value), f1.z
 
-    def load(self, h: float, Q: Floats, U0: Floats, U2: Floats, w: Floats, drift: float) -> Floats:
+    def load(
+        self, h: float, Q: Floats, U0: Floats, U2: Floats, w: Floats, drift: float, curved: float
+    ) -> Floats:
         """Return force along x and torque about y of the sphere: of the traction −p n + ∂u/∂n.
 
         A ``drift`` of 1 adds the shear flow (z, 0, 0), so that the fluid rests on the sphere; one of −1 takes
-        off the sphere's rotation.
+        off the sphere's rotation. ``curved`` of 1 adds the flow (z², 0, 0), so that the fluid rests too.
         """
         f0, f1, f2 = self.functions
         c, n = self.sinh, len(self.x)
@@ -112,7 +161,8 @@ class _Surface(NamedTuple):
         du_phi = 0.5 * (f2.xi @ U2 - f0.xi @ U0)
         du_z = 0.5 * (d_z * p + self.z * (f1.xi @ Q)) + f1.xi @ w
         n_rho, n_z = self.rho, self.z - h
-        t_x = -n_rho * p - (du_rho - du_phi) / metric + 2.0 * drift * n_z
+        p = p + 2.0 * curved * self.rho
+        t_x = -n_rho * p - (du_rho - du_phi) / metric + 2.0 * (drift + 2.0 * curved * self.z) * n_z
         t_z = -n_z * p - du_z / metric - min(drift, 0.0) * n_rho
         area = np.pi * metric**2 * self.weights
         return np.array([(area * t_x).sum(), (area * (n_z * t_x - n_rho * t_z)).sum()])

@@ -187,11 +187,11 @@ class Ellipsoid:
         return Motion(np.asarray(v), np.asarray(l), _stresslet(moment))
 
 
-def velocity_away(h: float) -> float:
-    """Return the velocity of a rigid sphere over that of the flow, which turns away from the wall as x₃²."""
-    body = Ellipsoid(IDENTITY, h, 960, 480, depth=0.8 if h < 1.3 else 0.7)
+def velocity_away(h: float, F: Floats = IDENTITY) -> float:
+    """Return the velocity of a rigid body over that of the flow, which turns away from the wall as x₃²."""
+    body = Ellipsoid(F, h, 960, 480, depth=0.8 if h < 1.3 * np.linalg.norm(F[2]) else 0.7)
     z = body.x[:, 2] + h
-    flow = np.stack([-2.0 * body.x[:, 0] * z, 0.0 * z, z * z], axis=1)
+    flow = np.stack([-body.x[:, 0] * z, -body.x[:, 1] * z, z * z], axis=1)
     return float(body.moments(flow)[0][2] / (body.resistance()[2, 2] * h * h))
 
 
