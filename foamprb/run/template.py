@@ -144,10 +144,8 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     scales = scales_of(flow)
     if _is_at_rest(case, flow, source, scales):
         scales = replace(scales, speed=0.0, inlet="")
-    written = (
-        float(flow.at_nodes()[0] or 0.0) if is_unsteady(case, source.region) and not source.file else 0.0
-    )
-    if written > 0.0:
+    written = 0.0 if source.file else float(flow.at_nodes()[0])
+    if written > 0.0 and is_unsteady(case, source.region):
         scales = replace(scales, duration=min(scales.duration, _WRITTEN * written))
     fluid = _fluid(case, flow, source, scales)
     for line in fluid.remarks:

@@ -185,7 +185,8 @@ def caveat_of_flux(
     if "." in velocity or (compressible and (unsteady or phi is None)):
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
-    if phi and (made := _made_by_cells(mesh, phi[0], phi[3])) > _MOST_MADE:
+    made = 100.0 * _made_by_cells(mesh, phi[0], phi[3]) if phi else 0.0
+    if made > 100.0 * _MOST_MADE:
         return [
             Caveat(
                 f"phi makes or loses {made:.3g} % of the fluid that crosses a cell, on average (allowed: "
