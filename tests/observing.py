@@ -10,7 +10,7 @@ from foamprb import analytic
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Stick
-from foamprb.cloud.paths import COLUMNS_OF_ELLIPSOIDS, Steps, step
+from foamprb.cloud.paths import COLUMNS, Steps, step
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import ObservedCloud
@@ -78,7 +78,7 @@ def column(rows, name):
 def made_steps(t, x=None, v=None, F=None, l=None, number=0):
     """Steps of a particle, one after the other, from values of some quantities at n + 1 times."""
     n = len(t) - 1
-    tables = np.zeros((1, COLUMNS_OF_ELLIPSOIDS, n))
+    tables = np.zeros((1, COLUMNS, n))
     still = {"x": np.zeros((n + 1, 3)), "v": np.zeros((n + 1, 3)), "l": np.zeros((n + 1, 9))}
     still["F"] = np.tile(np.eye(3).ravel(), (n + 1, 1))
     given = {name: values for name, values in {"x": x, "v": v, "F": F, "l": l}.items() if values is not None}

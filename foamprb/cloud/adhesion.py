@@ -16,7 +16,6 @@ from foamprb.body.bonds import exponential_deviate, force_on_held_sphere, off_ra
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud import lanes, motion
 from foamprb.cloud.block import Scratch, at, load3, store3
-from foamprb.cloud.instants import capture_at_rest
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
@@ -32,6 +31,7 @@ from foamprb.cloud.motion import (
     settle,
 )
 from foamprb.cloud.patches import STICK
+from foamprb.cloud.paths import record_rest
 from foamprb.cloud.surroundings.base import Slots, Surrounding
 from foamprb.flow.kernels import sample
 
@@ -115,7 +115,7 @@ def hold(flow: Any, patches: PatchTable, s: Scratch, i: int, last: int, dt: floa
 def let_go(flow: Any, s: Scratch, i: int, t: float, dt: float) -> None:
     """Let the stuck particle in lane i move again from a time on, at rest at first."""
     block = s.block
-    capture_at_rest(s, i, t)
+    record_rest(s, i, t)
     change_bond(s, i)
     s.status[i], s.patch[i] = ACTIVE, -1
     block[at.t * LANES + i], block[at.h * LANES + i] = t, dt

@@ -153,45 +153,24 @@ REBOUND_NUMBERS = 21
 """Numbers that are recorded of a rebound (:func:`foamprb.cloud.contact.note`)."""
 
 
-class Instants(NamedTuple):
-    """Instants at which a loop stores the state of particles, see :mod:`foamprb.cloud.instants`."""
+class Recorder(NamedTuple):
+    """Records of steps, and which steps and rows these are (:mod:`foamprb.cloud.paths`); none by default."""
 
-    times: Any
-    """(w,) s, rising."""
-    state: Any
-    """(n, w, k) states of the particles of the cloud."""
-    marks: Any
-    """(n, w, 2) their status, 0 where none is stored, and patch."""
-    table: Any
-    """Steps of all lanes, (:data:`foamprb.cloud.paths.COLUMNS`, LANES)."""
-    begun: Any
-    """(1,) 1 if their starts are recorded, else 0."""
-    crossed: Any
-    """(LANES, 8): when a step first met a coupled patch or a mirror, s, infinite if it met none, and last;
-    where it came to the first, and where it went on from the last, m."""
-    starts: Any
-    """(k, 2) rows that are recorded before a step is accepted, and those of the table."""
-    ends: Any
+    tables: Any = np.empty((0, 0, 0))
+    """(n, rows, LANES) steps of all lanes, one table after the other."""
+    count: Any = np.zeros(2, dtype=np.int64)
+    """(2,) number of tables with steps; level of the rows that are recorded of the present step."""
+    starts: Any = np.empty((0, 3), dtype=np.int64)
+    """(k, 3) rows that are recorded before a step is accepted, those of the table, and their levels: 1 in
+    every record, 2 in those of steps that may lead past an instant."""
+    ends: Any = np.empty((0, 3), dtype=np.int64)
     """The same after it."""
-    more: Any
-    """(k, 2) further rows, and their columns of ``state``."""
-    slack: float
+    watched: Any = np.empty(0, dtype=np.bool_)
+    """1 for each particle of the cloud all of whose steps are recorded, else 0; empty for none."""
+    times: Any = np.empty(0)
+    """(w,) instants, s, rising."""
+    slack: float = 0.0
     """Time by which a step may be longer than intended, s."""
-    in_frame: int
-    """See :class:`foamprb.cloud.paths.RecordedRows`."""
-    rate: int
-    """First column of dF/dt, −1 if it is not stored."""
-    mode: int
-    """First column of the quadratic mode, −1 without it."""
-
-
-def no_instants() -> Instants:
-    """Return no instant."""
-    rows = np.empty((0, 2), dtype=np.int64)
-    state, marks = np.empty((0, 0, 0)), np.empty((0, 0, 2), dtype=np.int32)
-    begun, crossed = np.zeros(1, dtype=np.int64), np.zeros((LANES, 8))
-    table = np.empty((0, LANES))
-    return Instants(np.empty(0), state, marks, table, begun, crossed, rows, rows, rows, 0.0, 0, -1, -1)
 
 
 class Switches(NamedTuple):
@@ -255,20 +234,7 @@ class Scratch(NamedTuple):
     """(:data:`COUNTS`,) numbers of particles set aside, and other counts (:mod:`foamprb.cloud.lanes`)."""
     stride: Any
     """(LANES,) tracking steps to the end of the stretch."""
-    passed: Any
-    """(LANES,) 1 where the step went through a coupled patch, else 0."""
-    paths: Any
-    """Tables of steps, (n, :data:`foamprb.cloud.paths.COLUMNS`, LANES); n = 0 without."""
-    recorded: Any
-    """(1,) number of tables with steps."""
-    starts: Any
-    """(k, 2) rows that are recorded before a step is accepted, and those of the table."""
-    ends: Any
-    """The same after it."""
-    watched: Any
-    """1 for each particle of the cloud whose steps are recorded, else 0; empty for all."""
-    instants: Any
-    """:class:`Instants` at which states are stored."""
+    recorder: Recorder
     initial: Any
     """As in :class:`~foamprb.cloud.layout.Layout`."""
     switches: Switches
@@ -298,7 +264,7 @@ def new_scratch(
         Length of the buffer for rebounds.
     """
     # One array, so that no other thread writes to the same lines of memory.
-    lanes = iter(np.zeros((11, LANES), dtype=np.int64))
+    lanes = iter(np.zeros((10, LANES), dtype=np.int64))
 
     return Scratch(
         block=new_block(layout.rows),
@@ -323,13 +289,7 @@ def new_scratch(
         labels=np.empty((SHELF, LABELS), dtype=np.int64),
         counts=np.zeros(COUNTS, dtype=np.int64),
         stride=next(lanes),
-        passed=next(lanes),
-        paths=np.empty((0, 0, 0)),
-        recorded=np.zeros(1, dtype=np.int64),
-        starts=np.empty((0, 2), dtype=np.int64),
-        ends=np.empty((0, 2), dtype=np.int64),
-        watched=np.empty(0, dtype=np.bool_),
-        instants=no_instants(),
+        recorder=Recorder(),
         initial=layout.initial,
         switches=switches,
         fields=packed(()),

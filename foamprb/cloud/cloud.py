@@ -30,7 +30,7 @@ from foamprb.cloud.communicator import (
     values_of,
 )
 from foamprb.cloud.contact import in_order
-from foamprb.cloud.instants import MARKS, STATE, moments_of
+from foamprb.cloud.instants import PREFIX, READ, Moments
 from foamprb.cloud.integrators.adaptive import stretch_in
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
@@ -274,13 +274,13 @@ class Cloud:
         with_rates
             Whether dF/dt is needed there.
         """
-        self.comm.call(store_at, moments_of(times, self.tracker.changing, with_rates))
+        more = (name for name in READ if name in self.tracker.changing and (with_rates or name != "A"))
+        self.comm.call(store_at, Moments(tuple(times), tuple(more)))
 
     @property
     def stored(self) -> Mapping[str, NDArray[Any]]:
         """States at instants that the first rank writes to checkpoints, by their names."""
-        here = self.comm.arrays_here()
-        return {name: here[name] for name in (STATE, MARKS) if name in here}
+        return {name: a for name, a in self.comm.arrays_here().items() if name.startswith(PREFIX)}
 
     def counts_at(self, time: float) -> dict[Status, int]:
         """Return the number of particles of each status at an instant of the last steps, s, or now."""

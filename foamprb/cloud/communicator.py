@@ -7,14 +7,16 @@ A function is applied to the particles of each process (:meth:`Communicator.call
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.instants import MARKS, STATE, Moments, hosts_at, state_at, status_at
+from foamprb.cloud.instants import PREFIX, Moments, hosts_at, state_at, status_at, store
 from foamprb.cloud.limits import LoopLimits
+from foamprb.cloud.paths import Observation
 from foamprb.cloud.state import Particles, Status, concatenate, empty
 from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.flow.base import Flow
@@ -113,10 +115,12 @@ class Rank:
     def advance(self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool]) -> Outcome:
         """Advance the particles by some steps in the loaded flow."""
         until = self.tracker.start + (step + steps) * self.tracker.dt
-        observers = None if self.sampling is None else self.sampling.observers(self, until)
+        observation = (self.sampling and self.sampling.observers(self, until)) or Observation()
+        if self.moments.times:
+            storing = partial(store, self.moments, self.share.memory)
+            observation = observation._replace(**self.moments._asdict(), store=storing)
         arguments = self.flow, self.particles, step, steps, self.threads, bounds, stop, self.sampled
-        stored = (self.moments, self.share.memory) if self.moments.times else None
-        return self.tracker.advance(*arguments, observers, stored)
+        return self.tracker.advance(*arguments, observation)
 
 
 class Communicator:
@@ -263,7 +267,7 @@ def store_at(rank: Rank, moments: Moments) -> None:
     """Let the next steps of a rank store the state at some instants; those of the same are kept."""
     if moments == rank.moments:
         return
-    memory = {name: array for name, array in rank.share.memory.items() if name not in (STATE, MARKS)}
+    memory = {name: array for name, array in rank.share.memory.items() if not name.startswith(PREFIX)}
     rank.moments, rank.share = moments, rank.share._replace(memory=memory)
     if moments.times:
         add_arrays(rank, moments.layout())

@@ -44,6 +44,7 @@ from foamprb.cloud.block import (
 from foamprb.cloud.contact import first_contact, gap_of_lane, on_cubic, record_contact, slope_on_cubic
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
+from foamprb.cloud.paths import note_passage
 from foamprb.cloud.state import Particles, Reason, Status
 from foamprb.compile.link import separate, slot
 from foamprb.compile.record import record
@@ -366,7 +367,6 @@ def cross_patch(
     if code == MIRROR:
         y0, turn = x0, mirror_body(block, i, normal(flow, triangle, x0, t))
     else:
-        s.passed[i] = 1
         record_contact(s, i, patch, t, x0, _NO_NORMAL)
         host, y0, turn = cross(flow, triangle, x0, t)
         s.host[i] = host
@@ -376,21 +376,9 @@ def cross_patch(
     turn_along(block, i, turn)
     if code != MIRROR:
         record_contact(s, i, patch, t, y0, _NO_NORMAL)
-    note_passage(s.instants.crossed, i, t, x0, y0)
+    note_passage(s, i, code != MIRROR, t, x0, y0)
     shift = minus(y0, dot_vector(turn, x0))
     return y0, moved(turn, shift, x1), turn, shift
-
-
-def note_passage(crossed: Any, i: int, t: float, x: Vector, y: Vector) -> None:
-    """Note at which time, s, the step of lane i comes to a patch at x and goes on from y.
-
-    ``crossed`` is that of :class:`~foamprb.cloud.block.Instants`.
-    """
-    if crossed[i, 0] == math.inf:
-        crossed[i, 0] = t
-        crossed[i, 2], crossed[i, 3], crossed[i, 4] = x[0], x[1], x[2]
-    crossed[i, 1] = t
-    crossed[i, 5], crossed[i, 6], crossed[i, 7] = y[0], y[1], y[2]
 
 
 @slot

@@ -1,13 +1,15 @@
 """Records of the steps of particles, from which their paths are observed.
 
-The loop records both ends of each accepted step; no step ends for it. The records of all lanes are side by
-side in a table, and the steps of a particle follow each other in several of them.
+The loop records both ends of accepted steps, and the coupled patches and mirrors between them; no step ends
+for it. The records of all lanes are side by side in a table, and the steps of a particle follow each other in
+several of them. An :class:`Observation` declares which steps and rows these are. From them follow the steps
+that cloud functions get, and the states at given instants (:mod:`foamprb.cloud.instants`).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -26,9 +28,9 @@ from foamprb.body.tensor import (
     scale,
     scale_vector,
 )
-from foamprb.cloud.block import Scratch, at
+from foamprb.cloud.block import Recorder, Scratch, at
 from foamprb.cloud.contact import passages
-from foamprb.cloud.layout import LANES, Row, end, offsets, rows_of
+from foamprb.cloud.layout import LANES, Layout, Row, end, offsets, rows_of
 from foamprb.cloud.state import Status
 from foamprb.compile.link import compiled, separate
 
@@ -59,6 +61,13 @@ class StepRows(NamedTuple):
     passed: Annotated[
         int, Row(1, "", "1 if a coupled patch is between it and the step before; in the loop, if within it")
     ]
+    patch: Annotated[int, Row(1, "", "patch on which the particle ended, or which holds it")]
+    met: Annotated[
+        int, Row(1, "s", "time at the first mirror or coupled patch; infinite without, −∞ in a bond")
+    ]
+    met_x: Annotated[int, Row(3, "m", "position there, before it")]
+    left: Annotated[int, Row(1, "s", "time at the last of these; −∞ in a bond")]
+    left_x: Annotated[int, Row(3, "m", "position there, after it")]
     B0: Annotated[int, Row(7, "1", "quadratic mode at the start; these rows only where it is recorded")]
     growth0: Annotated[int, Row(7, "1/s", "its source there")]
     recovery0: Annotated[int, Row(1, "1/s", "its relaxation 1/τ₃ there")]
@@ -67,14 +76,33 @@ class StepRows(NamedTuple):
 
 step = offsets(StepRows, 0)
 COLUMNS = end(step)
-MODE = frozenset(("B0", "growth0", "recovery0", "fluid_spin0"))
+"""Number of rows; in a loop, those of :attr:`Observation.more` follow."""
+_OF_MODE = ("B", "growth", "recovery", "fluid_spin")
+MODE = frozenset(f"{name}0" for name in _OF_MODE)
 """Rows of the quadratic mode."""
-COLUMNS_OF_ELLIPSOIDS = step.B0
-"""Number of rows before these."""
-ALWAYS = frozenset(("t0", "x0", "t1", "x1"))
-"""Rows that are recorded of every step; others of the block where a function needs them."""
+_ALWAYS = frozenset(("t0", "x0", "t1", "x1"))
+_AT_INSTANTS = MODE | {"v0", "F0", "Q0", "A0", "v1", "F1"}
+_PASSING = 2
+"""Level of the rows that are recorded only of steps that may lead past an instant."""
 ROOM = 256
 """Tables in the memory of a loop."""
+
+
+class Observation(NamedTuple):
+    """What is recorded of steps, and the functions to which they are given, in several threads."""
+
+    needs: frozenset[str] = frozenset()
+    """Rows of each step, by the names of :class:`StepRows`, beside times and places."""
+    watched: NDArray[np.bool_] = np.empty(0, dtype=np.bool_)
+    """1 for each particle all of whose steps are recorded, else 0; empty for none."""
+    observe: Callable[[Steps], None] | None = None
+    """Takes the steps, divided at coupled patches; those of others in a block are recorded, too."""
+    times: tuple[float, ...] = ()
+    """Instants, s, rising: of the steps past them, all is recorded that :meth:`Steps.between` reads."""
+    more: tuple[str, ...] = ()
+    """Arrays of particles that are recorded at the ends of these steps."""
+    store: Callable[[Steps], None] | None = None
+    """Takes the undivided steps."""
 
 
 class RecordedRows(NamedTuple):
@@ -90,86 +118,139 @@ class RecordedRows(NamedTuple):
     v: int = at.v
     """The velocity with which steps start: without inertia not always that of the state."""
 
-    def starts(self, needs: Collection[str], mode: Mapping[str, int]) -> NDArray[np.int64]:
-        """Return the rows that are recorded before a step is accepted, and those of the table, (k, 2).
 
-        Parameters
-        ----------
-        needs
-            Names of :class:`StepRows` beside :data:`ALWAYS`.
-        mode
-            Rows of the quadratic mode in the block; empty without it.
-        """
-        rows = {"t": at.t, "x": at.x, "v": self.v, "F": at.F, "Q": self.Q, "l": self.l, "A": self.A, **mode}
-        return _pairs({f"{name}0": row for name, row in rows.items()}, needs)
-
-    def ends(self, needs: Collection[str]) -> NDArray[np.int64]:
-        """Return the same after it."""
-        l = self.l if self.end_l < 0 else self.end_l
-        rows = {"t": at.t, "x": at.x, "v": at.v, "F": at.F, "Q": at.frame, "l": l}
-        return _pairs({f"{name}1": row for name, row in rows.items()}, needs)
-
-
-def _pairs(rows: Mapping[str, int], needs: Collection[str]) -> NDArray[np.int64]:
-    sizes = rows_of(StepRows)
-    return np.array(
-        [
-            (first + c, getattr(step, name) + c)
-            for name, first in rows.items()
-            if name in ALWAYS or name in needs
-            for c in range(sizes[name].components)
-        ]
+def recorder_of(observation: Observation, recorded: RecordedRows, layout: Layout, slack: float) -> Recorder:
+    """Return empty tables for the steps of a block with this layout; see :class:`Recorder` for ``slack``."""
+    more, times = observation.more, observation.times
+    if observation.observe is None and not times:
+        return Recorder()
+    named: dict[str, int] = {}
+    loaded: dict[str, range] = {}
+    for part in layout.parts:
+        for first, (name, row) in zip(part, rows_of(type(part)).items(), strict=True):
+            named[name], loaded[row.of] = first, range(first, first + row.components)
+    starts = {"t": at.t, "x": at.x, "v": recorded.v, "F": at.F, "Q": recorded.Q, "l": recorded.l}
+    starts |= {"A": recorded.A} | {name: named[name] for name in _OF_MODE if "B" in loaded}
+    ends = {"t": at.t, "x": at.x, "v": at.v, "F": at.F, "Q": at.frame}
+    ends |= {"l": recorded.l if recorded.end_l < 0 else recorded.end_l}
+    further = [row for name in more for row in loaded[name]]
+    return Recorder(
+        tables=np.zeros((ROOM, COLUMNS + len(further), LANES)),
+        count=np.zeros(2, dtype=np.int64),
+        starts=np.array(_levels(starts, "0", observation)),
+        ends=np.array(
+            _levels(ends, "1", observation) + [(row, COLUMNS + c, _PASSING) for c, row in enumerate(further)]
+        ),
+        watched=observation.watched,
+        times=np.array(times),
+        slack=slack,
     )
 
 
+def _levels(rows: Mapping[str, int], end: str, observation: Observation) -> list[tuple[int, int, int]]:
+    """Return :attr:`Recorder.starts` or ``ends`` of quantities in rows of a block."""
+    levels = dict.fromkeys(_AT_INSTANTS if observation.times else (), _PASSING)
+    levels |= dict.fromkeys(_ALWAYS | observation.needs, 1)
+    return [
+        (rows[name[:-1]] + c, getattr(step, name) + c, level)
+        for name, level in sorted(levels.items())
+        if name[-1] == end and name[:-1] in rows
+        for c in range(rows_of(StepRows)[name].components)
+    ]
+
+
 def is_full(s: Scratch) -> bool:
-    """Return True if steps are recorded, and there is no room for the next."""
-    room = s.paths.shape[0]
-    return bool(room > 0 and s.recorded[0] == room)
+    """Return True if steps are recorded, and there may be no room for the next, and rests before it."""
+    room = s.recorder.tables.shape[0]
+    return bool(room > 0 and s.recorder.count[0] + LANES >= room)
 
 
 @separate
 def record_starts(s: Scratch) -> None:
     """Record the starts of the steps of all lanes; no-op without a table."""
-    if s.paths.shape[0] == 0:
-        return
-    steps = s.paths[s.recorded[0]]
-    copy_rows(s, s.starts, steps)
+    if s.recorder.tables.shape[0] > 0:
+        begin_record(s, level_of(s))
+
+
+def level_of(s: Scratch) -> int:
+    """Return 2 if a lane may step past an instant, 1 if there is a particle that is watched, else 0."""
+    c, level = s.recorder, 0
     for i in range(LANES):
-        s.passed[i] = 0
-        steps[step.host0, i] = s.host[i]
+        t = s.block[at.t * LANES + i]
+        if s.block[at.moving * LANES + i] > 0.0 and is_due(s, t, t + s.block[at.dt * LANES + i] + c.slack):
+            return _PASSING
+        if len(c.watched) > 0 and s.member[i] >= 0 and c.watched[s.member[i]]:
+            level = 1
+    return level
+
+
+def is_due(s: Scratch, begin: float, end: float) -> bool:
+    """Return True if an instant is after one time and not after another, s."""
+    due = 0
+    for time in s.recorder.times:
+        due += begin < time <= end
+    return due > 0
+
+
+def begin_record(s: Scratch, level: int) -> None:
+    """Record the starts of steps of all lanes in the rows up to a level; none at 0."""
+    s.recorder.count[1] = level
+    if level == 0:
+        return
+    steps = s.recorder.tables[s.recorder.count[0]]
+    copy_rows(s, s.recorder.starts, steps)
+    for i in range(LANES):
+        steps[step.host0, i], steps[step.passed, i], steps[step.met, i] = s.host[i], 0.0, math.inf
+
+
+def note_passage(s: Scratch, i: int, coupled: bool, t: float, x: Vector, y: Vector) -> None:
+    """Note at which time, s, the step of lane i comes to a patch at x and goes on from y."""
+    c = s.recorder
+    if c.count[1] == 0:
+        return
+    steps = c.tables[c.count[0]]
+    if coupled:
+        steps[step.passed, i] = 1.0
+    if steps[step.met, i] == math.inf:
+        steps[step.met, i] = t
+        steps[step.met_x, i], steps[step.met_x + 1, i], steps[step.met_x + 2, i] = x[0], x[1], x[2]
+    steps[step.left, i] = t
+    steps[step.left_x, i], steps[step.left_x + 1, i], steps[step.left_x + 2, i] = y[0], y[1], y[2]
 
 
 @separate
 def record_ends(s: Scratch) -> None:
-    """Record the ends of the same steps; those of lanes that have not moved take no time."""
-    if s.paths.shape[0] == 0 or not has_watched(s):
+    """Record the ends of the steps whose starts are recorded; those of lanes at rest take no time."""
+    c = s.recorder
+    if c.count[1] == 0:
         return
-    steps = s.paths[s.recorded[0]]
-    copy_rows(s, s.ends, steps)
+    steps = c.tables[c.count[0]]
+    copy_rows(s, c.ends, steps)
     for i in range(LANES):
         steps[step.host1, i] = s.host[i]
         steps[step.row, i], steps[step.number, i] = s.member[i], s.number[i]
-        steps[step.status, i], steps[step.passed, i] = s.status[i], s.passed[i]
-    s.recorded[0] += 1
+        steps[step.status, i], steps[step.patch, i] = s.status[i], s.patch[i]
+    c.count[0] += 1
+    c.count[1] = 0
 
 
-def copy_rows(s: Scratch, pairs: NDArray[np.int64], steps: Floats) -> None:
-    """Copy rows of the block to rows of a table, (:data:`COLUMNS`, LANES)."""
-    for n in range(pairs.shape[0]):
-        first, row = pairs[n, 0] * LANES, pairs[n, 1]
-        for i in range(LANES):
-            steps[row, i] = s.block[first + i]
+def record_rest(s: Scratch, i: int, until: float) -> None:
+    """Record that a bond has held lane i up to a time, s, if an instant was meanwhile."""
+    if not is_due(s, s.block[at.t * LANES + i], until):
+        return
+    begin_record(s, _PASSING)
+    record_ends(s)
+    steps = s.recorder.tables[s.recorder.count[0] - 1]
+    steps[step.t1, i], steps[step.met, i], steps[step.left, i] = until, -math.inf, -math.inf
 
 
-def has_watched(s: Scratch) -> bool:
-    """Return True if a lane has a particle whose steps are recorded."""
-    if len(s.watched) == 0:
-        return True
-    watched = 0
-    for i in range(LANES):
-        watched += s.member[i] >= 0 and s.watched[s.member[i]]
-    return bool(watched > 0)
+def copy_rows(s: Scratch, rows: NDArray[np.int64], steps: Floats) -> None:
+    """Copy rows of the block to rows of a table, up to the level of the present record."""
+    for n in range(rows.shape[0]):
+        if rows[n, 2] <= s.recorder.count[1]:
+            first, row = rows[n, 0] * LANES, rows[n, 1]
+            for i in range(LANES):
+                steps[row, i] = s.block[first + i]
 
 
 def vector_of(table: Floats, first: int, k: int) -> Vector:
@@ -244,9 +325,12 @@ class Steps(NamedTuple):
     def both(self, name: str) -> tuple[Floats, Floats]:
         """Return a quantity with several components at start and end, (n, k)."""
         k = 3 if name in ("x", "v") else 9
-        ends = (getattr(step, f"{name}{end}") for end in (0, 1))
-        first, last = (np.moveaxis(self.tables[:, row : row + k], 1, 2).reshape(-1, k) for row in ends)
+        first, last = (self.rows(getattr(step, f"{name}{end}"), k) for end in (0, 1))
         return first, last
+
+    def rows(self, first: int, k: int) -> Floats:
+        """Return k rows of the tables, (n, k)."""
+        return np.moveaxis(self.tables[:, first : first + k], 1, 2).reshape(-1, k)
 
     def take(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> Steps:
         """Return some of the steps, in a single table."""
@@ -273,11 +357,6 @@ class Steps(NamedTuple):
         x, v, F = np.empty((self.n, 3)), np.empty((self.n, 3)), np.empty((self.n, 9))
         compiled(_between)(self.tables[0], share, int(self.in_frame), x, v, F)
         return x, v, F
-
-    @property
-    def has_mode(self) -> bool:
-        """Whether the quadratic mode is recorded."""
-        return int(self.tables.shape[1]) > step.B0
 
     def mode_between(self, share: Floats) -> Floats:
         """Return the quadratic mode after a share (n,) of each step of a single table, (n, 7).
@@ -377,6 +456,7 @@ def steps_of(tables: Floats, rows: RecordedRows, rebounds: Floats, coupled: Sequ
         patches.
     """
     steps = Steps(tables, rows.in_frame)
+    tables[:, step.t1] = np.where(tables[:, step.met] > -np.inf, tables[:, step.t1], tables[:, step.t0])
     if not tables[:, step.passed].any():
         return steps
     moved = steps.take(steps.t[1] > steps.t[0])
@@ -394,35 +474,32 @@ def _divided(record: Floats, in_frame: bool, rebounds: Floats, coupled: Sequence
     parts: list[Floats] = []
     rest = record.copy()
     for before, after in passages(rebounds[during], coupled):
-        part = rest.copy()
         turn = after.F[0].reshape(3, 3) @ np.linalg.inv(before.F[0].reshape(3, 3))
-        for first, values in ((step.t1, before.t), (step.x1, before.x[0]), (step.v1, before.v[0])):
-            part[first : first + len(values)] = values
+        part, Q0, Q1 = rest.copy(), rest[step.Q0 : step.Q0 + 9], rest[step.Q1 : step.Q1 + 9]
+        l0, l1 = rest[step.l0 : step.l0 + 9], rest[step.l1 : step.l1 + 9]
         # A part of no duration has the least: observers see it, too.
-        part[step.t1] = max(part[step.t1], np.nextafter(part[step.t0], np.inf))
-        part[step.F1 : step.F1 + 9] = before.F[0]
-        part[step.Q1 : step.Q1 + 9] = (rest[step.Q1 : step.Q1 + 9].reshape(3, 3) @ turn).ravel()
-        part[step.l1 : step.l1 + 9] = rest[step.l0 : step.l0 + 9]
-        part[step.host1], part[step.status], part[step.passed] = -1, Status.ACTIVE, len(parts) > 0
+        t = max(before.t[0], np.nextafter(rest[step.t0], np.inf))
+        _put(part, t1=t, x1=before.x, v1=before.v, F1=before.F, Q1=Q1.reshape(3, 3) @ turn, l1=l0)
+        _put(part, host1=-1, status=Status.ACTIVE, passed=len(parts) > 0)
         parts.append(part)
-        for first, values in ((step.t0, after.t), (step.x0, after.x[0]), (step.v0, after.v[0])):
-            rest[first : first + len(values)] = values
-        rest[step.t0] = max(rest[step.t0], part[step.t1])
-        rest[step.F0 : step.F0 + 9] = after.F[0]
-        rest[step.Q0 : step.Q0 + 9] = (rest[step.Q0 : step.Q0 + 9].reshape(3, 3) @ turn.T).ravel()
+        _put(rest, t0=max(after.t[0], t), x0=after.x, v0=after.v, F0=after.F, host0=-1, l0=l1)
+        _put(rest, Q0=Q0.reshape(3, 3) @ turn.T, **_turned_mode(part[:, None], turn))
         if not in_frame:
-            rest[step.A0 : step.A0 + 9] = (turn @ rest[step.A0 : step.A0 + 9].reshape(3, 3)).ravel()
-        rest[step.l0 : step.l0 + 9] = rest[step.l1 : step.l1 + 9]
-        rest[step.host0] = -1
-        if len(rest) > step.B0:
-            rest[step.B0 :] = _turned_mode(part[:, None], turn)
+            _put(rest, A0=turn @ rest[step.A0 : step.A0 + 9].reshape(3, 3))
     rest[step.t1] = max(rest[step.t1], np.nextafter(rest[step.t0], np.inf))
     return np.stack([*parts, rest], axis=1)
 
 
-def _turned_mode(part: Floats, turn: Floats) -> Floats:
-    """Return the rows of the mode after a step, turned by a rotation, from a table of this step, (n, 1)."""
+def _put(record: Floats, **values: Any) -> None:
+    """Store quantities in their rows of a record."""
+    for name, value in values.items():
+        first = getattr(step, name)
+        record[first : first + np.size(value)] = np.ravel(value)
+
+
+def _turned_mode(part: Floats, turn: Floats) -> dict[str, Any]:
+    """Return the quadratic mode after a step, turned by a rotation, from a table of this step, (n, 1)."""
     flat: Any = tuple(turn.ravel())
     B = mode_after(part, 0, part[step.t1, 0] - part[step.t0, 0])
-    growth, spin = third_of(part, step.growth0, 0), turn @ part[step.fluid_spin0 :, 0]
-    return np.array([*turned(B, flat), *turned(growth, flat), part[step.recovery0, 0], *spin])
+    growth, spin = third_of(part, step.growth0, 0), vector_of(part, step.fluid_spin0, 0)
+    return {"B0": turned(B, flat), "growth0": turned(growth, flat), "fluid_spin0": turn @ spin}

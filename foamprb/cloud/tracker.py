@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import InitVar, dataclass
 from functools import partial
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,6 @@ from foamprb.cloud.contact import CROWDED, GAPS, contact_normals, gap, in_order
 from foamprb.cloud.drops import DROP
 from foamprb.cloud.elastic import functions_of_solid
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose, sum_of_forces
-from foamprb.cloud.instants import Moments, instants_of
 from foamprb.cloud.integrators.adaptive import sampling, stretch_of
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.lanes import PAUSED
@@ -31,14 +30,14 @@ from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import SHORTEST_STEP, UNLISTED, PatchTable, interrupted
 from foamprb.cloud.needs import needed_by, reader_of
 from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, Adhere, Interaction, Rebound
-from foamprb.cloud.paths import COLUMNS, COLUMNS_OF_ELLIPSOIDS, MODE, ROOM, Steps, steps_of
+from foamprb.cloud.paths import ROOM, Observation, Steps, recorder_of, steps_of
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.memory import FadingMemory
-from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticRows, QuadraticSolid
+from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid
 from foamprb.cloud.viscosity import model_of
 from foamprb.compile.link import is_compiled, link, packed
 from foamprb.errors import InputError
@@ -284,24 +283,12 @@ class Tracker:
         stop: Any = None,
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
         fields: Any = None,
-        observers: Observers | None = None,
-        stored: Stored | None = None,
+        observation: Observation = Observation(),  # noqa: B008
     ) -> Scratch:
         scratch = new_scratch(self.layout, stop, bounds, self._room, self.switches)
-        recorded = self.integrator.recorded
-        parts = [part for part in self.layout.parts if isinstance(part, QuadraticRows)]
-        mode = {name: row for part in parts for name, row in part._asdict().items()}
-        if observers is not None:
-            needs = observers.needs
-            columns = COLUMNS if mode and needs & MODE else COLUMNS_OF_ELLIPSOIDS
-            scratch = scratch._replace(
-                paths=np.zeros((ROOM, columns, LANES)), starts=recorded.starts(needs, mode),
-                ends=recorded.ends(needs), watched=observers.watched,
-            )  # fmt: skip
-        if stored is not None:
-            slack = 2.0 * SHORTEST_STEP * self.dt
-            at_instants = instants_of(*stored, recorded, self.layout, mode, slack)
-            scratch = scratch._replace(instants=at_instants)
+        slack = 2.0 * SHORTEST_STEP * self.dt
+        recorder = recorder_of(observation, self.integrator.recorded, self.layout, slack)
+        scratch = scratch._replace(recorder=recorder)
         return scratch if fields is None else scratch._replace(fields=fields)
 
     def advance(
@@ -314,8 +301,7 @@ class Tracker:
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
         stop: Callable[[], bool] = never,
         fields: Fields | None = None,
-        observers: Observers | None = None,
-        stored: Stored | None = None,
+        observation: Observation = Observation(),  # noqa: B008
     ) -> Outcome:
         """Advance particles from step ``step`` by ``steps`` steps, in place.
 
@@ -330,10 +316,8 @@ class Tracker:
             raises.
         fields
             Fields of the case at the loaded times, if the flow was read with some.
-        observers
-            Functions to which the steps are given.
-        stored
-            Instants within the steps, and the arrays in which the state there is stored.
+        observation
+            Which steps are recorded, and the functions to which they are given.
         """
         last = step + steps
         dt, start = times = self._times(step)
@@ -345,7 +329,7 @@ class Tracker:
         for end in sorted({*np.unique(reached[(reached > step) & (reached < last)]).tolist(), last}):
             rows = np.flatnonzero(np.isin(p.status, self.movable) & (reached <= step))
             part = self._carry(
-                flow, p, rows, (step, end - step), times, threads, bounds, stop, fields, observers, stored
+                flow, p, rows, (step, end - step), times, threads, bounds, stop, fields, observation
             )
             outcome += part
             if not part.finished:
@@ -372,8 +356,7 @@ class Tracker:
         bounds: LoopLimits,
         stop: Callable[[], bool],
         fields: Fields | None,
-        observers: Observers | None,
-        stored: Stored | None,
+        observation: Observation,
     ) -> Outcome:
         """Advance the particles of some rows from a step by a number of steps."""
         halt = np.zeros(1, dtype=np.int64)
@@ -381,15 +364,14 @@ class Tracker:
         track = self.linked(flow, sampled)
 
         def work(task: Task) -> Outcome:
-            scratch = self._scratch(halt, bounds, sampled, observers, stored)
+            scratch = self._scratch(halt, bounds, sampled, observation)
             mended = 0
-            for part in task.parts(self.integrator.adaptive or observers is None):
+            for part in task.parts(self.integrator.adaptive or len(scratch.recorder.tables) == 0):
                 going_on = 1
                 while going_on:
                     mended += track(flow, self.table, self.medium, p, *part, *times, scratch, *self.options)
                     going_on = scratch.counts[PAUSED]
-                    if observers is not None:
-                        observers.observe(self._steps(scratch, p, finished=not interrupted(scratch)))
+                    self._observe(observation, scratch, p)
             if scratch.noted[1]:
                 self.rebounds.append(scratch.rebounds[: scratch.noted[1]].copy())
             outgrown = scratch.outgrown[0]
@@ -412,13 +394,17 @@ class Tracker:
             self._room *= _MORE_ROOM
         return outcome
 
-    def _steps(self, s: Scratch, p: Particles, finished: bool) -> Steps:
-        """Return the recorded steps, and empty their table."""
-        tables, s.recorded[0] = s.paths[: s.recorded[0]], 0
-        coupled = np.flatnonzero(self.table.code == CYCLIC).tolist()
-        steps = steps_of(tables, self.integrator.recorded, s.rebounds[: s.noted[0]], coupled)
-        # Those of particles that stay where they began are taken again.
-        return steps if finished else steps.take(steps.t[1] <= p.t[steps.row])
+    def _observe(self, observation: Observation, s: Scratch, p: Particles) -> None:
+        """Give the recorded steps to the functions of an observation, and empty their tables."""
+        recorded, count = self.integrator.recorded, s.recorder.count
+        tables, count[0] = s.recorder.tables[: count[0]], 0
+        if len(tables) and observation.store is not None:
+            observation.store(Steps(tables, recorded.in_frame))
+        if len(tables) and observation.observe is not None:
+            coupled = np.flatnonzero(self.table.code == CYCLIC).tolist()
+            steps = steps_of(tables, recorded, s.rebounds[: s.noted[0]], coupled)
+            # Those of particles that stay where they began are taken again.
+            observation.observe(steps.take(steps.t[1] <= p.t[steps.row]) if interrupted(s) else steps)
 
     def contact_normals(self, flow: Any, p: Particles, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""
@@ -432,21 +418,6 @@ class Tracker:
         """Return the records since the last call, as :func:`foamprb.cloud.contact.in_order` does."""
         records, self.rebounds = self.rebounds, []
         return in_order(records)
-
-
-Stored: TypeAlias = tuple[Moments, Mapping[str, NDArray[Any]]]
-"""Instants, and the arrays in which the state there is stored, see :mod:`foamprb.cloud.instants`."""
-
-
-class Observers(NamedTuple):
-    """Functions to which steps are given, and the particles whose steps these are."""
-
-    watched: NDArray[np.bool_]
-    """1 for each particle whose steps are recorded, else 0; empty for all."""
-    needs: frozenset[str]
-    """Quantities that are recorded, by the names of :class:`foamprb.cloud.paths.StepRows`."""
-    observe: Callable[[Steps], None]
-    """Called in several threads."""
 
 
 class Task(NamedTuple):

@@ -62,7 +62,7 @@ class PlaneFunction(PathFunction):
 
     def add(
         self,
-        memory: Memory,  # noqa: ARG002
+        memory: Memory,
         cloud: ObservedCloud,  # noqa: ARG002
         steps: Steps,
         fresh: NDArray[np.bool_],
@@ -76,7 +76,7 @@ class PlaneFunction(PathFunction):
         crossing = steps.take(index.astype(np.intp))
         (x, v, F), (t0, t1) = crossing.between(share), crossing.t
         columns = [crossing.number, (1.0 - share) * t0 + share * t1, x, sense, F]
-        if crossing.has_mode:
+        if memory["crossings"].shape[1] > _COLUMNS:
             columns += [crossing.mode_between(share), v]
         return np.column_stack([*columns, *self.more(crossing, share)])
 

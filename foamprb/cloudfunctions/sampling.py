@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from foamprb.cloud.block import Medium
 from foamprb.cloud.communicator import Rank
 from foamprb.cloud.patches import Interaction
-from foamprb.cloud.paths import Steps, step
+from foamprb.cloud.paths import Observation, Steps, step
 from foamprb.cloud.state import Particles
-from foamprb.cloud.tracker import Observers
 from foamprb.cloudfunctions.base import (
     CloudFunction,
     CloudShare,
@@ -59,7 +58,7 @@ class Sampling:
         share: Any = CloudShare(self._interactions, rank.seen, self._medium, rank.tracker, time, n)
         return ObservedCloud(share, self._names, _seen=p)
 
-    def observers(self, rank: Rank, until: float) -> Observers | None:
+    def observers(self, rank: Rank, until: float) -> Observation | None:
         """Return the functions that observe the steps of a call of the loop, None for none.
 
         ``until`` is the time of its end, s.
@@ -69,8 +68,7 @@ class Sampling:
             return None
         cloud, numbers = self.cloud(rank, rank.particles, until), rank.particles.number
         masks = [function.watches(numbers, cloud.cloud.size) for function in following.values()]
-        some = [mask for mask in masks if mask is not None]
-        watched = np.logical_or.reduce(some) if len(some) == len(masks) else np.empty(0, dtype=np.bool_)
+        watched = np.logical_or.reduce([np.ones(len(numbers)) if mask is None else mask for mask in masks])
         needs = frozenset[str]().union(*(function.needs for function in following.values()))
         each = []
         for name, function in following.items():
@@ -87,7 +85,7 @@ class Sampling:
                 if events is not None and len(events):
                     self._events[name].append(events)
 
-        return Observers(watched, needs, observe)
+        return Observation(needs, watched, observe)
 
     def _sums_of(self, rank: Rank, name: str, function: CloudFunction) -> NDArray[np.int64]:
         """Return the sums of the cells of a rank that a function adds to; none without such an array."""

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.communicator import Rank
-from foamprb.cloud.instants import MARKS, STATE
+from foamprb.cloud.instants import PREFIX
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
@@ -290,7 +290,7 @@ def restore(
             "Start over: -overwrite, or startFrom startTime."
         )
     stored = [name.removeprefix(FUNCTIONS) for name in checkpoint.layout if name.startswith(FUNCTIONS)]
-    of_functions = [name for name in stored if name not in (STATE, MARKS)]
+    of_functions = [name for name in stored if not name.startswith(PREFIX)]
     functions.restore(of_functions, lambda name: checkpoint.read(f"{FUNCTIONS}{name}"))
     cloud.store_at(header.get("stored", ()), with_rates)
     cloud.comm.call(_restore_rank, checkpoint.path)

@@ -23,7 +23,7 @@ from pipe_case import EARLIER, END, edit, fates, message, results, stop_after, t
 
 from foamprb import execute, prepare
 from foamprb.cli import main
-from foamprb.cloud.instants import MARKS
+from foamprb.cloud.instants import PREFIX
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
 from foamprb.results.background import Writer
@@ -106,7 +106,7 @@ def test_a_run_that_stops_within_a_call_keeps_what_passed_write_times(case, monk
         job = prepare(case)
 
         def passed(rank=job.cloud.comm.rank) -> bool:
-            return MARKS in rank.share.memory and bool(rank.share.memory[MARKS].any())
+            return any(a.any() for name, a in rank.share.memory.items() if name == f"{PREFIX}status")
 
         with pytest.raises(RunStopped):
             execute(job, "latestTime", passed)

@@ -59,7 +59,6 @@ from foamprb.cloud.block import (
     store9,
     store_fluid,
 )
-from foamprb.cloud.instants import capture, record_before
 from foamprb.cloud.integrators.base import (
     apply_surroundings,
     held_for,
@@ -511,7 +510,6 @@ def track_adaptive(
         for i in range(LANES):
             approach(flow, patches, scratch, i, dt, tolerance)
         record_starts(scratch)
-        record_before(scratch)
         accept_stage(block, tolerance)
 
         for i in range(LANES):
@@ -549,7 +547,6 @@ def track_adaptive(
             if at_end and block[during.held_until * LANES + i] >= current[i] + scratch.stride[i]:
                 end_tracking_steps(scratch, i)
         record_ends(scratch)
-        capture(scratch)
     end_block(scratch)
     return walks_relocated(scratch)
 
