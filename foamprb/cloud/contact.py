@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -171,19 +171,6 @@ def rebounds_of(rows: NDArray[np.float64]) -> Rebounds:
     return Rebounds(
         integers[:, 0], integers[:, 1], rows[:, 2], rows[:, 3:6], rows[:, 6:9], rows[:, 9:12], rows[:, 12:]
     )
-
-
-def passages(rows: NDArray[np.float64], patches: Collection[int]) -> Iterator[tuple[Rebounds, Rebounds]]:
-    """Yield passages of coupled patches among contacts: the states before and the states after.
-
-    Each part has at most one passage of a particle; the parts of a particle follow in time.
-    """
-    rows = rows[np.isin(rows[:, 1], list(patches))]
-    rows = rows[np.argsort(rows[:, 0], kind="stable")]
-    number = rows[:, 0]
-    turn = np.arange(len(rows)) - np.searchsorted(number, number)
-    for k in range(0, int(turn.max(initial=-1)) + 1, 2):
-        yield rebounds_of(rows[turn == k]), rebounds_of(rows[turn == k + 1])
 
 
 def contact_normals(flow: Any, p: Particles, rows: NDArray[Any], normals: NDArray[Any]) -> None:

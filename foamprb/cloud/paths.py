@@ -29,7 +29,7 @@ from foamprb.body.tensor import (
     scale_vector,
 )
 from foamprb.cloud.block import Recorder, Scratch, at
-from foamprb.cloud.contact import passages
+from foamprb.cloud.contact import rebounds_of
 from foamprb.cloud.layout import LANES, Layout, Row, end, offsets, rows_of
 from foamprb.cloud.state import Status
 from foamprb.compile.link import compiled, separate
@@ -469,20 +469,22 @@ def steps_of(tables: Floats, rows: RecordedRows, rebounds: Floats, coupled: Sequ
 
 def _divided(record: Floats, in_frame: bool, rebounds: Floats, coupled: Sequence[int]) -> Floats:
     """Return the parts of a step between its passages of coupled patches, (:data:`COLUMNS`, k)."""
-    during = (rebounds[:, 0] == record[step.number]) & (rebounds[:, 2] >= record[step.t0])
-    during &= rebounds[:, 2] <= record[step.t1]
+    during = (rebounds[:, 0] == record[step.number]) & np.isin(rebounds[:, 1], coupled)
+    during &= (rebounds[:, 2] >= record[step.t0]) & (rebounds[:, 2] <= record[step.t1])
     parts: list[Floats] = []
-    rest = record.copy()
-    for before, after in passages(rebounds[during], coupled):
-        turn = after.F[0].reshape(3, 3) @ np.linalg.inv(before.F[0].reshape(3, 3))
+    rest, states = record.copy(), rebounds_of(rebounds[during])
+    for before in range(0, len(states.t), 2):
+        after = before + 1
+        turn = states.F[after].reshape(3, 3) @ np.linalg.inv(states.F[before].reshape(3, 3))
         part, Q0, Q1 = rest.copy(), rest[step.Q0 : step.Q0 + 9], rest[step.Q1 : step.Q1 + 9]
         l0, l1 = rest[step.l0 : step.l0 + 9], rest[step.l1 : step.l1 + 9]
         # A part of no duration has the least: observers see it, too.
-        t = max(before.t[0], np.nextafter(rest[step.t0], np.inf))
-        _put(part, t1=t, x1=before.x, v1=before.v, F1=before.F, Q1=Q1.reshape(3, 3) @ turn, l1=l0)
-        _put(part, host1=-1, status=Status.ACTIVE, passed=len(parts) > 0)
+        t = max(states.t[before], np.nextafter(rest[step.t0], np.inf))
+        _put(part, t1=t, **{f"{name}1": getattr(states, name)[before] for name in "xvF"}, l1=l0)
+        _put(part, Q1=Q1.reshape(3, 3) @ turn, host1=-1, status=Status.ACTIVE, passed=len(parts) > 0)
         parts.append(part)
-        _put(rest, t0=max(after.t[0], t), x0=after.x, v0=after.v, F0=after.F, host0=-1, l0=l1)
+        _put(rest, **{f"{name}0": getattr(states, name)[after] for name in "xvF"}, l0=l1, host0=-1)
+        _put(rest, t0=max(states.t[after], t))
         _put(rest, Q0=Q0.reshape(3, 3) @ turn.T, **_turned_mode(part[:, None], turn))
         if not in_frame:
             _put(rest, A0=turn @ rest[step.A0 : step.A0 + 9].reshape(3, 3))

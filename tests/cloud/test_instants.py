@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches, build_mesh, cyclic_row, period
@@ -11,6 +13,7 @@ from foamprb import analytic
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.patches import Adhere, Cyclic, Mirror, Rebound
+from foamprb.cloud.paths import Observation
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow.meshflow import MeshFlow
@@ -111,26 +114,47 @@ def test_a_body_that_meets_a_mirror_is_on_its_lines():
         assert then.x[0] == pytest.approx([0.4 + 0.1 * time, 0.6, abs(0.1 - time)], abs=1e-6)
 
 
-def test_a_body_that_a_bond_holds_is_stuck_until_it_breaks():
+def bound_to_wall():
+    """Bodies in contact with a wall to which bonds hold them now and then."""
     R, water = 2e-6, Medium(1e-3, 1000.0, (0.0, 0.0, -9.81))
     p = spheres(np.tile([0.0, 0.0, R * (1.0 + 1e-7)], (50, 1)), d=2 * R, rho=1200.0, mu=100.0)
-    flow = analytic.shear_over_wall(10.0)
     patch = Adhere(kOn=5.0, kOff=5.0, xb=0.0, T=300.0)
+    flow = analytic.shear_over_wall(10.0)
+    return Cloud(p, flow, water, [patch], DT, Models(integrator="stokes"), threads=1)
 
-    def cloud(steps=0):
-        made = Cloud(p.copy(), flow, water, [patch], DT, Models(integrator="stokes"), threads=1)
-        made.advance(steps)
-        return made
 
+def test_a_body_that_a_bond_holds_is_stuck_until_it_breaks():
     times = [DT * k for k in range(1, 64)]
-    found = states(cloud(), 64, times)
+    found = states(bound_to_wall(), 64, times)
     held = 0
     for k, then in enumerate(found):
-        stopped = cloud(k + 1).particles
+        cloud = bound_to_wall()
+        cloud.advance(k + 1)
+        stopped = cloud.particles
         np.testing.assert_array_equal(then.status, stopped.status)
         np.testing.assert_array_equal(then.patch, stopped.patch)
         held += np.count_nonzero(then.status == Status.STUCK)
     assert held > 500
+
+
+@pytest.mark.parametrize("make", [bound_to_wall, lambda: stretched("rosenbrock")])
+def test_steps_that_functions_observe_do_not_depend_on_instants(make):
+    """Nor do they have the time in which a bond holds a body."""
+
+    def observed(times):
+        cloud, seen = make(), []
+
+        def observe(steps):
+            moved = steps.take(steps.t[1] > steps.t[0])
+            seen.append(np.column_stack([moved.number, *moved.t, *moved.both("F")]))
+
+        needs, all_bodies = frozenset({"F0", "F1"}), np.ones(cloud.size, dtype=bool)
+        seeing = Observation(needs, all_bodies, observe)
+        cloud.comm.rank.sampling = SimpleNamespace(observers=lambda _rank, _until: seeing)
+        states(cloud, 64, times)
+        return np.concatenate(seen)
+
+    np.testing.assert_array_equal(observed([DT * k for k in range(1, 64)]), observed([]))
 
 
 def test_particles_that_are_ahead_store_what_they_do_in_one_call():
