@@ -44,15 +44,7 @@ class Moments(NamedTuple):
 
 
 def store(moments: Moments, arrays: Mapping[str, NDArray[Any]], steps: Steps) -> None:
-    """Store the states at the instants within steps.
-
-    Parameters
-    ----------
-    arrays
-        See :meth:`Moments.layout`, with a row for each particle.
-    steps
-        Undivided, with the arrays ``more`` of the moments at their ends.
-    """
+    """Store the states at the instants within undivided steps in arrays, see :meth:`Moments.layout`."""
     (t0, t1), times = steps.t, np.array(moments.times)[:, None]
     which, passing = np.nonzero((steps.row >= 0) & (t0 < times) & (times <= t1))
     steps, time, first = steps.take(passing), times[which, 0], COLUMNS
@@ -95,16 +87,9 @@ def _on_lines(steps: Steps, time: Floats) -> Floats:
 
 
 def state_at(p: Particles, arrays: Mapping[str, NDArray[Any]], w: int, moments: Moments) -> Particles:
-    """Return particles at an instant; the others have the state in which they ended, or are not released.
+    """Return particles at instant w; others have the state in which they ended, or are not released.
 
-    Parameters
-    ----------
-    p
-        Particles after the steps with the instant.
-    arrays
-        See :meth:`Moments.layout`, for these particles.
-    w
-        Number of the instant.
+    The arguments are the particles after the steps with the instant, and what :func:`store` has stored.
     """
     time, (stored, status) = moments.times[w], status_at(p, arrays, w, moments)
     values: dict[str, NDArray[Any]] = {}
@@ -135,18 +120,9 @@ def status_at(
 
 
 def hosts_at(kernels: Mapping[str, Any], flow: Any, p: Particles, x: Floats) -> NDArray[np.int64]:
-    """Return the hosts of points near particles, (n,); −1 outside the mesh.
+    """Return the hosts of points x near particles, (n, 3), m, in a flow; −1 outside the mesh, (n,).
 
     They are at the ends of straight ways from the particles, or found by the tree.
-
-    Parameters
-    ----------
-    kernels, flow
-        Functions of the flow, and their arguments.
-    p
-        The particles in their hosts.
-    x
-        The points, (n, 3), m.
     """
     hosts = np.empty(p.size, dtype=np.int64)
     walk_all, packed_flow = linked_with(kernels, flow, _walk_all)

@@ -338,6 +338,22 @@ class Steps(NamedTuple):
         m, k = np.divmod(rows, max(self.tables.shape[2], 1))
         return self._replace(tables=np.ascontiguousarray(self.tables[m, :, k].T)[None])
 
+    def divided(self, rebounds: Floats, coupled: Sequence[int]) -> Steps:
+        """Return the steps, those through coupled patches divided there; rests take no time.
+
+        ``rebounds`` are all of :func:`foamprb.cloud.contact.record_contact` in these steps, (m, 21).
+        """
+        t1, rests = self.tables[:, step.t1], self.tables[:, step.met] == -np.inf
+        t1[rests] = self.tables[:, step.t0][rests]
+        if not self.tables[:, step.passed].any():
+            return self
+        moved = self.take(self.t[1] > self.t[0])
+        table, first, pieces = moved.tables[0], 0, []
+        for k in np.flatnonzero(table[step.passed]).tolist():
+            pieces += [table[:, first:k], _divided(table[:, k], self.in_frame, rebounds, coupled)]
+            first = k + 1
+        return self._replace(tables=np.concatenate([*pieces, table[:, first:]], axis=1)[None])
+
     @property
     def rate(self) -> Floats:
         """Material velocity gradients dF/dt at the start of the steps of a single table, (n, 9), 1/s."""
@@ -442,29 +458,6 @@ def cubic(s: Any, x0: Any, x1: Any, m0: Any, m1: Any) -> Any:
     """Return the value at s of the cubic from x0 with slope m0 at s = 0 to x1 with slope m1 at s = 1."""
     r = 1.0 - s
     return r * r * ((1.0 + 2.0 * s) * x0 + s * m0) + s * s * ((1.0 + 2.0 * r) * x1 - r * m1)
-
-
-def steps_of(tables: Floats, rows: RecordedRows, rebounds: Floats, coupled: Sequence[int]) -> Steps:
-    """Return the steps in tables, those through coupled patches divided there.
-
-    Parameters
-    ----------
-    tables
-        Records of the loop, also of lanes without a step, whose ends are at the time of their starts.
-    rebounds, coupled
-        Records of rebounds and passages, see :func:`foamprb.cloud.contact.record_contact`; the coupled
-        patches.
-    """
-    steps = Steps(tables, rows.in_frame)
-    tables[:, step.t1] = np.where(tables[:, step.met] > -np.inf, tables[:, step.t1], tables[:, step.t0])
-    if not tables[:, step.passed].any():
-        return steps
-    moved = steps.take(steps.t[1] > steps.t[0])
-    table, first, pieces = moved.tables[0], 0, []
-    for k in np.flatnonzero(table[step.passed]).tolist():
-        pieces += [table[:, first:k], _divided(table[:, k], rows.in_frame, rebounds, coupled)]
-        first = k + 1
-    return steps._replace(tables=np.concatenate([*pieces, table[:, first:]], axis=1)[None])
 
 
 def _divided(record: Floats, in_frame: bool, rebounds: Floats, coupled: Sequence[int]) -> Floats:

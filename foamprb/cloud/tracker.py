@@ -30,7 +30,7 @@ from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import SHORTEST_STEP, UNLISTED, PatchTable, interrupted
 from foamprb.cloud.needs import needed_by, reader_of
 from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, Adhere, Interaction, Rebound
-from foamprb.cloud.paths import ROOM, Observation, Steps, recorder_of, steps_of
+from foamprb.cloud.paths import ROOM, Observation, Steps, recorder_of
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
@@ -396,13 +396,13 @@ class Tracker:
 
     def _observe(self, observation: Observation, s: Scratch, p: Particles) -> None:
         """Give the recorded steps to the functions of an observation, and empty their tables."""
-        recorded, count = self.integrator.recorded, s.recorder.count
-        tables, count[0] = s.recorder.tables[: count[0]], 0
-        if len(tables) and observation.store is not None:
-            observation.store(Steps(tables, recorded.in_frame))
-        if len(tables) and observation.observe is not None:
+        count = s.recorder.count
+        steps, count[0] = Steps(s.recorder.tables[: count[0]], self.integrator.recorded.in_frame), 0
+        if steps.n and observation.store is not None:
+            observation.store(steps)
+        if steps.n and observation.observe is not None:
             coupled = np.flatnonzero(self.table.code == CYCLIC).tolist()
-            steps = steps_of(tables, recorded, s.rebounds[: s.noted[0]], coupled)
+            steps = steps.divided(s.rebounds[: s.noted[0]], coupled)
             # Those of particles that stay where they began are taken again.
             observation.observe(steps.take(steps.t[1] <= p.t[steps.row]) if interrupted(s) else steps)
 
