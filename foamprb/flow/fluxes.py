@@ -136,6 +136,8 @@ class Conservation:
             integrate(low, high, at, sides, fluxes)
 
         share(len(fluxes), faces)
+        if not np.isfinite(fluxes).all():
+            raise UnbalancedFlowError(f"the velocity of {where} is not finite at some nodes of the mesh.")
         outer = fluxes[mesh.n_internal :]
         outer[self._closed] = 0.0
         # What leaves through a coupled patch enters through its partner.

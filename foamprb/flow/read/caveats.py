@@ -20,6 +20,7 @@ from foamprb.flow.fluxes import Conservation, UnbalancedFlowError
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
+from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
 from foamprb.flow.read.field import FoamField, Kind
 from foamprb.flow.read.fluid import FRACTION_FIELD
@@ -350,6 +351,7 @@ def _flux(
         phi = read("phi", FLUX_FIELD)
     except InputError:
         return None
+    require_numbers(phi.cells, phi.path, "value", "at face")
     values = []
     for patch in patches:
         entry = phi.of(patch)
@@ -358,6 +360,7 @@ def _flux(
             if patch.faces > 0 and patch.type not in ("empty", "processor"):
                 return None
             values_there = np.zeros((1, 1))
+        require_numbers(values_there, phi.path, "value", f"on patch {patch.name}, face")
         values.append(np.broadcast_to(values_there, (patch.faces, 1))[:, 0])
     unit = "kg/s" if phi.dimensions == MASS_FLUX else "m3/s"
     return np.concatenate([np.empty(0), *values]), "phi", unit, phi.cells[:, 0]

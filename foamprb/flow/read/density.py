@@ -15,6 +15,7 @@ from foamprb.flow.balance import CONSTANT, Mass
 from foamprb.flow.base import Floats
 from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.case import find_dictionary
+from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, FoamField, Kind
 from foamprb.flow.read.fluid import density_of_state
 from foamprb.flow.read.turbulence import values_of
@@ -80,9 +81,11 @@ def mass_of(
 def densities(read: Read) -> Floats:
     """Return ``rho`` at the cells, kg/m³, or no values."""
     try:
-        return read("rho", DENSITY_FIELD).cells
+        rho = read("rho", DENSITY_FIELD)
     except InputError:
         return np.empty((0, 1))
+    require_numbers(rho.cells, rho.path, "value", "at cell")
+    return rho.cells
 
 
 def varies(values: Floats) -> bool:
