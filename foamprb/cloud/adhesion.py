@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,8 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.patches import STICK
 from foamprb.cloud.paths import record_rest
-from foamprb.cloud.surroundings.base import Slots, Surrounding
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.compile.link import Slots
 from foamprb.flow.kernels import sample
 
 _KIND = np.uint64(5)
@@ -59,7 +60,7 @@ def hazard_until_change(patches: PatchTable, s: Scratch, i: int, patch: int) -> 
     return float(exponential_deviate(number, change, key) - s.block[bonds.hazard * LANES + i])
 
 
-def rate_of_shear(flow: Any, s: Scratch, i: int, t: float) -> float:
+def rate_of_shear(flow: object, s: Scratch, i: int, t: float) -> float:
     """Return the shear rate of the fluid at lane i at a time, 1/s."""
     _, l_f, _ = sample(flow, s.host[i], load3(s.block, at.x, i), t)
     return float(shear_rate(l_f))
@@ -71,7 +72,7 @@ def change_bond(s: Scratch, i: int) -> None:
     s.block[bonds.changes * LANES + i] += 1.0
 
 
-def form_bond(flow: Any, patches: PatchTable, s: Scratch, i: int, patch: int, t: float, h: float) -> None:
+def form_bond(flow: object, patches: PatchTable, s: Scratch, i: int, patch: int, t: float, h: float) -> None:
     """Let lane i stick to a patch that it has touched for a time h, until t, if a bond forms."""
     rate = patches.bonds[patch, BOND_FORMS]
     if not (rate > 0.0 and h > 0.0 and s.status[i] == ACTIVE):
@@ -86,7 +87,7 @@ def form_bond(flow: Any, patches: PatchTable, s: Scratch, i: int, patch: int, t:
         s.block[bonds.held * LANES + i] = t
 
 
-def hold(flow: Any, patches: PatchTable, s: Scratch, i: int, last: int, dt: float, start: float) -> None:
+def hold(flow: object, patches: PatchTable, s: Scratch, i: int, last: int, dt: float, start: float) -> None:
     """Hold lane i, if it is stuck by a bond, up to the tracking step ``last``, or until the bond breaks."""
     block = s.block
     if s.status[i] != STUCK:
@@ -112,7 +113,7 @@ def hold(flow: Any, patches: PatchTable, s: Scratch, i: int, last: int, dt: floa
         s.step[i] += 1
 
 
-def let_go(flow: Any, s: Scratch, i: int, t: float, dt: float) -> None:
+def let_go(flow: object, s: Scratch, i: int, t: float, dt: float) -> None:
     """Let the stuck particle in lane i move again from a time on, at rest at first."""
     block = s.block
     record_rest(s, i, t)

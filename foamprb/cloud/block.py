@@ -6,7 +6,7 @@ for the particle frames and Jeffery's integrals.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,6 +112,11 @@ _LINE = 8
 """Doubles on a cache line, and in the widest register."""
 
 
+Ints: TypeAlias = NDArray[np.int64]
+Floats: TypeAlias = NDArray[np.float64]
+Four: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar]
+
+
 @record
 class Medium(NamedTuple):
     """Fluid around the particles, and gravity."""
@@ -156,18 +161,18 @@ REBOUND_NUMBERS = 21
 class Recorder(NamedTuple):
     """Records of steps, and which steps and rows these are (:mod:`foamprb.cloud.paths`); none by default."""
 
-    tables: Any = np.empty((0, 0, 0))
+    tables: Floats = np.empty((0, 0, 0))
     """(n, rows, LANES) steps of all lanes, one table after the other."""
     count: Any = np.zeros(2, dtype=np.int64)
     """(2,) number of tables with steps; level of the rows that are recorded of the present step."""
-    starts: Any = np.empty((0, 3), dtype=np.int64)
+    starts: Ints = np.empty((0, 3), dtype=np.int64)
     """(k, 3) rows that are recorded before a step is accepted, those of the table, and their levels: 1 in
     every record, 2 in those of steps that may lead past an instant."""
-    ends: Any = np.empty((0, 3), dtype=np.int64)
+    ends: Ints = np.empty((0, 3), dtype=np.int64)
     """The same after it."""
-    watched: Any = np.empty(0, dtype=np.bool_)
+    watched: NDArray[np.bool_] = np.empty(0, dtype=np.bool_)
     """1 for each particle of the cloud all of whose steps are recorded, else 0; empty for none."""
-    times: Any = np.empty(0)
+    times: Floats = np.empty(0)
     """(w,) instants, s, rising."""
     slack: float = 0.0
     """Time by which a step may be longer than intended, s."""
@@ -195,47 +200,47 @@ class Scratch(NamedTuple):
 
     block: Block
     """Rows × LANES numbers, flat."""
-    status: Any
+    status: Ints
     """Status of each lane, (LANES,) integers as all up to ``step``."""
-    reason: Any
-    patch: Any
-    host: Any
-    ahead: Any
+    reason: Ints
+    patch: Ints
+    host: Ints
+    ahead: Ints
     """Host at the end of the step."""
-    step: Any
+    step: Ints
     """Tracking step."""
-    matrix: Any
+    matrix: Floats
     """(9, 10) linear equations of one particle."""
-    stop: Any
+    stop: Ints
     """(1,) integer shared with other threads: not 0 to stop the loop at once."""
-    number: Any
+    number: Ints
     """(LANES,) index of each particle in the whole cloud."""
-    outgrown: Any
+    outgrown: Ints
     """(1,) integer: not 0 once a wall may not be listed, or a rebound has no room."""
-    rebounds: Any
+    rebounds: Floats
     """Buffer for the rebounds, (n, :data:`REBOUND_NUMBERS`)."""
-    noted: Any
+    noted: Ints
     """(2,) number of recorded rebounds, in all and of finished blocks."""
     bounds: LoopLimits
     """Limits of the particles."""
-    member: Any
+    member: Ints
     """(LANES,) index of each particle in the cloud's arrays, −1 for none."""
-    mended: Any
+    mended: Ints
     """(LANES,) number of walks that needed the tree."""
-    lasting: Any
+    lasting: Ints
     """As in :class:`~foamprb.cloud.layout.Layout`."""
-    fresh: Any
+    fresh: Floats
     """As in :class:`~foamprb.cloud.layout.Layout`."""
-    shelf: Any
+    shelf: Floats
     """Rows ``lasting`` of the particles that are set aside, (:data:`SHELF`, n)."""
-    labels: Any
+    labels: Ints
     """Their integers, (:data:`SHELF`, :data:`LABELS`)."""
-    counts: Any
+    counts: Ints
     """(:data:`COUNTS`,) numbers of particles set aside, and other counts (:mod:`foamprb.cloud.lanes`)."""
-    stride: Any
+    stride: Ints
     """(LANES,) tracking steps to the end of the stretch."""
     recorder: Recorder
-    initial: Any
+    initial: Floats
     """As in :class:`~foamprb.cloud.layout.Layout`."""
     switches: Switches
     fields: Any
@@ -249,7 +254,7 @@ SHELF, LABELS, COUNTS = 10 * LANES, 8, 5
 
 def new_scratch(
     layout: Layout,
-    stop: Any = None,
+    stop: Ints | None = None,
     bounds: LoopLimits = LoopLimits(),  # noqa: B008
     room: int = 0,
     switches: Switches = Switches(),  # noqa: B008
@@ -315,13 +320,13 @@ def store3(block: Block, row: int, i: int, v: Vector) -> None:
     block[k], block[k + LANES], block[k + 2 * LANES] = v[0], v[1], v[2]
 
 
-def load4(block: Block, row: int, i: int) -> tuple[Any, Any, Any, Any]:
+def load4(block: Block, row: int, i: int) -> Four:
     """Return the numbers in four rows of lane i."""
     k = row * LANES + i
     return block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES]
 
 
-def store4(block: Block, row: int, i: int, v: tuple[Any, Any, Any, Any]) -> None:
+def store4(block: Block, row: int, i: int, v: Four) -> None:
     """Store four numbers in four rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES] = v[0], v[1], v[2], v[3]
@@ -560,7 +565,7 @@ def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     save_rows(p, k, s.block, i)
 
 
-def idle_lanes(block: Block, initial: Any, dt: float) -> None:
+def idle_lanes(block: Block, initial: Floats, dt: float) -> None:
     """Fill every lane with the initial values, a sphere at rest, and steps of Δt."""
     for row in range(len(initial)):
         for i in range(LANES):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -14,7 +14,7 @@ from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.block import REBOUND_NUMBERS, Scratch, at, load3, load9
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.state import Particles
-from foamprb.compile.link import kernel, separate
+from foamprb.compile.link import Slots, kernel, separate
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.kernels import normal, walk
 
@@ -71,36 +71,40 @@ def mode_of(_p: Particles, _k: int, _F: Tensor) -> Any:
 
 
 @choice
-def gap(flow: Any, host: int, x: Vector, F: Tensor, R: float, mode: Any) -> tuple[float, int, int]:
+def gap(flow: object, host: int, x: Vector, F: Tensor, R: float, mode: Any) -> tuple[float, int, int]:
     """Return gap, m, patch and triangle of the wall nearest to a body, of a flow's unpacked arrays."""
     return gap_free(flow, host, x, F, R, mode)
 
 
 @kernel
-def gap_of_lane(_flow: Any, _block: Block, _i: int, _host: int, _x: Vector, _F: Tensor, _t: float) -> Contact:
+def gap_of_lane(
+    _flow: object, _block: Block, _i: int, _host: int, _x: Vector, _F: Tensor, _t: float
+) -> Contact:
     """Return gap, patch and triangle of the wall nearest to the body in lane i, at x in a host with F."""
     return math.inf, -1, -1
 
 
 @kernel
 def gap_of_particle(
-    _flow: Any, _p: Particles, _k: int, _host: int, _x: Vector, _F: Tensor, _t: float
+    _flow: object, _p: Particles, _k: int, _host: int, _x: Vector, _F: Tensor, _t: float
 ) -> Contact:
     """Return the same of particle k."""
     return math.inf, -1, -1
 
 
-def _gap_of_lane(flow: Any, block: Block, i: int, host: int, x: Vector, F: Tensor, _t: float) -> Contact:
+def _gap_of_lane(flow: object, block: Block, i: int, host: int, x: Vector, F: Tensor, _t: float) -> Contact:
     clearance, patch, triangle = gap(flow, host, x, F, block[at.R * LANES + i], mode_in(block, i, F))
     return clearance, int(patch), int(triangle)
 
 
-def _gap_of_particle(flow: Any, p: Particles, k: int, host: int, x: Vector, F: Tensor, _t: float) -> Contact:
+def _gap_of_particle(
+    flow: object, p: Particles, k: int, host: int, x: Vector, F: Tensor, _t: float
+) -> Contact:
     clearance, patch, triangle = gap(flow, host, x, F, p.R[k], mode_of(p, k, F))
     return clearance, int(patch), int(triangle)
 
 
-GAPS: Mapping[Callable[..., Any], Callable[..., Any]] = {
+GAPS: Slots = {
     gap_of_lane: _gap_of_lane,
     gap_of_particle: _gap_of_particle,
 }
@@ -173,7 +177,7 @@ def rebounds_of(rows: NDArray[np.float64]) -> Rebounds:
     )
 
 
-def contact_normals(flow: Any, p: Particles, rows: NDArray[Any], normals: NDArray[Any]) -> None:
+def contact_normals(flow: object, p: Particles, rows: NDArray[Any], normals: NDArray[Any]) -> None:
     """Find the normals, into the fluid, of the walls on which the particles of some rows have ended.
 
     The normal is that of the nearest wall if it belongs to the particle's patch, otherwise of the face that

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any
-
 import numpy as np
 
 from foamprb.body.morphology import drop_drag_factor, drop_mobility, drop_stress
@@ -17,6 +14,7 @@ from foamprb.cloud.integrators.adaptive import drag_rate_of_solid
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.surroundings import wall_lift
 from foamprb.cloud.surroundings.base import volume_at_rest
+from foamprb.compile.link import Slots
 
 
 def _numbers(block: Block, i: int, medium: Medium) -> tuple[Scalar, Scalar]:
@@ -55,7 +53,7 @@ def stresslet(block: Block, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) ->
     return scale(volume_at_rest(block, i) * viscosity_at(block, i, medium), s)
 
 
-DROP: Mapping[Callable[..., Any], Callable[..., Any]] = {
+DROP: Slots = {
     elastic.body_mobility: body_mobility,
     elastic.mobility_deficit: mobility_deficit,
     adaptive.drag_rate: drag_rate,

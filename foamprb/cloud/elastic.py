@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from foamprb.body import rosenbrock
@@ -33,6 +32,7 @@ from foamprb.body.surface_tension import laplace_stress, no_stress
 from foamprb.body.tensor import Scalar, Tensor, Vector, diagonal
 from foamprb.cloud.block import Medium, at, load_integrals, viscosity_at
 from foamprb.cloud.layout import LANES, Block
+from foamprb.compile.link import Function
 
 
 def solid(block: Block, i: int) -> tuple[Any, Any, Any]:
@@ -58,15 +58,13 @@ def interface(stretches: Vector, tension: Scalar) -> Vector:
     return no_stress(stretches, tension)
 
 
-def functions_of_solid(
-    material: Material, general: bool, tense: bool
-) -> dict[Callable[..., Any], Callable[..., Any]]:
+def functions_of_solid(material: Material, general: bool, tense: bool) -> dict[Function, Function]:
     """Return what a solid puts behind choices.
 
     ``general`` tells that its elastic strain is not diagonal in the particle frame: its shape at rest is no
     sphere, or it has memory. ``tense`` tells that it has surface tension.
     """
-    slots: dict[Callable[..., Any], Callable[..., Any]] = {derivatives: material.derivatives}
+    slots: dict[Function, Function] = {derivatives: material.derivatives}
     if material.dilation is not None:
         slots |= {
             dilation: material.dilation,

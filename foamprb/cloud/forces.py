@@ -35,7 +35,7 @@ from foamprb.body.lift import (
 from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, plus, scale_vector
 from foamprb.cloud.block import LocalMedium, Medium, at, choose3, load3, local_medium
 from foamprb.cloud.layout import LANES, Block, compose_function, text_of
-from foamprb.compile.link import kernel
+from foamprb.compile.link import Function, kernel
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
@@ -385,7 +385,7 @@ def add_force(
 
 def class_of_entries(
     model: str,
-    evaluate: Callable[..., Any],
+    evaluate: Function,
     given: Sequence[str],
     base: type[T],
     namespace: dict[str, Any],
@@ -475,14 +475,12 @@ def forces_on(
     return steady, f, inertia
 
 
-def compose(
-    forces: Sequence[Force], reader_of: Callable[[Force], Callable[..., Any]] | None = None
-) -> Callable[..., Any]:
+def compose(forces: Sequence[Force], reader_of: Callable[[Force], Function] | None = None) -> Function:
     """Return the sum of these forces, for :func:`sum_of_forces`.
 
     ``reader_of`` returns a function that reads what a force needs, see :mod:`foamprb.cloud.needs`.
     """
-    total: Callable[..., Any] = no_force
+    total: Function = no_force
     for force, text in zip(forces, _placed(forces)[0], strict=True):
         read = reader_of(force) if reader_of else no_values
         entries = compose_function("entries", f"def entries(numbers):\n    return {text}\n", {})
@@ -532,11 +530,11 @@ def no_values(_block: Block, _i: int, _medium: Medium) -> tuple[()]:
 
 
 def _with_force(
-    others: Callable[..., Any],
-    force: Callable[..., Any],
-    read: Callable[..., Any],
-    entries: Callable[..., Any],
-) -> Callable[..., Any]:
+    others: Function,
+    force: Function,
+    read: Function,
+    entries: Function,
+) -> Function:
     """Return the sum of others and of a force, with functions that read what it needs and its entries."""
 
     def total(block: Block, i: int, inputs: Inputs) -> tuple[Vector, Scalar]:

@@ -119,7 +119,7 @@ def status_at(
     return stored, np.where(stored, status, np.where(released, p.status, Status.PENDING))
 
 
-def hosts_at(kernels: Mapping[str, Any], flow: Any, p: Particles, x: Floats) -> NDArray[np.int64]:
+def hosts_at(kernels: Mapping[str, Any], flow: object, p: Particles, x: Floats) -> NDArray[np.int64]:
     """Return the hosts of points x near particles, (n, 3), m, in a flow; −1 outside the mesh, (n,).
 
     They are at the ends of straight ways from the particles, or found by the tree.
@@ -131,7 +131,7 @@ def hosts_at(kernels: Mapping[str, Any], flow: Any, p: Particles, x: Floats) -> 
 
 
 def _walk_all(
-    flow: Any, hosts: NDArray[np.int64], x0: Floats, t: Floats, x1: Floats, reached: NDArray[np.int64]
+    flow: object, hosts: NDArray[np.int64], x0: Floats, t: Floats, x1: Floats, reached: NDArray[np.int64]
 ) -> None:
     for k in range(len(hosts)):
         start, goal = (x0[k, 0], x0[k, 1], x0[k, 2]), (x1[k, 0], x1[k, 1], x1[k, 2])

@@ -7,8 +7,6 @@ ends is made for many particles at once. The cloud's arrays are written only for
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,7 +46,7 @@ lanes and LANES that ended are set aside."""
 
 @slot
 def hold(
-    _flow: Any, _patches: PatchTable, _s: Scratch, _i: int, _last: int, _dt: float, _start: float
+    _flow: object, _patches: PatchTable, _s: Scratch, _i: int, _last: int, _dt: float, _start: float
 ) -> None:
     """No-op: particles that stick stay."""
 
@@ -118,7 +116,7 @@ def must_move(s: Scratch, i: int, last: int) -> bool:
 
 @separate
 def fill_lanes(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     p: Particles,
     members: NDArray[np.int64],
@@ -166,7 +164,7 @@ def fill_lanes(
 
 
 def release_due(
-    flow: Any, patches: PatchTable, s: Scratch, i: int, last: int, dt: float, start: float
+    flow: object, patches: PatchTable, s: Scratch, i: int, last: int, dt: float, start: float
 ) -> None:
     """Release the particle in lane i in the tracking step of its injection time, if it is pending."""
     block = s.block

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.compile.link import separate, slot
+from foamprb.compile.link import Function, separate, slot
 
 Block: TypeAlias = NDArray[np.float64]
 """A working block: rows × :data:`LANES` numbers, flat."""
@@ -217,9 +217,7 @@ def _is_reserved(declaration: type[tuple[int, ...]]) -> bool:
     return declaration.__name__ in _FIRST and declaration.__module__.startswith("foamprb.")
 
 
-def sequence(
-    name: str, parameters: str, functions: Sequence[Callable[..., Any]], least: str = ""
-) -> Callable[..., Any]:
+def sequence(name: str, parameters: str, functions: Sequence[Function], least: str = "") -> Function:
     """Return a function with these parameters that calls others, in their order, with all of them.
 
     It returns their smallest result; ``least`` without functions, if that is given.
@@ -228,9 +226,7 @@ def sequence(
 
 
 @cache
-def _sequence(
-    name: str, parameters: str, functions: tuple[Callable[..., Any], ...], least: str
-) -> Callable[..., Any]:
+def _sequence(name: str, parameters: str, functions: tuple[Function, ...], least: str) -> Function:
     if len(functions) == 1:
         return functions[0]
     calls = [f"f{n}({parameters})" for n in range(len(functions))]
@@ -241,11 +237,11 @@ def _sequence(
     return compose_function(name, text, {f"f{n}": function for n, function in enumerate(functions)})
 
 
-def compose_function(name: str, text: str, scope: Mapping[str, Any]) -> Callable[..., Any]:
+def compose_function(name: str, text: str, scope: Mapping[str, Any]) -> Function:
     """Return the function of a name in a text, which reads other names in a scope."""
     names: dict[str, Any] = {"__name__": __name__, "LANES": LANES, "np": np, **scope}
     exec(text, names)
-    made: Callable[..., Any] = names[name]
+    made: Function = names[name]
     return made
 
 
@@ -278,7 +274,7 @@ def text_of(values: Any, first: int, numbers: list[float], tail: list[float]) ->
 
 
 @cache
-def _copier(kind: str, declaration: type[tuple[int, ...]]) -> Callable[..., Any]:
+def _copier(kind: str, declaration: type[tuple[int, ...]]) -> Function:
     """Return the function that loads or saves the rows of one declaration."""
     at = offsets(declaration)
     rows = {name: (row, each) for row, (name, each) in zip(at, rows_of(declaration).items(), strict=True)}

@@ -7,7 +7,7 @@ What models add is behind the slots :func:`turn_along`, :func:`bounce_along`, :f
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,7 +147,7 @@ def bounce_along(_block: Block, _i: int, _n: Vector) -> None:
 
 @slot
 def form_bond(
-    _flow: Any, _patches: PatchTable, _s: Scratch, _i: int, _patch: int, _t: float, _h: float
+    _flow: object, _patches: PatchTable, _s: Scratch, _i: int, _patch: int, _t: float, _h: float
 ) -> None:
     """No-op: bodies in contact with a wall form no bonds."""
 
@@ -187,7 +187,7 @@ def overspent(s: Scratch, i: int, remaining: float) -> bool:
 
 
 def reach_end(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     s: Scratch,
     i: int,
@@ -216,7 +216,7 @@ def reach_end(
 
 
 def bounce_to_end(
-    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, t_end: float, h: float
+    flow: object, patches: PatchTable, s: Scratch, i: int, goal: Vector, t_end: float, h: float
 ) -> int:
     """Do as :func:`reach_end`, where a body that bounces goes on from the contact to the end of the step."""
     block, recovered, spent = s.block, 0, 0.0
@@ -233,7 +233,7 @@ def bounce_to_end(
 
 
 def _go(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     s: Scratch,
     i: int,
@@ -260,7 +260,7 @@ def _go(
     return fraction, fraction * time, walks
 
 
-def _arrive(flow: Any, s: Scratch, i: int, t_end: float, missed: float) -> None:
+def _arrive(flow: object, s: Scratch, i: int, t_end: float, missed: float) -> None:
     """End the step of lane i, of which a particle that is not active any more has missed a time."""
     if s.bounds.maxCells < math.inf and s.status[i] == ACTIVE:
         fail_in_small_cell(flow, s, i)
@@ -268,7 +268,7 @@ def _arrive(flow: Any, s: Scratch, i: int, t_end: float, missed: float) -> None:
 
 
 @separate
-def fail_in_small_cell(flow: Any, s: Scratch, i: int) -> None:
+def fail_in_small_cell(flow: object, s: Scratch, i: int) -> None:
     """Let the particle in lane i fail if its longest semi-axis exceeds the limit in cell sizes."""
     longest = s.block[at.length * LANES + i]
     if longest**3 > s.bounds.maxCells**3 * cell_volume(flow, s.host[i]):
@@ -283,7 +283,7 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
 
 @separate
 def share_before_contact(
-    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool
+    flow: object, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool
 ) -> float:
     """Return the share of a long step of lane i that ends before a patch that ends its path, and a wall.
 
@@ -320,7 +320,7 @@ def share_before_contact(
     return 1.0 if between_both >= min(least, LEAST_OF_GAP * after) - _SOFT * R else 0.5 * _APPROACH
 
 
-def would_stick(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int) -> bool:
+def would_stick(flow: object, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int) -> bool:
     """Return True if the centre in lane i would meet a patch to which it sticks on its way to the goal."""
     t = s.block[at.t * LANES + i]
     t_end = t + s.block[at.dt * LANES + i]
@@ -328,7 +328,7 @@ def would_stick(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector
     return bool(patch >= 0 and patches.code[patch] == STICK)
 
 
-def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
+def clearance_of(flow: object, s: Scratch, i: int) -> tuple[float, int, int]:
     """Return the gap between the body in lane i and the walls, m, and the nearest patch and triangle.
 
     Where walls are listed, a gap of at least :data:`NEAR` radii at rest is infinite, with −1 and −1: it does
@@ -350,7 +350,7 @@ def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
 
 @separate
 def cross_patch(
-    flow: Any, s: Scratch, i: int, patch: int, code: int, triangle: int, t: float, x0: Vector, x1: Vector
+    flow: object, s: Scratch, i: int, patch: int, code: int, triangle: int, t: float, x0: Vector, x1: Vector
 ) -> tuple[Vector, Vector, Tensor, Vector]:
     """Move the particle in lane i to the other side of a mirror or a coupled patch.
 
@@ -417,7 +417,7 @@ def moved(turn: Tensor, shift: Vector, x: Vector) -> Vector:
 
 
 @separate
-def last_inside(flow: Any, x0: Vector, x1: Vector, t: float) -> tuple[int, float]:
+def last_inside(flow: object, x0: Vector, x1: Vector, t: float) -> tuple[int, float]:
     """Return the host of the last point from x0 to x1 that the tree finds, −1 for none, and its fraction.
 
     ``t`` is the time of the mesh, s.
@@ -437,7 +437,7 @@ def last_inside(flow: Any, x0: Vector, x1: Vector, t: float) -> tuple[int, float
 
 
 def move_centre(
-    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool, dt: float
+    flow: object, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool, dt: float
 ) -> tuple[Vector, Vector, Vector, float, int, int, int]:
     """Move the centre towards its goal in Δt, through the mesh, to the patch that ends its way.
 
@@ -502,7 +502,7 @@ def move_centre(
 
 @separate
 def move_back(
-    flow: Any, patches: PatchTable, s: Scratch, i: int, t: float, x0: Vector, x1: Vector
+    flow: object, patches: PatchTable, s: Scratch, i: int, t: float, x0: Vector, x1: Vector
 ) -> tuple[Vector, bool]:
     """Move the centre from x0 back to x1 at the time t, through mirrors and coupled patches.
 
@@ -524,7 +524,7 @@ def move_back(
 
 
 def touch(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     s: Scratch,
     i: int,
@@ -585,7 +585,7 @@ def touch(
 
 @separate
 def meet_wall(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     s: Scratch,
     i: int,
@@ -644,7 +644,7 @@ def meet_wall(
 
 
 def bounce(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     s: Scratch,
     i: int,
@@ -698,7 +698,7 @@ def bounce(
     return f
 
 
-def release(flow: Any, patches: PatchTable, s: Scratch, i: int) -> None:
+def release(flow: object, patches: PatchTable, s: Scratch, i: int) -> None:
     """Make a pending particle active, or stuck if it starts in contact with a sticky wall."""
     block = s.block
     s.status[i] = ACTIVE

@@ -15,7 +15,8 @@ from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, visc
 from foamprb.cloud.forces import SAMPLE, STATE, Force, no_values, store_fields
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.layout import LANES, MOST_FIELDS, Block, Row, offsets
-from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding
+from foamprb.cloud.surroundings.base import Stage, Surrounding
+from foamprb.compile.link import Slots
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.fields import FieldArrays, FieldColumns, blend_fields, width
 from foamprb.flow.walk import blend
@@ -36,7 +37,7 @@ needed = offsets(NeededRows)
 
 
 def sample_start(
-    _flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+    _flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
 ) -> None:
     """Store the fluid and the fields at the start of a step of lane i."""
     block = s.block
@@ -44,7 +45,7 @@ def sample_start(
     _store(s, i, needed.start, s.host[i], load3(block, at.x, i), block[at.t * LANES + i], u, l)
 
 
-def sample_end(_flow: Any, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> None:
+def sample_end(_flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> None:
     """Store the fluid and the fields at the predicted end of a step of lane i."""
     block = s.block
     t = block[at.t * LANES + i] + block[at.dt * LANES + i]

@@ -39,7 +39,7 @@ from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid
 from foamprb.cloud.viscosity import model_of
-from foamprb.compile.link import is_compiled, link, packed
+from foamprb.compile.link import Function, is_compiled, link, packed
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
@@ -157,7 +157,7 @@ class Tracker:
     def __init__(
         self,
         models: Models,
-        kernels: Mapping[str, Callable[..., Any]],
+        kernels: Mapping[str, Function],
         medium: Medium,
         interactions: Sequence[Interaction],
         dt: float,
@@ -189,7 +189,7 @@ class Tracker:
         # The elastic strain of a sphere without memory is diagonal in its particle frame.
         general = shaped or models.has_memory
         reader = partial(reader_of, columns=columns, inertia=integrator.inertia)
-        self.slots: dict[Callable[..., Any], Callable[..., Any]] = {
+        self.slots: dict[Function, Function] = {
             load_rows: layout.load, save_rows: layout.save, **behind(kernels), **sampling(kernels), **GAPS,
             gap: gap_free if models.touching == "centre" else kernels["gap"],
             traction: TRACTIONS[models.traction], drag: DRAGS[models.drag],
@@ -243,7 +243,7 @@ class Tracker:
         mirrors = MIRROR in self.table.code or any(m.mirrors for m in self._made_of[0].surroundings)
         return frozenset(saved if mirrors else saved - {"F0"})
 
-    def linked(self, flow: Any, fields: Any) -> Any:
+    def linked(self, flow: object, fields: Any) -> Any:
         """Return the loop for packed arrays of a flow and of fields of the case."""
         layouts = {"flow": getattr(flow, "layout", None), "fields": getattr(fields, "layout", None)}
         # Linking costs as much as some thousands of steps.
@@ -257,11 +257,11 @@ class Tracker:
         """Whether the loop of the last steps is compiled, or in the cache."""
         return self._loop is not None and is_compiled(self._loop)
 
-    def is_compiled(self, flow: Any) -> bool:
+    def is_compiled(self, flow: object) -> bool:
         """Return True if the loop for the arguments of a flow's kernels is compiled, or in the cache."""
         return is_compiled(self.linked(packed(flow), self._sampled(self._no_fields)))
 
-    def compile(self, flow: Any) -> None:
+    def compile(self, flow: object) -> None:
         """Compile the loop for the arguments of a flow's kernels."""
         nothing, flow = np.empty(0, dtype=np.int64), packed(flow)
         scratch = self._scratch(fields=self._sampled(self._no_fields))
@@ -293,7 +293,7 @@ class Tracker:
 
     def advance(
         self,
-        flow: Any,
+        flow: object,
         p: Particles,
         step: int,
         steps: int,
@@ -347,7 +347,7 @@ class Tracker:
 
     def _carry(
         self,
-        flow: Any,
+        flow: object,
         p: Particles,
         rows: NDArray[np.int64],
         steps: tuple[int, int],
@@ -406,7 +406,7 @@ class Tracker:
             # Those of particles that stay where they began are taken again.
             observation.observe(steps.take(steps.t[1] <= p.t[steps.row]) if interrupted(s) else steps)
 
-    def contact_normals(self, flow: Any, p: Particles, rows: NDArray[np.int64]) -> NDArray[np.float64]:
+    def contact_normals(self, flow: object, p: Particles, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return normals (n, 3) of the walls on which particles ended; NaN where no wall is found."""
         normals = np.empty((len(rows), 3))
         flow = packed(flow)

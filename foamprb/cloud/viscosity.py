@@ -38,8 +38,8 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding
-from foamprb.compile.link import traced
+from foamprb.cloud.surroundings.base import Stage, Surrounding
+from foamprb.compile.link import Slots, traced
 from foamprb.flow.base import Patch, Sampled
 from foamprb.flow.kernels import viscosity
 from foamprb.flow.nodes import NodeValues
@@ -101,14 +101,14 @@ def evaluate_law(block: Block, _medium: Medium, _share: float, coefficients: Any
 
 
 def start_law(
-    _flow: Any, s: Scratch, i: int, _step: int, _remaining: float, _medium: Medium, coefficients: Any
+    _flow: object, s: Scratch, i: int, _step: int, _remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Compute μ_f where a step of lane i starts, for the other models' updates."""
     s.block[fluid.mu_f * LANES + i] = law(shear_rate(load9(s.block, at.l, i)), *coefficients)
 
 
 def sample_field(
-    flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Store the field and its gradient at the position of lane i."""
     block = s.block
@@ -134,7 +134,7 @@ def evaluate_field(block: Block, _medium: Medium, share: float, _coefficients: A
 
 
 def sample_fraction(
-    flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Store the volume fraction and its gradient at the position of lane i, and the fluid there."""
     block = s.block

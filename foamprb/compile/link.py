@@ -30,7 +30,7 @@ from importlib.metadata import version
 from inspect import signature
 from pathlib import Path
 from types import CellType, CodeType, FunctionType, ModuleType
-from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -44,6 +44,8 @@ if TYPE_CHECKING:
     from foamprb.compile.internals import Role
 
 __all__ = [
+    "Function",
+    "Slots",
     "allocating",
     "compiled",
     "conform",
@@ -61,6 +63,9 @@ __all__ = [
 log = logging.getLogger("foamprb")
 
 F = TypeVar("F", bound=Callable[..., Any])
+Function: TypeAlias = Callable[..., Any]
+Slots: TypeAlias = Mapping[Function, Function]
+"""Functions behind slots and choices."""
 
 TESTED = "0.68"
 """Minor version of numba with which :mod:`foamprb.compile.internals` was tested."""
@@ -87,8 +92,8 @@ _OPTIONS_OF: dict[Role, dict[str, Any]] = {
 
 
 def link(
-    entry: Callable[..., Any],
-    slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None,
+    entry: Function,
+    slots: Slots | None = None,
     **layouts: Any,
 ) -> Any:
     """Compile ``entry`` with everything it calls.
@@ -129,14 +134,12 @@ def link(
 
 
 @cache
-def compiled(entry: Callable[..., Any]) -> Any:
+def compiled(entry: Function) -> Any:
     """Return :func:`link` of a function with the defaults of all slots, once per process."""
     return link(entry)
 
 
-def linked(
-    entry: Callable[..., Any], slots: Mapping[Callable[..., Any], Callable[..., Any]] | None = None
-) -> Collection[Callable[..., Any]]:
+def linked(entry: Function, slots: Slots | None = None) -> Collection[Function]:
     """Return ``entry`` and the functions that are linked with it."""
     slots = slots or {}
     reached = {entry}
@@ -153,7 +156,7 @@ def linked(
     return reached
 
 
-def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
+def traced(stage: Function) -> Function:
     """Mark a stage: machine code of its own, made by tracing (:mod:`foamprb.compile.trace`)."""
     setattr(stage, TRACED, True)
     return stage
@@ -184,7 +187,7 @@ def kernel(function: F) -> F:
     return slot(function)
 
 
-def conform(placeholder: Callable[..., Any], implementation: Callable[..., Any]) -> Callable[..., Any]:
+def conform(placeholder: Function, implementation: Function) -> Function:
     """Return a function with the parameters of a kernel that calls another, for callers that inline it."""
     return _unpacking(placeholder, implementation, {})
 
@@ -202,7 +205,7 @@ def packed(argument: Any) -> Any:
     return Packed(argument)
 
 
-def allocating(function: Callable[..., Any]) -> Callable[..., Any]:
+def allocating(function: Function) -> Function:
     """Mark a :func:`separate` function that allocates arrays."""
     setattr(function, _ALLOCATES, True)
     return function
@@ -222,10 +225,10 @@ def is_compiled(dispatcher: Any) -> bool:
 class _Linkage:
     """Arguments of :func:`link` that hold for all functions, and the functions that are linked already."""
 
-    slots: dict[Callable[..., Any], Callable[..., Any]] = field(default_factory=dict)
+    slots: dict[Function, Function] = field(default_factory=dict)
     layouts: dict[str, Any] = field(default_factory=dict)
     """Types of packed arguments."""
-    done: dict[tuple[Callable[..., Any], str], Part] = field(default_factory=dict)
+    done: dict[tuple[Function, str], Part] = field(default_factory=dict)
     named: dict[str, Part] = field(default_factory=dict)
     """Functions that are found by a name, by :attr:`Keys.outside`."""
 
@@ -241,7 +244,7 @@ _stores: dict[int, tuple[Store, ...]] = {}
 """Where a function and, of an entry, all that it calls are saved, by the ``id`` of its dispatcher."""
 
 
-def _link(function: Callable[..., Any], linkage: _Linkage, role: Role, called: str = "") -> Part:
+def _link(function: Function, linkage: _Linkage, role: Role, called: str = "") -> Part:
     """Return a function linked after its callees, once however many callers it has.
 
     ``called`` is the name by which machine code of its own is called.
@@ -267,7 +270,7 @@ def _has_another_name(keys: Keys, linkage: _Linkage) -> bool:
     )
 
 
-def _link_callee(function: Callable[..., Any], linkage: _Linkage) -> Part:
+def _link_callee(function: Function, linkage: _Linkage) -> Part:
     """Return a function that others call by a name."""
     called = f"{function.__module__}.{function.__qualname__}"
     implementation = linkage.slots.get(function, function)
@@ -280,14 +283,12 @@ def _link_callee(function: Callable[..., Any], linkage: _Linkage) -> Part:
     return _link(implementation, linkage, *((_role_of(implementation), called) if own else ("inlined",)))
 
 
-def _role_of(function: Callable[..., Any]) -> Role:
+def _role_of(function: Function) -> Role:
     """Return the role of machine code of its own: that with loops over lanes uses wide registers."""
     return "lanes" if LANES in function.__code__.co_names else "scalar"
 
 
-def _unpacking(
-    placeholder: Callable[..., Any], implementation: Callable[..., Any], layouts: Mapping[str, Any]
-) -> Callable[..., Any]:
+def _unpacking(placeholder: Function, implementation: Function, layouts: Mapping[str, Any]) -> Function:
     """Return a function with the parameters of a kernel that calls another with the unpacked argument."""
     layout = layouts.get(getattr(placeholder, _PACKED))
     key = placeholder, implementation, layout
@@ -304,7 +305,7 @@ def _unpacking(
     return _unpackers[key]
 
 
-def _parameters(function: Callable[..., Any]) -> list[str]:
+def _parameters(function: Function) -> list[str]:
     return [name.lstrip("_") for name in signature(function).parameters]
 
 
@@ -320,12 +321,10 @@ def _as_it_is(argument: Any) -> Any:
     return argument
 
 
-_unpackers: dict[Any, Callable[..., Any]] = {}
+_unpackers: dict[Any, Function] = {}
 
 
-def _link_once(
-    function: Callable[..., Any], linkage: _Linkage, role: Role, called: str, apart: str = ""
-) -> Part:
+def _link_once(function: Function, linkage: _Linkage, role: Role, called: str, apart: str = "") -> Part:
     """Return a function compiled after its callees; each is compiled once per process for each ``apart``."""
     if function is select:
         return _link_select()
@@ -372,7 +371,7 @@ def key_of(texts: Iterable[str]) -> str:
     return hashlib.sha256(";".join((compiler, *texts)).encode()).hexdigest()[:24]
 
 
-def _captured(function: Callable[..., Any]) -> list[Any]:
+def _captured(function: Function) -> list[Any]:
     """Return what a function captures from the one around it."""
     return [cell.cell_contents for cell in function.__closure__ or ()]
 
@@ -465,7 +464,7 @@ def _compiles() -> bool:
     return not numba.config.DISABLE_JIT
 
 
-def _compile(function: Callable[..., Any], role: Role, keys: Keys, named: Mapping[str, Part]) -> Any:
+def _compile(function: Function, role: Role, keys: Keys, named: Mapping[str, Part]) -> Any:
     import numba
 
     internals = _internals()

@@ -9,13 +9,13 @@ times out of the parameters of its functions.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.compile.link import conform, kernel, link, packed
+from foamprb.compile.link import Function, conform, kernel, link, packed
 from foamprb.flow.base import NO_PLANES, Floats, Planes, Turbulence
 
 __all__ = [
@@ -42,7 +42,7 @@ _UNIT: Tensor = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 @kernel
-def sample(flow: Any, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+def sample(flow: object, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
     """Return u, m/s, ∂u_i/∂x_j row by row, 1/s, and ∂u/∂t at the fixed point, m/s².
 
     u_t + l·v is the fluid's acceleration along a path of velocity v: a flow subtracts from u_t what l·v would
@@ -52,7 +52,9 @@ def sample(flow: Any, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, V
 
 
 @kernel
-def walk(flow: Any, host: int, x0: Vector, t0: float, x1: Vector, t1: float) -> tuple[int, float, int, int]:
+def walk(
+    flow: object, host: int, x0: Vector, t0: float, x1: Vector, t1: float
+) -> tuple[int, float, int, int]:
     """Follow the segment from x0 at t0 to x1 at t1.
 
     Returns
@@ -66,15 +68,15 @@ def walk(flow: Any, host: int, x0: Vector, t0: float, x1: Vector, t1: float) -> 
 
 @kernel
 def walk_on(
-    flow: Any, host: int, ahead: int, x0: Vector, t0: float, x1: Vector, t1: float
+    flow: object, host: int, ahead: int, x0: Vector, t0: float, x1: Vector, t1: float
 ) -> tuple[int, float, int, int]:
     """Return :func:`walk`; an earlier path from x0 to a point near x1 ended in ``ahead``."""
     return walk(flow, host, x0, t0, x1, t1)
 
 
-def _ahead_by(walk: Callable[..., Any], sample: Callable[..., Any]) -> Callable[..., Any]:
+def _ahead_by(walk: Function, sample: Function) -> Function:
     def sample_ahead(
-        flow: Any, host: int, x0: Vector, t0: float, x1: Vector, t1: float
+        flow: object, host: int, x0: Vector, t0: float, x1: Vector, t1: float
     ) -> tuple[int, float, int, Vector, Tensor, Vector]:
         """Return the flow at the end of the segment from x0 at t0 to x1 at t1.
 
@@ -96,55 +98,55 @@ sample_ahead = kernel(_ahead_by(walk, sample))
 
 
 @kernel
-def walls(flow: Any, host: int, x: Vector, cut: float, chosen: Floats, t: float) -> Planes:
+def walls(flow: object, host: int, x: Vector, cut: float, chosen: Floats, t: float) -> Planes:
     """Return the walls nearer to x than ``cut``, of the patches for which ``chosen`` is 1."""
     return NO_PLANES
 
 
 @kernel
-def normal(flow: Any, triangle: int, x: Vector, t: float) -> Vector:
+def normal(flow: object, triangle: int, x: Vector, t: float) -> Vector:
     """Return the unit normal into the fluid of a triangle of the boundary."""
     return _ZERO
 
 
 @kernel
-def cross(flow: Any, triangle: int, x: Vector, t: float) -> tuple[int, Vector, Tensor]:
+def cross(flow: object, triangle: int, x: Vector, t: float) -> tuple[int, Vector, Tensor]:
     """Return host, place and rotation of a particle that meets a triangle of a coupled patch at x."""
     return 0, x, _UNIT
 
 
 @kernel
-def recover(flow: Any, x: Vector, t: float) -> int:
+def recover(flow: object, x: Vector, t: float) -> int:
     """Return the host of a point, found without a hint; −1 outside."""
     return 0
 
 
 @kernel
-def cell_volume(flow: Any, host: int) -> float:
+def cell_volume(flow: object, host: int) -> float:
     """Return the volume of the cell of a host, m³."""
     return math.inf
 
 
 @kernel
-def turbulence(flow: Any, host: int, x: Vector, t: float) -> Turbulence:
+def turbulence(flow: object, host: int, x: Vector, t: float) -> Turbulence:
     """Return k, ε, ∇k and ∇(k²/3ε)."""
     return 0.0, 0.0, _ZERO, _ZERO
 
 
 @kernel
-def viscosity(flow: Any, host: int, x: Vector, t: float) -> tuple[float, Vector]:
+def viscosity(flow: object, host: int, x: Vector, t: float) -> tuple[float, Vector]:
     """Return a field of the viscosity, Pa s, or of a phase's fraction, and its gradient; NaN if unknown."""
     return math.nan, _ZERO
 
 
 @kernel
-def rotation_at(flow: Any, host: int) -> tuple[Vector, Vector]:
+def rotation_at(flow: object, host: int) -> tuple[Vector, Vector]:
     """Return the angular velocity, 1/s, and a point of the axis of the frame of a host."""
     return _ZERO, _ZERO
 
 
 @kernel
-def curvature(flow: Any, host: int, x: Vector, t: float) -> Curvature:
+def curvature(flow: object, host: int, x: Vector, t: float) -> Curvature:
     """Return the second derivatives u_xx, u_yy, u_zz, u_xy, u_yz and u_xz, 1/(m s)."""
     return _ZERO, _ZERO, _ZERO, _ZERO, _ZERO, _ZERO
 
@@ -152,12 +154,12 @@ def curvature(flow: Any, host: int, x: Vector, t: float) -> Curvature:
 _BY_NAME = {name: globals()[name] for name in __all__ if name not in ("behind", "inlined", "linked_with")}
 
 
-def behind(kernels: Mapping[str, Callable[..., Any]]) -> dict[Callable[..., Any], Callable[..., Any]]:
+def behind(kernels: Mapping[str, Function]) -> dict[Function, Function]:
     """Return the functions of a flow by the kernels of this module."""
     return {_BY_NAME[name]: function for name, function in kernels.items() if name in _BY_NAME}
 
 
-def inlined(kernels: Mapping[str, Callable[..., Any]]) -> tuple[Callable[..., Any], Callable[..., Any]]:
+def inlined(kernels: Mapping[str, Function]) -> tuple[Function, Function]:
     """Return ``sample`` and ``sample_ahead`` of a flow with the parameters of the kernels, to be inlined.
 
     Their first argument is not packed.
@@ -167,9 +169,7 @@ def inlined(kernels: Mapping[str, Callable[..., Any]]) -> tuple[Callable[..., An
     return start, own.get("sample_ahead") or _ahead_by(own.get("walk", walk), start)
 
 
-def linked_with(
-    kernels: Mapping[str, Callable[..., Any]], arrays: Any, entry: Callable[..., Any]
-) -> tuple[Any, Any]:
+def linked_with(kernels: Mapping[str, Function], arrays: Any, entry: Function) -> tuple[Any, Any]:
     """Return a compiled function that calls kernels of a flow, and its packed argument ``flow``."""
     flow = packed(arrays)
     return _linked(entry, frozenset(kernels.items()), getattr(flow, "layout", None)), flow
@@ -177,7 +177,5 @@ def linked_with(
 
 # Linking costs as much as sampling some thousands of particles.
 @lru_cache(maxsize=64)
-def _linked(
-    entry: Callable[..., Any], kernels: frozenset[tuple[str, Callable[..., Any]]], layout: Any
-) -> Any:
+def _linked(entry: Function, kernels: frozenset[tuple[str, Function]], layout: Any) -> Any:
     return link(entry, slots=behind(dict(kernels)), flow=layout)

@@ -13,7 +13,7 @@ The slots :func:`predict`, :func:`first_slope`, :func:`second_slope`, :func:`las
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -96,7 +96,7 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.paths import is_full, record_ends, record_starts
 from foamprb.cloud.state import Particles
-from foamprb.compile.link import kernel, separate, slot, traced
+from foamprb.compile.link import Function, kernel, separate, slot, traced
 from foamprb.flow.kernels import inlined, sample
 
 _LAST_STEP = 1.0 / 4096.0
@@ -328,7 +328,7 @@ def limit_by_path(block: Block, i: int, tolerance: float) -> None:
     block[during.by_path * LANES + i] = path_factor(block[during.path * LANES + i], tolerance)
 
 
-ADAPTIVE: dict[Callable[..., Any], Callable[..., Any]] = {limit_next_step: limit_by_path}
+ADAPTIVE: dict[Function, Function] = {limit_next_step: limit_by_path}
 """What every integrator of this loop puts behind slots."""
 
 
@@ -343,22 +343,22 @@ def evaluate_shape(block: Block, medium: Medium, share: float) -> None:
 
 
 @kernel
-def sample_starts(_flow: Any, _block: Block, _hosts: Any) -> None:
+def sample_starts(_flow: object, _block: Block, _hosts: Any) -> None:
     """Store the flow where the steps of the moving lanes start."""
 
 
 @kernel
-def sample_ends(_flow: Any, _block: Block, _hosts: Any, _ahead: Any) -> None:
+def sample_ends(_flow: object, _block: Block, _hosts: Any, _ahead: Any) -> None:
     """Store the flow at the ends of the steps of the moving lanes, and the hosts there."""
 
 
 @kernel
-def sample_middles(_flow: Any, _block: Block, _hosts: Any) -> None:
+def sample_middles(_flow: object, _block: Block, _hosts: Any) -> None:
     """Store the fluid's gradient half-way on the steps of order 3."""
 
 
-def _starts_by(sample: Callable[..., Any]) -> Callable[..., Any]:
-    def sample_starts(flow: Any, block: Block, hosts: Any) -> None:
+def _starts_by(sample: Function) -> Function:
+    def sample_starts(flow: object, block: Block, hosts: Any) -> None:
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
                 u, l_f, u_t = sample(flow, hosts[i], load3(block, at.x, i), block[at.t * LANES + i])
@@ -369,8 +369,8 @@ def _starts_by(sample: Callable[..., Any]) -> Callable[..., Any]:
     return sample_starts
 
 
-def _ends_by(sample_ahead: Callable[..., Any]) -> Callable[..., Any]:
-    def sample_ends(flow: Any, block: Block, hosts: Any, ahead: Any) -> None:
+def _ends_by(sample_ahead: Function) -> Function:
+    def sample_ends(flow: object, block: Block, hosts: Any, ahead: Any) -> None:
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
                 x, goal, t = load3(block, at.x, i), load3(block, at.new_x, i), block[at.t * LANES + i]
@@ -386,8 +386,8 @@ def _ends_by(sample_ahead: Callable[..., Any]) -> Callable[..., Any]:
     return sample_ends
 
 
-def _middles_by(sample_ahead: Callable[..., Any]) -> Callable[..., Any]:
-    def sample_middles(flow: Any, block: Block, hosts: Any) -> None:
+def _middles_by(sample_ahead: Function) -> Function:
+    def sample_middles(flow: object, block: Block, hosts: Any) -> None:
         for i in range(LANES):
             if needs_third(block, i):
                 half, t = 0.5 * block[at.dt * LANES + i], block[at.t * LANES + i]
@@ -400,7 +400,7 @@ def _middles_by(sample_ahead: Callable[..., Any]) -> Callable[..., Any]:
     return sample_middles
 
 
-def sampling(kernels: Mapping[str, Callable[..., Any]]) -> dict[Callable[..., Any], Callable[..., Any]]:
+def sampling(kernels: Mapping[str, Function]) -> dict[Function, Function]:
     """Return the functions behind the slots by which the loop samples a flow, with its kernels inlined."""
     sample, sample_ahead = inlined(kernels)
     return {
@@ -418,7 +418,7 @@ def holds_end(block: Block, i: int, goal: Vector) -> bool:
 
 
 def track_adaptive(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     medium: Medium,
     p: Particles,
@@ -624,7 +624,7 @@ def measures_again(s: Scratch, i: int, left: float, stretch: int) -> bool:
 
 
 def keep_short(
-    flow: Any, patches: PatchTable, medium: Medium, s: Scratch, i: int, dt: float, tolerance: float
+    flow: object, patches: PatchTable, medium: Medium, s: Scratch, i: int, dt: float, tolerance: float
 ) -> None:
     """Reject a step of lane i longer than Δt over many cells, to a patch, or much closer to a wall.
 
@@ -646,7 +646,7 @@ def keep_short(
             block[at.h * LANES + i] = max(dt, share * block[at.dt * LANES + i])
 
 
-def approach(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
+def approach(flow: object, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
     """Reject a step of lane i that leads the centre onto a patch to which it sticks, unless it is short.
 
     Where the velocity of the fluid jumps, a step may end in a wall along which the fluid flows.
@@ -694,7 +694,7 @@ def has_ended(s: Scratch) -> bool:
 
 
 @separate
-def update_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) -> None:
+def update_ends(flow: object, medium: Medium, p: Particles, s: Scratch, last: int) -> None:
     """Apply ``end_slope`` to finished particles, and save them.
 
     ``last`` is the tracking step after the last.

@@ -11,17 +11,17 @@ compiled once for all of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from math import inf
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from foamprb.body.choice import choice
 from foamprb.body.tensor import Scalar, Vector
 from foamprb.cloud.block import Medium, Scratch, Switches
 from foamprb.cloud.layout import Block, Layout
 from foamprb.cloud.paths import RecordedRows
-from foamprb.compile.link import slot
+from foamprb.compile.link import Slots, slot
 
 
 def _refuses_nothing(_traction: str, _material: str, _tense: bool) -> str:
@@ -42,7 +42,7 @@ class Integrator(NamedTuple):
     """Layout of its block."""
     recorded: RecordedRows
     """Rows of its block that are recorded of each step."""
-    slots: Mapping[Callable[..., Any], Callable[..., Any]] = MappingProxyType({})
+    slots: Slots = MappingProxyType({})
     """Its functions behind slots of the loop and of stages that all integrators have."""
     switches: Switches = Switches()
     adaptive: bool = False
@@ -61,7 +61,7 @@ class Integrator(NamedTuple):
 
 
 @slot
-def update_surroundings(_flow: Any, _s: Scratch, _medium: Medium) -> None:
+def update_surroundings(_flow: object, _s: Scratch, _medium: Medium) -> None:
     """Let each model update its rows of the moving lanes before a step.
 
     The rows ``held_from`` and ``remaining`` hold the tracking step in which a lane's random numbers begin,
@@ -75,12 +75,12 @@ def apply_surroundings(_block: Block, _medium: Medium, _share: float) -> None:
 
 
 @slot
-def look_ahead(_flow: Any, _s: Scratch, _medium: Medium) -> None:
+def look_ahead(_flow: object, _s: Scratch, _medium: Medium) -> None:
     """Let each model update its rows of the moving lanes where the steps are to lead."""
 
 
 @slot
-def resolved_share(_flow: Any, _s: Scratch, _i: int, _medium: Medium) -> float:
+def resolved_share(_flow: object, _s: Scratch, _i: int, _medium: Medium) -> float:
     """Return the smallest share of a step of lane i longer than Δt that a model resolves, 1 for all of it."""
     return 1.0
 

@@ -177,7 +177,7 @@ def dense_newton(block: Block, i: int, M: Any) -> None:
 
 
 def track_paper(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     medium: Medium,
     p: Particles,
@@ -215,7 +215,7 @@ def track_paper(
 
 
 def _track_block(
-    flow: Any,
+    flow: object,
     patches: PatchTable,
     medium: Medium,
     p: Particles,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Literal, NamedTuple, TypeAlias
+from typing import Any, ClassVar, Literal, NamedTuple
 
 from foamprb.body.choice import choice
 from foamprb.body.drag import drag
@@ -21,10 +21,8 @@ from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.state import Particles
+from foamprb.compile.link import Slots
 from foamprb.flow.base import Flow, Patch
-
-Slots: TypeAlias = Mapping[Callable[..., Any], Callable[..., Any]]
-"""Functions behind slots and choices."""
 
 
 class Stage(NamedTuple):

@@ -58,7 +58,6 @@ from foamprb.cloud.motion import turn_along
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import (
     Remarks,
-    Slots,
     Stage,
     Surrounding,
     Survey,
@@ -68,7 +67,7 @@ from foamprb.cloud.surroundings.base import (
     thermal_force,
     volume_at_rest,
 )
-from foamprb.compile.link import separate, traced
+from foamprb.compile.link import Slots, separate, traced
 from foamprb.dictionary.constraints import Meaning, Positive, Seed
 from foamprb.flow.base import NEAR, Patch
 
@@ -105,7 +104,7 @@ thermal = offsets(BrownianRows)
 
 
 def draw(
-    _flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
+    _flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Draw the random numbers of lane i, which hold for the time that remains."""
     block = s.block

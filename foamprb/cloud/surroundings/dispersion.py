@@ -36,8 +36,8 @@ from foamprb.body.turbulence import (
 from foamprb.cloud.block import Medium, Scratch, at, load3, store3
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import bounce_along, turn_along
-from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey
-from foamprb.compile.link import separate, traced
+from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey
+from foamprb.compile.link import Slots, separate, traced
 from foamprb.dictionary.constraints import Meaning, Seed
 from foamprb.flow.base import Floats, Flow, Patch
 from foamprb.flow.kernels import turbulence
@@ -66,7 +66,7 @@ eddies = offsets(EddyRows)
 
 
 def update_eddy(
-    flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Draw the next eddy of lane i at the start of a tracking step, if the particle has left the last one."""
     seed, kind, corrected = coefficients

@@ -24,7 +24,8 @@ from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import conclude, outcome_code
 from foamprb.cloud.state import Reason, Status
-from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding
+from foamprb.cloud.surroundings.base import Stage, Surrounding
+from foamprb.compile.link import Slots
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
@@ -73,7 +74,7 @@ def reached_fate(block: Block, i: int, F: Tensor, stress: Scalar, dose: Scalar, 
     return code if code > 0 else reached(values, coefficients[1], _OF_RELEASE)
 
 
-def stays_within_limits(_flow: Any, s: Scratch, i: int, medium: Medium, coefficients: Any) -> float:
+def stays_within_limits(_flow: object, s: Scratch, i: int, medium: Medium, coefficients: Any) -> float:
     """Return a half for a step of lane i that leads beyond a limit, else 1."""
     block = s.block
     stress = viscosity_at(block, i, medium) * shear_rate(load9(block, during.end_l, i))
@@ -84,7 +85,7 @@ def stays_within_limits(_flow: Any, s: Scratch, i: int, medium: Medium, coeffici
 
 
 def check_limits(
-    _flow: Any, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, coefficients: Any
+    _flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, coefficients: Any
 ) -> None:
     """Add to the dose of lane i, and end the particle where it has reached a limit."""
     block = s.block

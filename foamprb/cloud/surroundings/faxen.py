@@ -28,8 +28,8 @@ from foamprb.body.wall import curvature_factor
 from foamprb.cloud.block import Medium, Scratch, at, choose3, load3, load9, store3
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
-from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding, add3, curved_velocity
-from foamprb.compile.link import traced
+from foamprb.cloud.surroundings.base import Stage, Surrounding, add3, curved_velocity
+from foamprb.compile.link import Slots, traced
 from foamprb.flow.kernels import curvature
 
 
@@ -45,7 +45,7 @@ curved = offsets(FaxenRows)
 
 
 def store_curvature(
-    flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
 ) -> None:
     """Store the second derivatives at the position of lane i."""
     x = load3(s.block, at.x, i)
@@ -53,7 +53,7 @@ def store_curvature(
     store3(s.block, curved.curvature_way, i, (0.0, 0.0, 0.0))
 
 
-def store_curvature_ahead(flow: Any, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> None:
+def store_curvature_ahead(flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> None:
     """Store the second derivatives where the step of lane i is to lead."""
     x, t = load3(s.block, at.new_x, i), s.block[at.t * LANES + i] + s.block[at.dt * LANES + i]
     _store(s.block, i, curved.curvature_end, curvature(flow, s.ahead[i], x, t))

@@ -19,9 +19,9 @@ from foamprb.body.tensor import Scalar, select, sym
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, viscosity_at
 from foamprb.cloud.layout import LANES, Block, Row, offsets
-from foamprb.cloud.surroundings.base import Slots, Stage, Surrounding
+from foamprb.cloud.surroundings.base import Stage, Surrounding
 from foamprb.cloud.surroundings.quadratic import QuadraticRows, load7
-from foamprb.compile.link import traced
+from foamprb.compile.link import Slots, traced
 from foamprb.flow.kernels import curvature
 
 INTERVAL = 64
@@ -69,7 +69,7 @@ def amplitude_of_mode(block: Block, i: int) -> Scalar:
 
 
 def sample_curvature(
-    flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, _coefficients: Any
 ) -> None:
     """Note that a step of lane i starts, and sample the second derivatives in some of them."""
     block = s.block

@@ -43,8 +43,8 @@ from foamprb.cloud.integrators.rosenbrock import with_fading as with_inertial_fa
 from foamprb.cloud.integrators.stokes import gradient_at_end, gradient_by_slope, with_fading
 from foamprb.cloud.layout import LANES, MOST_TIMES, Block, Row, offsets
 from foamprb.cloud.motion import mirror_memory
-from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey
-from foamprb.compile.link import traced
+from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey
+from foamprb.compile.link import Slots, traced
 from foamprb.errors import InputError
 
 __all__ = ["FadingMemory"]

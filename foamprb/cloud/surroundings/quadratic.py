@@ -60,8 +60,8 @@ from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import clearance_of, turn_along
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey, add3
-from foamprb.compile.link import separate, traced
+from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey, add3
+from foamprb.compile.link import Slots, separate, traced
 from foamprb.flow.kernels import curvature
 
 
@@ -111,7 +111,7 @@ def store7(block: Block, row: int, i: int, B: Third) -> None:
     block[k + 4 * LANES], block[k + 5 * LANES], block[k + 6 * LANES] = B[4], B[5], B[6]
 
 
-def flow_parts(flow: Any, s: Scratch, i: int) -> Parts:
+def flow_parts(flow: object, s: Scratch, i: int) -> Parts:
     """Return the parts of the second derivatives at lane i."""
     block = s.block
     return parts(curvature(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i]))
@@ -175,7 +175,7 @@ def advance_shift(block: Block, i: int, pull: Vector, rate: float, spin: Vector,
     store3(block, mode.shift_drift, i, drift_by_shift(spin, q, change))
 
 
-def close_update(flow: Any, s: Scratch, i: int, spin: Vector) -> None:
+def close_update(flow: object, s: Scratch, i: int, spin: Vector) -> None:
     """Store that the mode of lane i is that of its time, and the gap of its surface from the walls."""
     block = s.block
     block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
@@ -184,7 +184,7 @@ def close_update(flow: Any, s: Scratch, i: int, spin: Vector) -> None:
 
 
 def update_solid(
-    flow: Any, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
 ) -> None:
     """Advance the mode of the solid in lane i."""
     block = s.block
@@ -204,7 +204,7 @@ def update_solid(
 
 
 def update_drop(
-    flow: Any, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
 ) -> None:
     """Advance the mode of the drop in lane i."""
     block = s.block
@@ -243,7 +243,7 @@ def carry_drop(block: Block, medium: Medium, share: float, coefficients: Any) ->
         add3(block, at.u, i, drift_of_drop(block[at.R * LANES + i], ratio, A, B, E, flow))
 
 
-def stays_resolved(flow: Any, s: Scratch, i: int, medium: Medium, _coefficients: Any) -> float:
+def stays_resolved(flow: object, s: Scratch, i: int, medium: Medium, _coefficients: Any) -> float:
     """Return the share of a step of lane i in which the source of B changes little, or changes B little."""
     block = s.block
     t, h = block[at.t * LANES + i], block[at.dt * LANES + i]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import fields
 from functools import cache
 from itertools import accumulate
@@ -40,7 +40,7 @@ from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
 from foamprb.cloud.surroundings.swimming import Swimming
 from foamprb.cloud.surroundings.wall_lift import WallLift
-from foamprb.compile.link import separate, traced
+from foamprb.compile.link import Function, separate, traced
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 
@@ -67,7 +67,7 @@ class UserSurrounding(Surrounding):
     """A model that :func:`add_surrounding` has made of a function."""
 
     each_step: ClassVar = False
-    evaluate: ClassVar[Callable[..., Any]]
+    evaluate: ClassVar[Function]
     samples: ClassVar[tuple[Any, ...]]
     """Values that it needs, with which it is tried."""
 
@@ -77,7 +77,7 @@ class UserSurrounding(Surrounding):
 
 
 def add_surrounding(
-    name: str, evaluate: Callable[..., Any], needs: Sequence[str] = (), adds: Sequence[str] = ("u",)
+    name: str, evaluate: Function, needs: Sequence[str] = (), adds: Sequence[str] = ("u",)
 ) -> type[Surrounding]:
     """Add a model to :data:`SURROUNDINGS`, for selection by its name in ``particleForces``; it acts last.
 
@@ -171,7 +171,7 @@ def with_rows(base: Layout, surroundings: Sequence[Surrounding]) -> Layout:
 class Composed(NamedTuple):
     """What the models of a cloud put into a loop."""
 
-    slots: dict[Callable[..., Any], Callable[..., Any]]
+    slots: dict[Function, Function]
     """Functions behind slots and choices."""
     switches: dict[str, int]
     """By the names of :class:`~foamprb.cloud.block.Switches`."""
@@ -195,7 +195,7 @@ def compose(surroundings: Sequence[Surrounding], patches: Sequence[Patch], inert
     texts = _placed(surroundings, patches)[0]
     of_models = [(n, stage) for n, model in enumerate(surroundings) for stage in model.stages]
 
-    def at_place(place: str) -> list[Callable[..., Any]]:
+    def at_place(place: str) -> list[Function]:
         some = _in_order([(n, stage) for n, stage in of_models if stage.place == place], surroundings)
         names = [f"{place}_{type(surroundings[n]).__name__}" for n, _ in some]
         return [
@@ -214,7 +214,7 @@ def compose(surroundings: Sequence[Surrounding], patches: Sequence[Patch], inert
         held_for: sequence("held_for", "block, i, medium", holding, least="np.inf"),
     }
     switches = {"draws": 1} if holding else {}
-    together: dict[Callable[..., Any], list[Callable[..., Any]]] = {}
+    together: dict[Function, list[Function]] = {}
     for model in surroundings:
         switches |= model.switches
         for place, function in model.slots(inertia).items():
@@ -352,7 +352,7 @@ _PLACES = {
 
 
 @cache
-def _adapter(name: str, text: str, function: Callable[..., Any], coefficients: str) -> Callable[..., Any]:
+def _adapter(name: str, text: str, function: Function, coefficients: str) -> Function:
     """Return a function of the loop that calls one of a model with its coefficients."""
     return separate(
         compose_function(name, text.format(name=name, coefficients=coefficients), {"function": function})

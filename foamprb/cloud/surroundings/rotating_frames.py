@@ -28,7 +28,8 @@ from foamprb.cloud.integrators.adaptive import during, end_acceleration, fluid_a
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.stokes import slip_by_forces, slip_of_body
 from foamprb.cloud.layout import Block, Row, offsets
-from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey
+from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey
+from foamprb.compile.link import Slots
 from foamprb.flow.kernels import rotation_at
 
 
@@ -49,7 +50,7 @@ def turning_acceleration(spin: Vector, r: Vector, u: Vector) -> Vector:
 
 
 def enter_frame(
-    flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
 ) -> None:
     """Add the acceleration of the frame of its host to Du/Dt of lane i."""
     block = s.block
@@ -62,7 +63,7 @@ def enter_frame(
     store3(block, frames.axis_point, i, origin)
 
 
-def stays_in_frame(flow: Any, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> float:
+def stays_in_frame(flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> float:
     """Return 0 for a step of lane i from one frame to another, else 1."""
     spin, _ = rotation_at(flow, s.ahead[i])
     return 1.0 if spin == load3(s.block, frames.spin, i) else 0.0

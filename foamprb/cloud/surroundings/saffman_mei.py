@@ -26,12 +26,12 @@ from foamprb.cloud.integrators.base import Integrator, lifted
 from foamprb.cloud.integrators.stokes import slip_by_forces, slip_of_body
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.surroundings.base import (
-    Slots,
     Surrounding,
     present_hindrance,
     resistances,
     volume_at_rest,
 )
+from foamprb.compile.link import Slots
 from foamprb.dictionary.constraints import Only
 
 

@@ -21,8 +21,8 @@ from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import bounce_along, mirror_body, turn_along
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.surroundings.base import Remarks, Slots, Stage, Surrounding, Survey, add3, add9
-from foamprb.compile.link import separate, traced
+from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey, add3, add9
+from foamprb.compile.link import Slots, separate, traced
 from foamprb.dictionary.constraints import Meaning, NonNegative, Positive, Seed, Vector3
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
@@ -48,7 +48,7 @@ swimmers = offsets(SwimmerRows)
 
 
 def draw_spin(
-    _flow: Any, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
+    _flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Draw the spin of lane i, which holds for the time that remains."""
     block = s.block

@@ -75,7 +75,6 @@ from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.surroundings.base import (
     Remarks,
-    Slots,
     Stage,
     Surrounding,
     Survey,
@@ -88,7 +87,7 @@ from foamprb.cloud.surroundings.base import (
     thermal_force,
     volume_at_rest,
 )
-from foamprb.compile.link import separate, slot, traced
+from foamprb.compile.link import Slots, separate, slot, traced
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.dictionary.patterns import matches
 from foamprb.errors import InputError, suggestion
@@ -135,7 +134,7 @@ near = offsets(WallRows)
 
 
 def find_walls(
-    flow: Any, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Store the walls around the particle in lane i, and add up the lengths of steps where one is close."""
     cut_off, least_gap, _, _, patch_mask = coefficients
@@ -156,7 +155,7 @@ def find_walls(
         block[near.close * LANES + i] += h - before
 
 
-def stays_by_planes(flow: Any, s: Scratch, i: int, _medium: Medium, coefficients: Any) -> float:
+def stays_by_planes(flow: object, s: Scratch, i: int, _medium: Medium, coefficients: Any) -> float:
     """Return a half for a step of lane i after which the nearest wall is off its plane, else 1."""
     block, cut = s.block, coefficients[0] * s.block[at.R * LANES + i]
     x = load3(block, at.new_x, i)
@@ -608,7 +607,7 @@ def nearest_walls(p: Particles, arrays: Any, flow: Flow, cut_off: float, patch_m
 
 
 def _nearest_walls(
-    flow: Any, x: Floats, hosts: Ints, cuts: Floats, patch_mask: Floats, nearest: Floats
+    flow: object, x: Floats, hosts: Ints, cuts: Floats, patch_mask: Floats, nearest: Floats
 ) -> None:
     for k in range(len(nearest)):
         if hosts[k] >= 0:
