@@ -309,21 +309,6 @@ def test_a_body_learns_how_much_less_its_errors_are_than_they_might_be(integrato
 
 
 @pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
-def test_what_a_body_learns_does_not_depend_on_who_shares_its_block(integrator):
-    """Those that need fewer steps wait for the others, in the same lanes."""
-    Ca, shear = [1e-3, 0.1, 0.5, 2.0, 5.0], analytic.shear(1.0)
-    together = in_flow(shear, Ca, 0.3, integrator, 1e-4, 0.05)
-    together.advance(20)
-    for k, number in enumerate(Ca):
-        alone = in_flow(shear, number, 0.3, integrator, 1e-4, 0.05)
-        alone.advance(20)
-        for name, array in alone.particles._asdict().items():
-            if name != "number":
-                np.testing.assert_array_equal(array[0], getattr(together.particles, name)[k], err_msg=name)
-    assert len(set(together.particles.substeps)) > 1
-
-
-@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
 def test_what_a_body_has_learned_holds_until_the_next_eighth_step(integrator):
     """A stiff one in a slow flow, which needs no step of order 3 to learn from."""
     cloud = in_flow(analytic.shear(1.0), 0.1, 1e-3, integrator, 1e-4, 1e-4)
