@@ -43,9 +43,8 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 TESTS = Path(__file__).parent
 QUICK = (
     "body/", "dictionary/", "results/", "settings/", "cloud/injection/", "cloud/test_cloud.py",
-    "cloud/test_integrators.py", "cloud/test_layout.py", "cloud/test_rebounds.py", "flow/mesh/test_mesh.py",
-    "flow/read/test_openfoam.py", "flow/test_walk.py", "run/test_job.py", "run/test_sweep.py",
-    "view/test_bodies.py",
+    "cloud/test_integrators.py", "cloud/test_layout.py", "flow/mesh/test_mesh.py",
+    "flow/read/test_openfoam.py", "run/test_job.py", "view/test_bodies.py",
 )  # fmt: skip
 """Files of the tier for each commit: at most 5 min of CPU time with an empty cache of compiled code."""
 
