@@ -468,7 +468,7 @@ def test_a_uniform_seed_stays_uniform(kind, n, corrected):
     x = np.random.default_rng(7).uniform(0.0, 1.0, (1000, 3))
     bodies = spheres(x[flow.locate(x) >= 0], d=1e-9, rho=1.0, mu=1e3)
     cloud = Cloud(bodies, flow, Medium(1e-3, 1.0, (0.0, 0.0, 0.0)), [Stick()], 0.05, Models("roscoe"))
-    cloud.advance(400)
+    cloud.advance(200 if corrected else 400)
     p = cloud.particles
     active = p.status == Status.ACTIVE
     count = np.bincount(flow.cell_of(p.host[active]), minlength=flow.mesh.n_cells)

@@ -104,8 +104,10 @@ def test_interpolation_in_time_is_of_second_order(mesh):
     assert ((orders > 1.8) & (orders < 2.2)).all(), orders
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("dt", [0.01, 0.07, 0.35], ids=["fine", "astride", "coarse"])
+@pytest.mark.parametrize(
+    ("integrator", "dt"),
+    [("stokes", 0.01), ("stokes", 0.07), ("rosenbrock", 0.07), ("rosenbrock", 0.35), ("paper", 0.07)],
+)
 def test_the_answer_does_not_depend_on_how_the_work_is_split(mesh, integrator, dt):
     times = np.linspace(0.2, 1.6, 15).tolist()
     steps = round(1.4 / dt)
