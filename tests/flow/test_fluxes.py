@@ -107,6 +107,23 @@ def test_the_velocity_makes_no_volume_at_any_point(random):
     assert made == pytest.approx(0.0, abs=1e-5 * np.abs(flow.at_nodes()[2]).max())
 
 
+def test_a_mean_flow_that_only_the_fluxes_have_is_uniform(random):
+    """At nodes off walls the fluid is at rest, and the fluxes are those of a uniform flow."""
+    cube, U = block(3, 0.3, "tetrahedra"), np.array([0.3, -0.2, 0.5])
+    patches = [surface._replace(type="patch") for surface in box_patches(cube)]
+    mesh = build_mesh(cube, patches)
+    n = len(mesh.nodes)
+    start = mesh.face_start
+    fluxes = np.empty(len(mesh.owner))
+    for f in range(len(fluxes)):
+        x = mesh.points[mesh.face_points[start[f] : start[f + 1]]]
+        fluxes[f] = 0.5 * np.cross(x[1:-1] - x[0], x[2:] - x[0]).sum(axis=0) @ U
+    flow = MeshFlow(mesh, np.zeros((n, 3)), np.zeros((n, 3, 3)), fluxes=fluxes)
+    x = random.uniform(0.2, 0.8, (300, 3))
+    u, _ = flow.sample(x, flow.locate(x), 0.0)
+    np.testing.assert_allclose(u, np.broadcast_to(U, u.shape), atol=1e-5)
+
+
 def edges(nodes, fluxes):
     """Fluxes at the edges of a triangle by their ends."""
     return {frozenset((nodes[k], nodes[(k + 1) % 3])): fluxes[k] for k in range(3)}

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
+from paths import PIPE
 from small_clouds import box_cloud
 
 import foamprb
@@ -19,7 +20,8 @@ from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.forces import DuctLift
 from foamprb.cloud.measures import path_stokes_number
 from foamprb.cloud.patches import Stick
-from foamprb.cloud.state import drops, spheres, with_relaxation
+from foamprb.cloud.state import Status, drops, spheres, with_relaxation
+from foamprb.cloud.surroundings.largest import LARGEST
 from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -31,6 +33,7 @@ from foamprb.run.checks import (
     outside_flow,
     validity_warnings,
 )
+from foamprb.run.description import describe
 
 OIL = Medium(1.0, 1000.0, (0.0, 0.0, 0.0))
 
@@ -212,3 +215,23 @@ def test_a_channel_of_mm_read_as_m_is_told():
     assert (
         told(1.0, 5e-4, "the flow is the mean or the resolved part of a turbulent one (there is nut)") == []
     )
+
+
+def test_warnings_of_validity_are_in_the_log_and_in_the_record(caplog):
+    """Before the run and at its end."""
+    job = foamprb.prepare(PIPE, overrides={"solution/endTime": 1e-3})
+    job.description["warnings"][:] = ["first", "second"]
+    with caplog.at_level("WARNING", "foamprb"):
+        log.log_description(job)
+        job.cloud.particles.largest[:, LARGEST.D] = 0.95
+        job.cloud.particles.status[:] = Status.ACTIVE
+        end = log.RunLog(job)
+        end._log_paths()
+    beyond = end.warnings_at_end()[0]
+    assert "reached D beyond 0.94" in beyond
+    assert [record.message for record in caplog.records if record.message in ("first", "second", beyond)] == [
+        "first", "second", beyond,
+    ]  # fmt: skip
+    job.cloud.particles.R[:] *= 100.0
+    text = "the particle Reynolds number is"
+    assert any(text in line for line in describe(job.settings, job.cloud, 1)["warnings"])

@@ -60,6 +60,12 @@ def test_semi_axes_give_size_and_strain(tmp_path):
     assert measured.size == "area"
 
 
+@pytest.mark.parametrize(("unit", "d"), [("m", 1e-5), ("mm", 1e-2), ("um", 10.0), ("nm", 1e4)])
+def test_a_diameter_is_the_same_in_any_unit(unit, d, tmp_path):
+    measured = read_measured(table(tmp_path, f"d [{unit}],strain\n{d:g},0.1\n"))
+    assert measured.of("d")[0] == pytest.approx(1e-5, rel=1e-14)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
