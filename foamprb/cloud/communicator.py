@@ -72,7 +72,7 @@ class Rank:
         self.share = Share(empty(0))
         self.sampling: Any = None
         """Cloud functions here, see :class:`foamprb.cloudfunctions.sampling.Sampling`."""
-        self.flow: object = None
+        self.flow: Any = None
         """Arguments of the flow's kernels."""
         self.sampled: Any = None
         """Fields of the flow that are sampled."""

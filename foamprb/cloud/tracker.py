@@ -37,7 +37,7 @@ from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.memory import FadingMemory
-from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid
+from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid, in_fluid
 from foamprb.cloud.viscosity import model_of
 from foamprb.compile.link import Function, is_compiled, link, packed
 from foamprb.errors import InputError
@@ -182,7 +182,7 @@ class Tracker:
         self._columns = needed[0].columns if needed else ()
         # The first of those that change the fluid's gradient, which it reads.
         largest = LargestValues(quadratic=models.has_quadratic)
-        others = (*models.surroundings, *((Adhesion(),) if adheres else ()))
+        others = (*(in_fluid(m, medium.mu) for m in models.surroundings), *((Adhesion(),) if adheres else ()))
         around = (*model_of(medium.mu), *needed, largest, *others)
         self.layout = layout = surroundings.with_rows(integrator.layout, around)
         composed = surroundings.compose(around, patches, integrator.inertia)

@@ -8,7 +8,7 @@ evaluates it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import astuple, dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
 
@@ -19,6 +19,8 @@ import foamprb.body.viscosity as laws
 from foamprb.body.choice import choice
 from foamprb.body.tensor import (
     Scalar,
+    Tensor,
+    Vector,
     inner,
     minus,
     scale_vector,
@@ -38,13 +40,16 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Stage, Surrounding
+from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey
 from foamprb.compile.link import Slots, traced
 from foamprb.flow.base import Patch, Sampled
 from foamprb.flow.kernels import viscosity
 from foamprb.flow.nodes import NodeValues
 
 Floats: TypeAlias = NDArray[np.float64]
+
+_NOTED, _SURVEYED = 1.2, 1000
+"""Ratio of viscosities over a body from which the log has it; bodies that are surveyed."""
 
 
 class ViscosityRows(NamedTuple):
@@ -162,9 +167,28 @@ def evaluate_mixture(block: Block, _medium: Medium, share: float, coefficients: 
         store_mixture(block, i, block[mixture.fraction * LANES + i] + more, coefficients)
 
 
+def law_beside(_flow: Any, _host: int, _x: Vector, _t: float, l: Tensor, coefficients: Any) -> Scalar:
+    """Return μ_f by the gradient at a point, Pa s."""
+    return law(shear_rate(l), *coefficients)
+
+
+def field_beside(flow: Any, host: int, x: Vector, t: float, _l: Tensor, coefficients: Any) -> Scalar:
+    """Return μ_f of the field at a point, Pa s."""
+    return coefficients[0] * viscosity(flow, host, x, t)[0]
+
+
+def mixture_beside(flow: Any, host: int, x: Vector, t: float, _l: Tensor, coefficients: Any) -> Scalar:
+    """Return μ_f of the phases at a point, Pa s."""
+    a = np.maximum(0.0, np.minimum(1.0, viscosity(flow, host, x, t)[0]))
+    return coefficients[1] + a * (coefficients[0] - coefficients[1])
+
+
 @dataclass(frozen=True, kw_only=True)
 class VaryingViscosity(Surrounding):
     """A viscosity that varies in the flow."""
+
+    beside: ClassVar[Callable[..., Any]]
+    """``beside(flow, host, x, t, l, coefficients) -> mu``: μ_f at a point near a body, Pa s."""
 
     def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return the functions that read its rows."""
@@ -178,6 +202,31 @@ class VaryingViscosity(Surrounding):
         """Return μ_f, Pa s, at a shear rate, 1/s; a field returns its mean."""
         raise NotImplementedError
 
+    def remarks(self, survey: Survey) -> Remarks:
+        """Note by how much the viscosity varies over bodies at their start, if by more than a fifth."""
+        p = survey.p.take(
+            np.flatnonzero((survey.p.host >= 0) & np.isfinite(survey.p.x).all(axis=1))[:_SURVEYED]
+        )
+        if not p.size:
+            return Remarks()
+        values, t = [], float(p.t[0])
+        for e in np.concatenate([np.eye(3), -np.eye(3)]):
+            x = p.x + p.R[:, None] * e
+            hosts, mu = survey.flow.locate(x), np.full(p.size, np.nan)
+            inside = hosts >= 0
+            l = survey.flow.sample(x[inside], hosts[inside], t)[1].reshape(-1, 9)
+            mu[inside] = viscosity_of(self, survey.flow, x[inside], hosts[inside], l, t)
+            values.append(mu)
+        l = survey.flow.sample(p.x, p.host, t)[1].reshape(-1, 9)
+        centre = np.asarray(viscosity_of(self, survey.flow, p.x, p.host, l, t))
+        ratio = np.fmax.reduce([*values, centre]) / np.fmin.reduce([*values, centre])
+        if not (n := np.count_nonzero(ratio > _NOTED)):
+            return Remarks()
+        return Remarks((
+            f"viscosity: it varies over {n} of {p.size} bodies by more than a fifth, at their start: by a "
+            f"factor of {np.median(ratio):.3g} (median), {ratio.max():.3g} (largest)",
+        ))  # fmt: skip
+
     def at_nodes(self, values: NodeValues) -> Floats:
         """Return μ_f at nodes of a flow, Pa s."""
         raise NotImplementedError
@@ -189,6 +238,7 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
 
     rows: ClassVar = (ViscosityRows,)
     each_step: ClassVar = False
+    beside: ClassVar = staticmethod(law_beside)
     stages: ClassVar = (
         Stage("start", start_law, writes=(fluid.mu_f,), before=(at.l,)),
         Stage("properties", evaluate_law, writes=(fluid.mu_f,), before=(at.l,)),
@@ -261,6 +311,7 @@ class FieldViscosity(VaryingViscosity):
 
     rows: ClassVar = (FieldRows,)
     kernels: ClassVar = ("viscosity",)
+    beside: ClassVar = staticmethod(field_beside)
     stages: ClassVar = (
         Stage("start", sample_field, writes=(fluid.mu_f,)),
         Stage("properties", evaluate_field, writes=(fluid.mu_f,)),
@@ -296,6 +347,7 @@ class PhaseMixture(VaryingViscosity):
 
     rows: ClassVar = (MixtureRows,)
     kernels: ClassVar = ("viscosity",)
+    beside: ClassVar = staticmethod(mixture_beside)
     stages: ClassVar = (
         Stage("start", sample_fraction, writes=(fluid.mu_f, mixture.rho_f)),
         Stage("properties", evaluate_mixture, writes=(fluid.mu_f, mixture.rho_f)),

@@ -76,7 +76,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     p = _surveyed(cloud)
     medium = medium_at(cloud.medium, flow, p, cloud.time) if models.surroundings else cloud.medium
     survey = Survey(p, flow, medium, cloud.dt, cloud.make_ready())
-    remarks = [model.remarks(survey) for model in models.surroundings]
+    remarks = [model.remarks(survey) for model in (*model_of(cloud.medium.mu), *models.surroundings)]
     notes = [line for remark in remarks for line in remark.notes]
     warnings += [line for remark in remarks for line in remark.warnings]
     warnings += doubtful_densities(settings)
@@ -131,12 +131,12 @@ def _surveyed(cloud: Cloud) -> Particles:
 
     Of several processes the first gathers these; the others are zero, and take no memory of the machine.
     """
-    if cloud.comm.size == 1 or not cloud.models.surroundings:
+    if cloud.comm.size == 1 or not (cloud.models.surroundings or model_of(cloud.medium.mu)):
         return cloud.particles
     models = [m for m in cloud.models.surroundings if type(m).remarks is not Surrounding.remarks]
     names = {name for model in models for name in model.surveys}
     if model_of(cloud.medium.mu):
-        names |= {"x", "host"}
+        names |= {"x", "host", "R", "t"}
     arrays = {name: np.zeros((cloud.size, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}
     for some in cloud.map_by_id(_arrays_of, tuple(names)):
         rows = some.pop("number")

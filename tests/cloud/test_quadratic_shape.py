@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from foamprb.body.quadratic import bullet_amplitude, layers, turned
+from foamprb.body.viscosity import shear_rate
+from foamprb.cloud import viscosity as carrier
 from foamprb.cloud.block import Medium, at, idle_lanes, load3, new_block, store3
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.layout import LANES, layout, offsets
@@ -62,6 +64,40 @@ def test_a_body_on_the_axis_of_a_pipe_becomes_a_bullet(integrator, eta):
     B = eps * np.array([1.0, 0.0, 0.0, -0.5, 0.0, 0.0, 0.0])
     np.testing.assert_allclose(p.B[0], B, atol=1e-7 * eps)
     np.testing.assert_allclose(p.F[0], np.eye(3).ravel(), atol=1e-12)
+
+
+def test_the_stress_of_a_thinning_fluid_bends_a_body(monkeypatch):
+    """τ_xr = −G r/2 in a tube for any law: ε = 7/32 G a/μ_s, though μ is infinite on the axis and S is 0."""
+    G, n, k, a = 4.8e7, 0.6, 0.4, 4e-6
+
+    def sample(_flow, _host, x, _t):
+        r = np.hypot(x[1], x[2])
+        slope = -((G * r / (2.0 * k)) ** (1.0 / n)) / max(r, 1e-300)
+        return (0.0,) * 3, (0.0, slope * x[1], slope * x[2], *(6 * (0.0,))), (0.0,) * 3
+
+    monkeypatch.setattr(quadratic, "sample", sample)
+    law = carrier.PowerLaw(k=k, n=n)
+    monkeypatch.setattr(quadratic, "viscosity_beside", lambda _f, _h, _x, _t, l, _c: law.at(shear_rate(l)))
+    mu_S, mu_v, mu = quadratic.stress_parts(None, 0, (0.0, 0.0, 0.0), 0.0, a, ())
+    assert 35.0 / 32.0 * bullet_amplitude(mu_S) == pytest.approx(7.0 / 32.0 * G, rel=1e-12)
+    np.testing.assert_allclose(mu_v, (-G, 0.0, 0.0), atol=1e-9 * G)
+    # The mean of μ over the body is that near its surface.
+    assert mu == pytest.approx(law.at((G * a / (2.0 * k)) ** (1.0 / n)), rel=0.3)
+
+
+def test_a_law_of_one_viscosity_gives_the_same_bullets():
+    """τ is linear in a pipe: differences over the body are exact."""
+    shapes = []
+    for mu in (MU_F, carrier.PowerLaw(k=MU_F, n=1.0)):
+        p = bodies((0.0, 0.3 * RADIUS, 0.0))
+        flow, models = (
+            analytic.pipe(RADIUS, 0.5 * U),
+            Models(integrator="stokes", shape="quadratic", stride=1),
+        )
+        cloud = Cloud(p, flow, WATER._replace(mu=mu), [Escape()] * len(flow.patches), 2e-4, models, threads=1)
+        cloud.advance(20)
+        shapes.append(np.concatenate([p.B[0] / bullet_amplitude(tuple(p.B[0])), p.x[0] / RADIUS]))
+    np.testing.assert_allclose(*shapes, atol=1e-9)
 
 
 def test_drops_have_shapes_of_their_own():

@@ -1,18 +1,21 @@
 """Quadratic mode of soft bodies: their shape by the curvature of the flow, and the drift by that shape.
 
-The formulas are those of :mod:`foamprb.body.quadratic`. The flow is sampled where steps start. Between two
+The formulas are those of :mod:`foamprb.body.quadratic`. In a fluid whose viscosity varies, μ S and μ v follow
+from the stress, by its differences over the body: where a thinning fluid has no shear, μ S is not the
+product of both. The flow is sampled where steps start. Between two
 starts its S is linear in time, in a frame that turns with the fluid, and the mode is advanced exactly. The
 drift in a step is that of the mode in the middle of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
+from foamprb.body.choice import choice
 from foamprb.body.ellipsoid import largest_swelling, swelling
 from foamprb.body.lift import vorticity
 from foamprb.body.quadratic import (
@@ -41,6 +44,7 @@ from foamprb.body.quadratic import swelling as swelling_by_mode
 from foamprb.body.tensor import (
     Tensor,
     Vector,
+    add,
     combine_vectors,
     det,
     dev,
@@ -61,8 +65,12 @@ from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import clearance_of, turn_along
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey, add3
+from foamprb.cloud.viscosity import VaryingViscosity
 from foamprb.compile.link import Slots, separate, traced
-from foamprb.flow.kernels import curvature
+from foamprb.flow.base import Patch
+from foamprb.flow.kernels import curvature, sample, walk
+
+Beside: TypeAlias = tuple[Tensor, float, float]
 
 
 class QuadraticRows(NamedTuple):
@@ -90,6 +98,14 @@ class SecondRows(NamedTuple):
 
 _CHANGE, _CHANGE_OF_B = 0.2, 1e-3
 """Relative change of S, and change of B, within a step longer than Δt."""
+
+_D = 3.0**-0.5
+_DIRECTIONS = (
+    (1.0, 0.0, 0.0, 0.4), (0.0, 1.0, 0.0, 0.4), (0.0, 0.0, 1.0, 0.4),
+    (_D, _D, _D, 0.45), (_D, _D, -_D, 0.45), (_D, -_D, _D, 0.45), (-_D, _D, _D, 0.45),
+)  # fmt: skip
+"""Directions of a quadrature over a sphere, of degree 5 with their opposites, and weights, in sum 3."""
+_NOTHING: Tensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 mode = offsets(QuadraticRows)
 second = offsets(SecondRows)
@@ -175,6 +191,83 @@ def advance_shift(block: Block, i: int, pull: Vector, rate: float, spin: Vector,
     store3(block, mode.shift_drift, i, drift_by_shift(spin, q, change))
 
 
+def advance_solid(
+    flow: object, s: Scratch, i: int, remaining: float, mu_f: float, mu_S: Third, mu_v: Vector
+) -> None:
+    """Advance the mode of the solid in lane i by μ S and μ v, Pa/m², in the viscosity mu_f."""
+    block = s.block
+    a, mu_s, eta = block[at.R * LANES + i], block[at.mu * LANES + i], block[at.eta * LANES + i]
+    spin = scale_vector(0.5, vorticity(load9(block, at.l, i)))
+    c, step = source(eta / mu_f) * a / mu_f, ahead(block, i, remaining)
+    rate = relaxation_of_solid(mu_f, mu_s, eta, block[at.tension * LANES + i])
+    advance_mode(block, i, combine(c, mu_S, 0.0, mu_S), rate, spin, step)
+    rate = relaxation_of_shift(mu_f, mu_s, eta)
+    advance_shift(block, i, scale_vector(rate, shift(a, 1.0, mu_s, mu_v)), rate, spin, step)
+    close_update(flow, s, i, spin)
+
+
+@choice
+def viscosity_beside(
+    _flow: object, _host: int, _x: Vector, _t: float, _l: Tensor, _coefficients: Any
+) -> float:
+    """Return :attr:`foamprb.cloud.viscosity.VaryingViscosity.beside`, Pa s."""
+    raise NotImplementedError
+
+
+@separate
+def stress_beside(flow: object, host: int, x: Vector, t: float, way: Vector, coefficients: Any) -> Beside:
+    """Return the stress 2 μ d, Pa, a way from x, or at a boundary before; μ there; the share of the way."""
+    reached, share, patch, _ = walk(flow, host, x, t, plus(x, way), t)
+    if patch == -2:
+        reached, share = host, 0.0
+    there = plus(x, scale_vector(share, way))
+    _, l, _ = sample(flow, reached, there, t)
+    mu = viscosity_beside(flow, reached, there, t, l, coefficients)
+    return scale(2.0 * mu, sym(l)), mu, share
+
+
+def stress_parts(
+    flow: object, host: int, x: Vector, t: float, a: float, coefficients: Any
+) -> tuple[Third, Vector, float]:
+    """Return means over a body of radius a: μ S and μ v, Pa/m², and the harmonic one of μ, Pa s.
+
+    By the divergence theorem the mean of ∂τ_ij/∂x_k is (3/a) times that of τ_ij n_k over the surface, here of
+    14 points: exact for polynomials of degree 4. μ S is the symmetric, traceless part of ½ ∂τ_ij/∂x_k,
+    and μ v = ∇·τ, as for a constant viscosity.
+    """
+    X, Y, Z, fluidity = _NOTHING, _NOTHING, _NOTHING, 0.0
+    for n_x, n_y, n_z, w in _DIRECTIONS:
+        n = (n_x, n_y, n_z)
+        slope, fluidity_there = stress_slope(flow, host, x, t, scale_vector(a, n), coefficients)
+        X, Y, Z = (
+            add(X, scale(w * n[0], slope)),
+            add(Y, scale(w * n[1], slope)),
+            add(Z, scale(w * n[2], slope)),
+        )
+        fluidity += w / 3.0 * fluidity_there
+    q = 0.25
+    S = parts((
+        (2.0 * q * X[0], 2.0 * q * X[1], 2.0 * q * X[2]),
+        (2.0 * q * Y[1], 2.0 * q * Y[4], 2.0 * q * Y[5]),
+        (2.0 * q * Z[2], 2.0 * q * Z[5], 2.0 * q * Z[8]),
+        (q * (Y[0] + X[1]), q * (Y[1] + X[4]), q * (Y[2] + X[5])),
+        (q * (Z[1] + Y[2]), q * (Z[4] + Y[5]), q * (Z[5] + Y[8])),
+        (q * (Z[0] + X[2]), q * (Z[1] + X[5]), q * (Z[2] + X[8])),
+    )).S  # fmt: skip
+    force = (X[0] + Y[1] + Z[2], X[1] + Y[4] + Z[5], X[2] + Y[5] + Z[8])
+    return S, force, 1.0 / fluidity
+
+
+def stress_slope(
+    flow: object, host: int, x: Vector, t: float, way: Vector, coefficients: Any
+) -> tuple[Tensor, float]:
+    """Return the mean derivative of the stress along a way to both sides of x, Pa/m, and the mean 1/μ."""
+    after, mu_after, there = stress_beside(flow, host, x, t, way, coefficients)
+    before, mu_before, here = stress_beside(flow, host, x, t, scale_vector(-1.0, way), coefficients)
+    length = max(there + here, 1e-9) * norm(way)
+    return scale(1.0 / length, add(after, scale(-1.0, before))), 0.5 / mu_after + 0.5 / mu_before
+
+
 def close_update(flow: object, s: Scratch, i: int, spin: Vector) -> None:
     """Store that the mode of lane i is that of its time, and the gap of its surface from the walls."""
     block = s.block
@@ -187,20 +280,18 @@ def update_solid(
     flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
 ) -> None:
     """Advance the mode of the solid in lane i."""
-    block = s.block
-    mu_f, a = viscosity_at(block, i, medium), block[at.R * LANES + i]
-    mu_s, eta, tension = (
-        block[at.mu * LANES + i],
-        block[at.eta * LANES + i],
-        block[at.tension * LANES + i],
-    )
+    mu_f = viscosity_at(s.block, i, medium)
     S, _, v = flow_parts(flow, s, i)
-    spin = scale_vector(0.5, vorticity(load9(block, at.l, i)))
-    c, step = source(eta / mu_f) * a, ahead(block, i, remaining)
-    advance_mode(block, i, combine(c, S, 0.0, S), relaxation_of_solid(mu_f, mu_s, eta, tension), spin, step)
-    rate = relaxation_of_shift(mu_f, mu_s, eta)
-    advance_shift(block, i, scale_vector(rate, shift(a, mu_f, mu_s, v)), rate, spin, step)
-    close_update(flow, s, i, spin)
+    advance_solid(flow, s, i, remaining, mu_f, combine(mu_f, S, 0.0, S), scale_vector(mu_f, v))
+
+
+def update_in_varying(
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
+) -> None:
+    """Advance the mode of the solid in lane i, in a fluid whose viscosity varies."""
+    x, t, a = load3(s.block, at.x, i), s.block[at.t * LANES + i], s.block[at.R * LANES + i]
+    mu_S, mu_v, mu_f = stress_parts(flow, s.host[i], x, t, a, coefficients)
+    advance_solid(flow, s, i, remaining, mu_f, mu_S, mu_v)
 
 
 def update_drop(
@@ -249,6 +340,20 @@ def stays_resolved(flow: object, s: Scratch, i: int, medium: Medium, _coefficien
     t, h = block[at.t * LANES + i], block[at.dt * LANES + i]
     S = parts(curvature(flow, s.ahead[i], load3(block, at.new_x, i), t + h)).S
     c = source(block[at.eta * LANES + i] / viscosity_at(block, i, medium)) * block[at.R * LANES + i]
+    return share_resolved(block, i, c, S)
+
+
+def stays_resolved_in_varying(flow: object, s: Scratch, i: int, _medium: Medium, coefficients: Any) -> float:
+    """Return the same in a fluid whose viscosity varies."""
+    block = s.block
+    a, t = block[at.R * LANES + i], block[at.t * LANES + i] + block[at.dt * LANES + i]
+    mu_S, _, mu_f = stress_parts(flow, s.ahead[i], load3(block, at.new_x, i), t, a, coefficients)
+    return share_resolved(block, i, source(block[at.eta * LANES + i] / mu_f) * a / mu_f, mu_S)
+
+
+def share_resolved(block: Block, i: int, c: float, S: Third) -> float:
+    """Return the share of a step of lane i to a source c S of B."""
+    h = block[at.dt * LANES + i]
     before = load7(block, mode.growth, i)
     change = square(combine(c, S, -1.0, before)) ** 0.5
     largest = max(square(before) ** 0.5, c * square(S) ** 0.5)
@@ -280,10 +385,12 @@ def turn_mode(block: Block, i: int, turn: Tensor) -> None:
     )
 
 
-def _stages(update: Callable[..., None], carry: Callable[..., None]) -> tuple[Stage, ...]:
+def _stages(
+    update: Callable[..., None], carry: Callable[..., None], resolve: Callable[..., float] = stays_resolved
+) -> tuple[Stage, ...]:
     return (
         Stage("start", update, writes=(mode.B, mode.middle), before=(at.l,)),
-        Stage("accept", stays_resolved),
+        Stage("accept", resolve),
         Stage("fluid", carry, reads=(mode.middle,), adds=(at.u,), before=(at.l,)),
     )
 
@@ -328,6 +435,29 @@ class QuadraticSolid(Surrounding):
                 "computes their second mode and its drift as those of spheres of the same volume.",
             ),
         )
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuadraticInVarying(QuadraticSolid):
+    """Quadratic mode of elastic bodies in a fluid whose viscosity varies."""
+
+    fluid: VaryingViscosity
+
+    stages: ClassVar = _stages(update_in_varying, carry_solid, stays_resolved_in_varying)
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:
+        """Return those of the fluid."""
+        return self.fluid.coefficients(patches)
+
+    def slots(self, inertia: bool) -> Slots:
+        """Return also the viscosity at a point."""
+        return {**super().slots(inertia), viscosity_beside: type(self.fluid).beside}
+
+
+def in_fluid(model: Surrounding, mu: float | VaryingViscosity) -> Surrounding:
+    """Return a model of the surroundings as it acts in a fluid: the mode of solids depends on it."""
+    varies = type(model) is QuadraticSolid and isinstance(mu, VaryingViscosity)
+    return QuadraticInVarying(fluid=mu) if varies and isinstance(mu, VaryingViscosity) else model
 
 
 @dataclass(frozen=True, kw_only=True)
