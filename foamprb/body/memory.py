@@ -196,6 +196,8 @@ def power_law_modulus(omega: ArrayLike, alpha: ArrayLike) -> NDArray[np.complex1
 _BEYOND = 2.0
 """Factor by which relaxation times go beyond the times of a run, so that the power law holds to the ends."""
 _PER_DECADE = 1.7
+RESOLVED = 1e7
+"""Largest range of times, a factor, over which the series holds within 2 %."""
 _NEGLIGIBLE = 1e-9
 """Least modulus or viscosity of a series, over those that would give the power law alone."""
 

@@ -13,9 +13,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS
+from foamprb.body.memory import RESOLVED
+from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.communicator import Communicator
@@ -35,6 +38,7 @@ from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.nodes import NodeValues
 from foamprb.flow.read.flows import check_region, read_flow, read_transient_flow, rotations_of
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.rotating import RotatingFlow
@@ -333,7 +337,7 @@ def assemble(
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = _medium(settings)
     start = _start(settings, flow)
-    release = Release(settings.injections, flow, medium, _span(settings, start))
+    release = Release(settings.injections, flow, medium, _span(settings, start, flow))
     solids = sorted({injection.solid.type for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
@@ -369,9 +373,24 @@ def assemble(
     return Job(settings, cloud, functions)
 
 
-def _span(settings: Settings, start: float) -> tuple[float, float]:
-    """Return the shortest and the longest time of a run, s, over which a power law holds."""
-    return settings.solution.deltaT, settings.solution.endTime - start
+def _span(settings: Settings, start: float, flow: Flow | None = None) -> tuple[float, float]:
+    """Return the shortest and the longest time of a run, s, over which a power law holds.
+
+    The shortest is Δt, or 1/γ̇ for the largest shear rate at the nodes of the flow: in shear, strain turns
+    with γ̇, whatever Δt is. Ten relaxation times resolve :data:`RESOLVED`.
+    """
+    shortest, longest = settings.solution.deltaT, settings.solution.endTime - start
+    if flow is not None and any(
+        MATERIALS[injection.solid.type].power_law for injection in settings.injections
+    ):
+        ends = flow.ends_at_nodes(_rates)
+        largest = float(ends[0][1]) if ends else 0.0
+        shortest = min(shortest, max(1.0 / max(largest, 1e-300), longest / RESOLVED))
+    return shortest, longest
+
+
+def _rates(values: NodeValues) -> tuple[NDArray[np.float64]]:
+    return (np.asarray(shear_rate(tuple(values.l.T))),)
 
 
 def _start(settings: Settings, flow: Flow) -> float:

@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pipe_case import copy_of_pipe
 from pipe_cells import MEAN, RADIUS, SETTINGS, pipe_job
 from validation.references.power_law import creep_of_power_law
 
 from foamprb.body.memory import (
     complex_modulus,
     power_law_modulus,
+    range_of_power_law,
     series_of_power_law,
     times_of_power_law,
 )
@@ -25,6 +27,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.run.fit import fit_job
+from foamprb.run.job import prepare
 from foamprb.run.log import log_description
 from foamprb.run.lut import compute_lut
 from foamprb.run.measured import read_measured
@@ -36,6 +39,20 @@ PRONY = "relaxation { type prony; moduli ( 200 100 ); times ( 1e-2 0.2 ); }"
 
 def solid(text):
     return SETTINGS.replace("type neoHooke; shearModulus 300; viscosity 1;", text)
+
+
+def test_a_power_law_holds_up_to_the_shear_rate_of_the_flow(tmp_path):
+    """The wall shear rate of the pipe is 924 1/s, of which deltaT, 0.01 s, says nothing."""
+    case = copy_of_pipe(tmp_path)
+    text = solid("type powerLaw; k 100; alpha 0.3;").replace("-9e-5", "-1.9e-3").replace("9e-5", "1.9e-3")
+    (case / "constant/softCloudProperties").write_text(text.replace("deltaT 2e-3", "deltaT 1e-2"))
+    rates = prepare(case).cloud.particles.memoryRates[0]
+    assert range_of_power_law(1.0 / rates)[1] > 0.95 * 924.0
+    # A flow without nodes: the warning says the shear rate where particles start.
+    job = pipe_job(tmp_path / "pipe", solid("type powerLaw; k 100; alpha 0.3;").replace("2e-3;", "2e-2;"))
+    (warning,) = [text for text in job.description["warnings"] if "power law" in text]
+    assert "the shear rate at particles is up to 180 1/s" in warning
+    assert "holds up to 50 1/s, that is 1/deltaT. Needed: deltaT up to 0.0056." in warning
 
 
 def test_the_moduli_of_a_series_are_beside_the_one_that_stays(tmp_path):

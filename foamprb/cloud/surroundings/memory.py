@@ -42,6 +42,7 @@ from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.rosenbrock import with_fading as with_inertial_fading
 from foamprb.cloud.integrators.stokes import gradient_at_end, gradient_by_slope, with_fading
 from foamprb.cloud.layout import LANES, MOST_TIMES, Block, Row, offsets
+from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.motion import mirror_memory
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey
 from foamprb.compile.link import Slots, traced
@@ -52,6 +53,8 @@ __all__ = ["FadingMemory"]
 
 _LARGE_ERROR = 0.02
 """Relative error of a power law above which the user is warned."""
+_BEYOND = 1.05
+"""Shear rate over the largest one of a power law, above which the user is warned."""
 _SHORT = 0.1
 """Longest step over Δt below which the user is warned."""
 
@@ -204,7 +207,7 @@ class FadingMemory(Surrounding):
     """Whether the third parameter of the solid is the exponent of a power law."""
 
     each_step: ClassVar = False
-    surveys: ClassVar = ("k", "memoryRates")
+    surveys: ClassVar = ("k", "memoryRates", "x", "host", "t")
     switches: ClassVar = {"updates_end": 1}
 
     def __post_init__(self) -> None:
@@ -255,6 +258,13 @@ class FadingMemory(Surrounding):
                 warnings.append(
                     f"the power law holds within {100.0 * error:.2g} % only, as endTime is "
                     f"{high / low:.2g} deltaT. Up to 1e7 deltaT it holds within {100.0 * _LARGE_ERROR:g} %."
+                )
+            p = survey.p.take(np.flatnonzero(survey.p.host >= 0))
+            rate = float(shear_rate_at(survey.flow, p, float(p.t[0])).max()) if p.size else 0.0
+            if rate > _BEYOND * high:
+                warnings.append(
+                    f"the shear rate at particles is up to {rate:.3g} 1/s where they start: the power law "
+                    f"holds up to {high:.3g} 1/s, that is 1/deltaT. Needed: deltaT up to {1.0 / rate:.2g}."
                 )
         step = SHARE_OF_MEMORY * shortest
         if step < _SHORT * survey.dt:
