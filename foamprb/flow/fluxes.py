@@ -90,19 +90,18 @@ class Conservation:
     ----------
     mesh
         The mesh.
-    valued
-        (n_boundary,) mask of boundary faces whose velocity is given; by default all. The flux through a wall
-        without a velocity may change, as that through an open face.
+    sliding
+        Whether the walls slide: nothing flows through them. Otherwise the velocity of a wall is its flux, too,
+        as of a piston.
     """
 
-    def __init__(self, mesh: Mesh, valued: Mask | None = None) -> None:
+    def __init__(self, mesh: Mesh, sliding: bool = False) -> None:
         self.n_faces = len(mesh.owner)
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
         self._closed, walls = _of_kind(mesh, PatchKind.MIRROR), _of_kind(mesh, PatchKind.WALL)
         # The flux through an open face may change.
         self._open = ~(self._closed | walls)
-        if valued is not None:
-            self._open |= walls & ~valued
+        self._closed |= walls & sliding
         ends = (walls | _of_kind(mesh, PatchKind.OPENING))[mesh.triangle_face]
         self._ends = np.unique(mesh.triangles[ends])
         self._coupled = np.concatenate([np.empty(0, dtype=np.intp), *(c.faces for c in mesh.couplings)])

@@ -39,6 +39,8 @@ _SMOOTH = 0.9
 """Least cosine between a face's normal and the mean around its corner on a surface that is smooth there."""
 _MOST_OFFSET = 0.3
 """Largest distance of a wall from the face, over that of the cell's centre."""
+_SAME_NORMAL = 0.07
+"""Largest squared tangent of half the angle between two facets of a smooth surface, 30°."""
 _MOST_PASSES = 5
 _CHANGE = 1e-3
 """Change of the gradients in a pass, over the gradients, after which no other one follows; norms."""
@@ -270,8 +272,7 @@ class Reconstruction:
             h[self._of_images, :, pair] = turned[:, :, j, k]
         if len(own):
             faces, cells = valued[own], owner[own]
-            normals = self.mesh.boundary_areas[faces]
-            normals = normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+            normals = _normals(self.mesh, faces)
             arms = self.mesh.boundary_centres[faces] - self.mesh.centres[cells]
             arms -= np.einsum("ni,ni->n", arms, normals)[:, None] * normals
             mean = l[cells] + 0.5 * np.einsum("nijk,nk->nij", h[cells][:, :, PAIR_OF], arms)
@@ -305,15 +306,45 @@ class Reconstruction:
         high = np.maximum.reduceat(values[around], start[:-1])
         apart = np.any(low != high, axis=1)
         u_points[on_wall] = np.where(apart[:, None], mean, low)
-        normals = mesh.boundary_areas[faces]
-        normals = normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-        tight = np.abs(np.einsum("ni,ni->n", normals, values)) <= 1e-9 * np.linalg.norm(values, axis=1)
-        for row in np.flatnonzero(apart):
-            own = around[start[row] : start[row + 1]]
-            if tight[own].all():
-                # Nothing flows through walls that meet at a point, though one of them moves.
-                excess = normals[own] @ u_points[on_wall[row]]
-                u_points[on_wall[row]] -= np.linalg.lstsq(normals[own], excess, rcond=0.1)[0]
+        across = np.abs(np.einsum("ni,ni->n", _normals(mesh, faces), values))
+        tight = across <= 1e-9 * np.linalg.norm(values, axis=1)
+        # Nothing flows through walls that meet at a point, though one of them moves.
+        apart &= np.bincount(place, ~tight[columns], len(on_wall)) == 0
+        slide(mesh, u_points, faces, on_wall[apart])
+
+
+def slide(mesh: Mesh, u_points: Floats, faces: Index, points: Index | None = None) -> None:
+    """Subtract from velocities at mesh points, in place, their components across the boundary faces there.
+
+    Facets of a smooth surface have one normal at a point, the mean one; faces that meet at an edge or a
+    corner have two or three.
+
+    Parameters
+    ----------
+    u_points
+        (n_points, 3), m/s.
+    faces
+        Boundary faces.
+    points
+        Points at which velocities change; by default all points of the faces.
+    """
+    rows, columns = points_of_faces(mesh, faces)
+    own = np.unique(rows) if points is None else points
+    place, normals = np.searchsorted(own, rows), _normals(mesh, faces)
+    at = np.flatnonzero(np.isin(rows, own))
+    squares = np.zeros((len(own), 3, 3))
+    np.add.at(squares, place[at], normals[columns[at], :, None] * normals[columns[at], None, :])
+    values, vectors = np.linalg.eigh(squares)
+    across = np.einsum("pki,pk->pi", vectors, u_points[own])
+    across[values <= _SAME_NORMAL * values[:, 2:]] = 0.0
+    u_points[own] -= np.einsum("pki,pi->pk", vectors, across)
+
+
+def _normals(mesh: Mesh, faces: Index) -> Floats:
+    """Return the unit normals of boundary faces, (n, 3)."""
+    areas = mesh.boundary_areas[faces]
+    normals: Floats = areas / np.maximum(np.linalg.norm(areas, axis=1), 1e-300)[:, None]
+    return normals
 
 
 def _norm(values: Floats) -> float:
@@ -330,8 +361,7 @@ def wall_offsets(mesh: Mesh, faces: Index) -> Floats:
     the mean normals there, Σ n_i·(x_i − x)/2n. Zero in all other cells.
     """
     corners, columns = points_of_faces(mesh, faces)
-    areas, centres = mesh.boundary_areas[faces], mesh.boundary_centres[faces]
-    normals = areas / np.maximum(np.linalg.norm(areas, axis=1), 1e-300)[:, None]
+    areas, centres, normals = mesh.boundary_areas[faces], mesh.boundary_centres[faces], _normals(mesh, faces)
     total = np.zeros((mesh.n_points, 3))
     np.add.at(total, corners, areas[columns])
     mean = total[corners] / np.maximum(np.linalg.norm(total[corners], axis=1), 1e-300)[:, None]

@@ -12,11 +12,11 @@ from foam_writer import write_case
 
 from foamprb.cloud.patches import Escape, Mirror
 from foamprb.errors import InputError
-from foamprb.flow.base import Patch
+from foamprb.flow.base import Caveat, Patch
 from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.boundary_values import with_walls
 from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, PatchField
-from foamprb.flow.read.openfoam import Case
+from foamprb.flow.read.openfoam import Case, read_case
 from foamprb.run.template import write_template
 from foamprb.settings.patches import KindRule, PatchRule, match_patches
 
@@ -142,3 +142,17 @@ def test_overset_is_one_error(tmp_path):
     types_of(tmp_path, lid="overset")
     with pytest.raises(InputError, match=r"patch lid is of type overset: .* Allowed: the flow on one mesh"):
         write_template(tmp_path)
+
+
+@pytest.mark.parametrize("condition", ["zeroGradient", "inletOutlet", "fixedValue", "noSlip"])
+def test_a_wall_through_which_fluid_flows_is_an_opening_and_named(tmp_path, condition):
+    """Not if the condition gives a velocity to the wall."""
+    write_case(tmp_path, perturbation=0.0)
+    path = tmp_path / "1e1/U"
+    path.write_text(re.sub(r"(floor \{ type )\w+", rf"\1{condition}", path.read_text()))
+    flow = read_case(tmp_path)
+    warned = [note for note in flow.notes if isinstance(note, Caveat) and "patch floor is of type wall" in note]
+    assert len(warned) == (condition in ("zeroGradient", "inletOutlet"))
+    kind = next(patch.kind for patch in flow.patches if patch.name == "floor")
+    assert kind is (PatchKind.OPENING if warned else PatchKind.WALL)
+    assert not warned or f"({condition}): it is an opening" in warned[0]

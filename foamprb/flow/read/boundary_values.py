@@ -16,7 +16,7 @@ import numpy as np
 from foamprb.dictionary.dimensions import RATE, VELOCITY, VOLUME_FLUX, Dimensions
 from foamprb.dictionary.values import factor_of, unit_of
 from foamprb.errors import InputError, closest, suggestion
-from foamprb.flow.base import Floats
+from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import CONSTRAINTS, VALUE_CONDITIONS, VALUELESS, WALL_CONDITIONS, PatchKind
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
@@ -42,9 +42,46 @@ class PatchGeometry(NamedTuple):
 _MAY_BE_WALLS = PatchKind.OPENING, PatchKind.COUPLED
 _ALONG = 1e-4
 """Cosine of the angle between a velocity along a face and its normal."""
+_CROSSED = 0.05
+"""Least flux through an opening that is a wall by its type, over that of the speed on it."""
 _LENGTH: Dimensions = (0, 1, 0, 0, 0, 0, 0)
 Rule = Callable[[PatchField, PatchGeometry], Floats | None]
 """Returns the values (n, 3), m/s, of a boundary condition; None if it lacks an entry."""
+
+
+def with_openings(whole: CaseMesh, field: FoamField, boundary: Floats) -> CaseMesh:
+    """Return the mesh with the walls as openings through which fluid flows.
+
+    Mesh generators make walls of patches that have no type. A velocity that is given on a wall is that of a
+    moving or porous one.
+
+    Parameters
+    ----------
+    whole, field
+        The mesh and the velocity.
+    boundary
+        (n_boundary, 3) velocity at the boundary faces, m/s.
+    """
+    mesh, patches, notes = whole.mesh, list(whole.mesh.patches), []
+    for index, patch in enumerate(whole.patches[: len(patches)]):
+        entry, rows = field.of(patch), slice(mesh.patch_start[index], mesh.patch_start[index + 1])
+        walls = WALL_CONDITIONS | VALUE_CONDITIONS
+        if entry is None or entry.type in walls or patches[index].kind is not PatchKind.WALL:
+            continue
+        values, areas = boundary[rows], mesh.boundary_areas[rows]
+        flux = float(np.einsum("ni,ni->", values, areas))
+        most = float((np.linalg.norm(values, axis=1) * np.linalg.norm(areas, axis=1)).sum())
+        if abs(flux) > _CROSSED * most:
+            patches[index] = patches[index]._replace(type="patch", groups=patch.groups - {"wall"})
+            way = "leave" if flux > 0.0 else "enter"
+            notes.append(
+                Caveat(
+                    f"patch {patch.name} is of type {patch.type}, but {abs(flux):.4g} m3/s {way} through it "
+                    f"({entry.type}): it is an opening. To make it a wall, give it an entry in "
+                    "localInteractionCoeffs/patches."
+                )
+            )
+    return whole._replace(mesh=replace(mesh, patches=tuple(patches)), notes=(*whole.notes, *notes))
 
 
 def with_walls(whole: CaseMesh, field: FoamField) -> CaseMesh:

@@ -32,7 +32,7 @@ _ANGLE = 30.0
 """Default angle in degrees at which openings and planes end."""
 _ACROSS, _ROUND_OFF = 0.1, 1e-6
 """Least velocity across a face that is open, over the local velocity and over the largest."""
-_OPEN, _OPEN_PART, _STEADY, _OPEN_VALUED = 0.5, 0.9, 0.7, 0.05
+_OPEN, _OPEN_PART, _STEADY, _OPEN_VALUED = 0.1, 0.9, 0.7, 0.05
 """Least fluxes of an opening.
 
 In the cells over that of their speed, if it is a smooth surface or a part of one; across the faces over that
@@ -48,8 +48,11 @@ Number of faces; of an opening, its flux over that of all; of a wall, its area o
 _LEAST_SLIP, _MOST_SHEAR, _PLANE = 1e-3, 0.3, 1e-5
 """Limits of a symmetry plane: its speed over the largest, the change of velocity across the mesh, at the rate
 at the plane, over the velocity, and the relative difference of its area from that of its projection."""
-_AT_REST = 0.5
-"""Velocity that is continued to a wall at rest over that in the cells, at most; rms."""
+_AT_REST = 0.8
+"""Velocity that is continued to a wall at rest over that in the cells, at most; rms.
+
+Towards a wall at rest the velocity decreases. Along a moving wall, or one without friction, it does not.
+"""
 _MOST_LOST = 0.1
 """Fraction by which inflow and outflow through the openings may differ without a warning."""
 
@@ -265,13 +268,14 @@ def _types(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp]) -> list[st
 
 
 def faces_at_rest(mesh: Mesh, u: BoundaryVelocity | None) -> Mask:
-    """Return True for boundary faces of walls towards which the velocity decreases, as on walls at rest."""
+    """Return True for boundary faces of smooth walls towards which the velocity decreases."""
     labels = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
     if u is None:
         return np.zeros(len(labels), dtype=bool)
+    walls = np.array([patch.type == "wall" for patch in mesh.patches], dtype=bool)[labels]
+    labels = _by_angle(mesh, _ANGLE, labels)
     at_faces, in_cells = (np.bincount(labels, np.square(v).sum(axis=(0, 2))) for v in (u.faces, u.cells))
-    walls = np.array([patch.type == "wall" for patch in mesh.patches], dtype=bool)
-    at_rest: Mask = (walls & (at_faces <= _AT_REST**2 * in_cells))[labels]
+    at_rest: Mask = walls & (at_faces <= _AT_REST**2 * in_cells)[labels]
     return at_rest
 
 

@@ -26,7 +26,7 @@ from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.patches import VALUELESS
+from foamprb.flow.patches import VALUELESS, PatchKind
 from foamprb.flow.read.caveats import balanced, balanced_in_time
 from foamprb.flow.read.checks import caveat_of_order, require_numbers, require_volumes
 from foamprb.flow.read.division import (
@@ -46,9 +46,10 @@ from foamprb.flow.read.vtkfile import (
     solid_cells,
     times_of_file,
 )
-from foamprb.flow.reconstruct import Reconstruction, from_points
+from foamprb.flow.reconstruct import Reconstruction, from_points, slide
 from foamprb.flow.series import series_of
 
+_CLOSED = PatchKind.WALL, PatchKind.MIRROR
 _MOST_TIMES = 10
 """Number of times of a transient flow at which moving patches are looked for."""
 _LONGEST, _SLOWEST, _FASTEST = 10.0, 3600.0, 1e6
@@ -164,39 +165,44 @@ class _NodalVelocity:
         self._path, self._mesh, self._velocity = path, mesh, velocity
         self.notes: list[str] = []
         self._reconstruct: Reconstruction | None = None
-        faces = np.zeros(len(mesh.boundary_centres), dtype=bool)
         if velocity in grid.cell_data:
             self._valued = [
                 index
                 for index, (_, surface) in enumerate(file.surfaces)
                 if velocity in surface.cell_data and mesh.patches[index].type not in VALUELESS
             ]
+            faces = np.zeros(len(mesh.boundary_centres), dtype=bool)
             for index in self._valued:
                 faces[mesh.patch_start[index] : mesh.patch_start[index + 1]] = True
             if not faces.any():
-                faces |= file.at_rest
                 self.notes = ["The file has velocities of cells alone: they are continued to the boundary."]
-                self.notes += ["The fluid is at rest on walls, as they show."] * bool(faces.any())
-            self._reconstruct = Reconstruction(mesh, valued=faces)
+                self.notes += ["The fluid is at rest on walls, as they show."] * bool(file.at_rest.any())
+            self._reconstruct = Reconstruction(mesh, valued=faces | file.at_rest)
             self.notes += caveat_of_order(mesh, _array(grid.cell_data, velocity, path, "at cell"))
         elif velocity in grid.point_data:
             self.notes = ["Velocities are point values; their gradient is first-order accurate."]
         else:
             raise InputError(f"{path}: {_other_names(grid, velocity)}")
-        self.conserve = Conservation(mesh, faces)
+        self.conserve = Conservation(mesh, sliding=True)
+        kinds = np.array([patch.kind in _CLOSED for patch in mesh.patches], dtype=bool)
+        self._closed = np.flatnonzero(np.repeat(kinds, np.diff(mesh.patch_start)))
 
     def __call__(self, grid: Any, surfaces: Sequence[tuple[str, Any]]) -> tuple[Floats, Floats]:
         """Return velocity and gradient at the nodes, from the data read at any time."""
         name, path, mesh = self._velocity, self._path, self._mesh
         if self._reconstruct is None:
-            return from_points(mesh, _array(grid.point_data, name, path, "at point"))
+            points = _array(grid.point_data, name, path, "at point").copy()
+            slide(mesh, points, self._closed)
+            return from_points(mesh, points)
         cells = _array(grid.cell_data, name, path, "at cell")
         boundary = np.zeros((len(mesh.boundary_centres), 3))
         for index in self._valued:
             rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
             patch, surface = surfaces[index]
             boundary[rows] = _array(surface.cell_data, name, path, f"on patch {patch}, face")
-        return self._reconstruct(cells, boundary)
+        u, l = self._reconstruct(cells, boundary)
+        slide(mesh, u, self._closed)
+        return u, l
 
 
 def _other_names(grid: Any, velocity: str) -> str:

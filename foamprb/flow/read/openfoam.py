@@ -22,7 +22,7 @@ from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
-from foamprb.flow.read.boundary_values import boundary_values, with_walls
+from foamprb.flow.read.boundary_values import boundary_values, with_openings, with_walls
 from foamprb.flow.read.case import (
     available_times,
     cell_zones,
@@ -238,6 +238,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     whole = case.mesh(name)
     whole = with_walls(whole, field)
     cells, boundary = velocities(field, whole)
+    whole = with_openings(whole, field, boundary)
     read, unsteady = partial(case.field, name), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, cells, boundary, read, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, cells)
@@ -306,6 +307,9 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     whole = case.mesh(names[0])
     whole = with_walls(whole, field)
     first = velocities(field, whole)
+    last = case.field(names[-1], source.velocity, VELOCITY_FIELD)
+    # A flow that starts from rest does not show its openings.
+    whole = with_openings(whole, last, velocities(last, whole)[1])
     read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, first[0])

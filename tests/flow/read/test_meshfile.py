@@ -14,6 +14,11 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFWriter
 from vtkmodules.vtkIOParallel import vtkEnSightWriter
 
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Stick
+from foamprb.cloud.state import Status, spheres
+from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Patch
 from foamprb.flow.mesh.mesh import build_mesh
@@ -23,6 +28,7 @@ from foamprb.flow.read.describe import describe_file
 from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
 from foamprb.flow.read.source import Division
 from foamprb.flow.reconstruct import Reconstruction
+from foamprb.settings.patches import patch_interactions
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 
@@ -510,3 +516,37 @@ def test_a_velocity_that_is_no_number_is_named_with_its_place(where, message, tm
     shape.save(tmp_path / "flow.vtu")
     with pytest.raises(InputError, match=message):
         read_mesh_file(tmp_path / "flow.vtu")
+
+
+def driven(x):
+    """The curl of (0, 0, s(x) g(y) s(z)) with s = sin² πx and g = y² (y − 1): a lid at y = 1 slides."""
+    s, ds = np.sin(np.pi * x) ** 2, np.pi * np.sin(2.0 * np.pi * x)
+    u, y = np.zeros_like(x), x[:, 1]
+    u[:, 0], u[:, 1] = s[:, 0] * y * (3.0 * y - 2.0) * s[:, 2], -ds[:, 0] * y**2 * (y - 1.0) * s[:, 2]
+    return u
+
+
+@pytest.mark.parametrize(
+    ("kind", "suffix", "where"),
+    [
+        ("tetrahedra", "vtu", "cell_data"), ("tetrahedra", "vtu", "point_data"),
+        ("prisms", "vtu", "cell_data"), ("prisms", "vtk", "point_data"),
+        ("hexahedra", "xdmf", "cell_data"), ("hexahedra", "msh", "point_data"),
+    ],
+)  # fmt: skip
+def test_hardly_anything_sticks_in_a_closed_box_with_a_lid_that_slides(kind, suffix, where, tmp_path):
+    shape = block(6, 0.3, kind)
+    places = build_mesh(shape).centres if where == "cell_data" else np.asarray(shape.points)
+    getattr(shape, where)["U"] = driven(places)
+    path = tmp_path / f"flow.{suffix}"
+    if suffix.startswith("vt"):
+        shape.save(path)
+    else:
+        pyvista.to_meshio(shape).write(path, **({"file_format": "gmsh"} if suffix == "msh" else {}))
+    flow = read_mesh_file(path)
+    assert {patch.type for patch in flow.patches} == {"wall"}
+    bodies = spheres(np.random.default_rng(7).uniform(0.02, 0.98, (300, 3)), d=1e-9, rho=1.0, mu=1e3)
+    still = Medium(1e-3, 1.0, (0.0, 0.0, 0.0))
+    cloud = Cloud(bodies, flow, still, patch_interactions(flow, Stick()), 0.1, Models("roscoe"))
+    cloud.advance(300)
+    assert np.count_nonzero(cloud.particles.status != Status.ACTIVE) <= 1
