@@ -91,8 +91,8 @@ class Conservation:
     mesh
         The mesh.
     sliding
-        Whether the walls slide: nothing flows through them. Otherwise the velocity of a wall is its flux, too,
-        as of a piston.
+        Whether walls slide: nothing flows through them. Otherwise the velocity of a wall makes a flux, as of
+        a piston.
     """
 
     def __init__(self, mesh: Mesh, sliding: bool = False) -> None:

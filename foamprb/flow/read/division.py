@@ -32,7 +32,7 @@ _ANGLE = 30.0
 """Default angle in degrees at which openings and planes end."""
 _ACROSS, _ROUND_OFF = 0.1, 1e-6
 """Least velocity across a face that is open, over the local velocity and over the largest."""
-_OPEN, _OPEN_PART, _STEADY, _OPEN_VALUED = 0.1, 0.9, 0.7, 0.05
+_OPEN, _OPEN_PART, _STEADY, _OPEN_VALUED = 0.1, 0.9, 0.6, 0.05
 """Least fluxes of an opening.
 
 In the cells over that of their speed, if it is a smooth surface or a part of one; across the faces over that

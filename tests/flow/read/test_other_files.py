@@ -143,7 +143,7 @@ def test_files_that_are_not_read_say_what_to_do(name, content, message, tmp_path
 def test_text_of_gmsh_with_data_says_what_to_do(where, tmp_path):
     """Of meshio its numbers are not readable; those of Gmsh are, and binary ones."""
     shape = block(1, 0.0)
-    U = np.arange(24.0).reshape(8, 3) if where == "point_data" else [np.array([[1.0, 2.0, 3.0]])]
+    U = np.arange(8.0)[:, None] + [7.0, 8.0, 9.0] if where == "point_data" else [np.array([[1.0, 2.0, 3.0]])]
     mesh = meshio.Mesh(np.asarray(shape.points), [("hexahedron", shape.cells[None, 1:])], **{where: {"U": U}})
     meshio.write(tmp_path / "text.msh", mesh, file_format="gmsh22", binary=False)
     text = (tmp_path / "text.msh").read_text()
