@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector_product
+from foamprb.body.tensor import Vector, inner, minus, norm, plus, scale_vector, vector_product
 from foamprb.compile.link import allocating
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, bends, point
@@ -182,6 +182,9 @@ def correct_cell(
     for t in range(n):
         for s in range(1, 4):
             fluxes[t, s] += weight[t, s] * (change[t] - change[neighbours[begin + t, s] - begin])
+    if flow.layer.shape[0] > 0:
+        _flatten(flow, begin, n, memory)
+    for t in range(n):
         for s in range(4):
             # All nodes of a side are free if none is.
             count = sides[t, s, _COUNT] if sides[t, s, _COUNT] > 0.0 else 3.0
@@ -190,6 +193,94 @@ def correct_cell(
             # NaN for no correction.
             q = np.float32(q + _ZERO) if abs(q) >= 0.0 else np.float32(_ZERO)
             correction[row - host + begin + t, s] = q if q != 0.0 else np.float32(_ZERO)
+
+
+def in_plane(flow: MeshArrays, v: Vector) -> Vector:
+    """Return the part of a vector along the planes of a two-dimensional flow."""
+    n = flow.layer[0], flow.layer[1], flow.layer[2]
+    return minus(v, scale_vector(inner(n, v), n))
+
+
+def is_added(flow: MeshArrays, node: Any) -> bool:
+    """Return True for the centres of faces in the planes of a two-dimensional flow."""
+    return flow.n_points - 2 * (flow.cell_start.shape[0] - 1) <= node < flow.n_points
+
+
+def _flatten(flow: MeshArrays, begin: int, n: int, memory: Work) -> None:
+    """Make the fluxes in a cell of a two-dimensional flow those of its prisms, the same at all depths.
+
+    A prism lies between three columns of nodes; each of its tetrahedra has two nodes in one of them. The
+    additional fluxes through the sides of the prism are the sums over the tetrahedra. The results make that
+    velocity in two dimensions in :func:`foamprb.flow.walk.correction_at`: with the area A of the side
+    opposite a column, its distance H and free nodes f, q = 2 flux/(f A H).
+    """
+    fluxes, lacking, _, sides, work = memory
+    sums, prism, areas, volume = memory.weight, work[0], work[1:4], work[5]
+    for t in range(n):
+        prism[t] = t
+        for k in range(3):
+            sums[t, k] = areas[k, t] = 0.0
+    # The tetrahedra of a prism follow each other across the sides opposite a node of the doubled column.
+    for _ in range(3):
+        for t in range(n):
+            i, j = _doubled(flow, begin + t)
+            for k in range(1, 4):
+                if k in (i, j):
+                    prism[t] = min(prism[t], prism[flow.neighbours[begin + t, k] - begin])
+    for t in range(n):
+        (i, j), p = _doubled(flow, begin + t), int(prism[t])
+        for k in range(4):
+            if k not in (i, j):
+                c = _column(flow, begin + p, flow.tets[begin + t, k])
+                sums[p, c] += fluxes[t, k] + lacking[t, k]
+                areas[c, p] += sides[t, k, _SIZE]
+    for t in range(n):
+        (i, j), p = _doubled(flow, begin + t), int(prism[t])
+        a, b, c = _columns(flow, begin + p)
+        d, e = _in_plane_arm(flow, a, b), _in_plane_arm(flow, a, c)
+        area = norm(vector_product(d, e))
+        edges = norm(minus(e, d)), norm(e), norm(d)
+        f, g, h = abs(flow.nodes[a, FREE]), abs(flow.nodes[b, FREE]), abs(flow.nodes[c, FREE])
+        free = g + h, h + f, f + g
+        for k in range(4):
+            s = _column(flow, begin + p, flow.tets[begin + t, k])
+            count = free[s] if free[s] > 0.0 else 2.0
+            q = 2.0 * sums[p, s] * edges[s] / max(count * areas[s, p] * area, 1e-300)
+            q = 0.5 * q if k in (i, j) else q
+            # What :func:`correct_cell` stores of it is q.
+            count = sides[t, k, _COUNT] if sides[t, k, _COUNT] > 0.0 else 3.0
+            fluxes[t, k], lacking[t, k] = q * count * volume[t], 0.0
+
+
+def _in_plane_arm(flow: MeshArrays, a: Any, b: Any) -> Vector:
+    return in_plane(flow, arm(flow.nodes, b, point(flow.nodes, a)))
+
+
+def _doubled(flow: MeshArrays, tet: int) -> tuple[int, int]:
+    """Return the two vertices of a tetrahedron that lie in one column, in order."""
+    least, i, j = np.inf, 0, 0
+    for k in range(3):
+        for m in range(k + 1, 4):
+            d = _in_plane_arm(flow, flow.tets[tet, k], flow.tets[tet, m])
+            if inner(d, d) < least:
+                least, i, j = inner(d, d), k, m
+    return i, j
+
+
+def _columns(flow: MeshArrays, tet: int) -> tuple[Any, Any, Any]:
+    """Return a node in each column of the prism of a tetrahedron, the cell centre first."""
+    i, j = _doubled(flow, tet)
+    first = i if i > 0 else 2 if j == 1 else 1
+    # The vertices but the first are 1, 2 and 3.
+    return flow.tets[tet, 0], flow.tets[tet, first], flow.tets[tet, 6 - first - j]
+
+
+def _column(flow: MeshArrays, tet: int, node: Any) -> int:
+    """Return the column of :func:`_columns` in which a node lies."""
+    a, b, c = _columns(flow, tet)
+    d, e, f = _in_plane_arm(flow, a, node), _in_plane_arm(flow, b, node), _in_plane_arm(flow, c, node)
+    x, y, z = inner(d, d), inner(e, e), inner(f, f)
+    return 0 if x <= min(y, z) else 1 if y <= z else 2
 
 
 def is_stored(correction: NDArray[np.float32], row: Any) -> bool:

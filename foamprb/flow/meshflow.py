@@ -19,6 +19,7 @@ from foamprb.flow.jumps import count_jumps, relative_jumps
 from foamprb.flow.mesh.arrays import FREE, GRADIENT, VELOCITY, MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
+from foamprb.flow.mesh.layer import divide, layer_of
 from foamprb.flow.mesh.locator import cell_boxes, locate
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
@@ -141,6 +142,14 @@ class MeshFlow:
         viscosity: Floats | None = None,
         curvatures: NDArray[np.float32] | None = None,
     ) -> None:
+        layer = layer_of(mesh)
+        self._division = None if layer is None else divide(mesh, layer)
+        if self._division is not None:
+            mesh = self._division.mesh
+            given = u, l, turbulence, fluxes, viscosity, curvatures
+            u, l, turbulence, fluxes, viscosity, curvatures = (
+                None if values is None else self.widened(values) for values in given
+            )
         self._time = time
         self.field_columns: tuple[FieldColumns, ...] = ()
         self.field_table: NDArray[np.float64] = np.empty((0, 0))
@@ -195,7 +204,12 @@ class MeshFlow:
             face_start=mesh.face_start,
             cell_face_start=mesh.cell_face_start,
             cell_faces=mesh.cell_faces,
+            layer=np.empty(0) if layer is None else layer.normal,
         )
+
+    def widened(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Return values at the nodes or fluxes of the given mesh on that of the flow."""
+        return values if self._division is None else self._division.widened(values)
 
     @staticmethod
     def nothing() -> MeshArrays:

@@ -31,6 +31,7 @@ from foamprb.flow.gradient import (
     mean_series,
 )
 from foamprb.flow.images import Images, points_of_faces
+from foamprb.flow.mesh.layer import layer_of
 from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import VALUELESS, PatchKind
@@ -68,7 +69,7 @@ class Reconstruction:
         self._on_walls = np.unique(points_of_faces(mesh, self._walls)[0])
         self._open = ~walls[self._valued]
         self._owner = mesh.owner[mesh.n_internal :].astype(np.intp)
-        self._images = images = Images(mesh)
+        self._images, self._layer = images, _ = Images(mesh), layer_of(mesh)
         n = mesh.n_cells
         # Boundary faces with values and images are sites like cell centres.
         places = mesh.boundary_centres.copy()
@@ -120,6 +121,8 @@ class Reconstruction:
         self._impose_walls(at_points[0], boundary, slopes, bends)
         for values, fixed in zip(at_points, (self._on_walls, None), strict=True):
             self._images.agree(values, fixed)
+        if self._layer is not None:
+            self._layer.flatten(u_nodes, l_nodes)
         return u_nodes, l_nodes
 
     def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
@@ -402,4 +405,7 @@ def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
     # Without second derivatives the Taylor series average the gradients of the cells.
     around = grouped(mesh.cell_points, columns, mesh.n_points)
     _, l_points = _continued(mesh.points, mesh.centres, around, u, l)
-    return np.concatenate([points, u]), np.concatenate([l_points, l])
+    u, l = np.concatenate([points, u]), np.concatenate([l_points, l])
+    if (layer := layer_of(mesh)) is not None:
+        layer.flatten(u, l)
+    return u, l

@@ -285,8 +285,9 @@ class SeriesFlow(Timeline, MeshFlow):
         sampled: Sequence[FieldColumns] = (),
         curved: bool = False,
     ) -> None:
-        nodes = mesh.n_points + mesh.n_cells
         super().__init__(mesh, None, None, notes, zones)
+        mesh = self.mesh
+        nodes = mesh.n_points + mesh.n_cells
         self._set_times(times, period)
         self._read, self._keep = read, keep
         self._turbulent, self._viscous = turbulent, viscous
@@ -459,7 +460,7 @@ class SeriesFlow(Timeline, MeshFlow):
         if index in self._in_memory:
             return
         future, self._prefetched = self._prefetch(index), None
-        u, l, *more = future.result()
+        u, l, *more = map(self.widened, future.result())
         if len(self._in_memory) < len(self._fields):
             place = len(self._in_memory)
         else:

@@ -16,7 +16,7 @@ from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
 from foamprb.compile.link import separate
 from foamprb.flow.base import Floats, Turbulence
-from foamprb.flow.correction import correct_cell, is_stored, stored
+from foamprb.flow.correction import correct_cell, in_plane, is_added, is_stored, stored
 from foamprb.flow.mesh.arrays import (
     FREE,
     GRADIENT,
@@ -262,7 +262,10 @@ def correction_at(
     qc, qd = stored(correction, at, 2), stored(correction, at, 3)
     free = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
     fa, fb, fc, fd = abs(free[0]), abs(free[1]), abs(free[2]), abs(free[3])
-    q, count = qa + qb + qc + qd, fa + fb + fc + fd
+    q, count, flat = qa + qb + qc + qd, fa + fb + fc + fd, flow.layer.shape[0] > 0
+    if flat and max(is_added(flow, b), is_added(flow, c), is_added(flow, d)):
+        # Of the two nodes in the column of the centre, one counts.
+        count -= 1.0
     o, rows = point(nodes, a), (first + a, first + b, first + c, first + d)
     arms = p, m, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
     # The second part is Σ e_k λ_k x_k − (Σ e_k λ_k) x, with x = Σ λ_k x_k and a quarter e of the divergence.
@@ -270,6 +273,9 @@ def correction_at(
         eb, ec, ed = _excess(f, k + 3, rows, arms, sides, s)
     else:
         eb, ec, ed = _excess_at_walls(f, k + 3, rows, free, arms, sides, s)
+    if flat:
+        # A third instead of a quarter in two dimensions.
+        eb, ec, ed = 4.0 / 3.0 * eb, 4.0 / 3.0 * ec, 4.0 / 3.0 * ed
     e = eb * w[1] + ec * w[2] + ed * w[3]
     sb, sc, sd = (eb - e) * w[1], (ec - e) * w[2], (ed - e) * w[3]
     if count == 4.0 or count == 0.0:
@@ -283,11 +289,12 @@ def correction_at(
         sb += q * (w[1] - fb)
         sc += q * (w[2] - fc)
         sd += q * (w[3] - fd)
-    return (
+    v = (
         sb * p[0] + sc * m[0] + sd * r[0],
         sb * p[1] + sc * m[1] + sd * r[1],
         sb * p[2] + sc * m[2] + sd * r[2],
     )
+    return in_plane(flow, v) if flat else v
 
 
 def _excess(

@@ -97,6 +97,8 @@ class MeshArrays(NamedTuple):
     """(n_cells + 1,) into ``cell_faces``."""
     cell_faces: Ints
     """Faces of each cell, in the order of its tetrahedra."""
+    layer: Floats
+    """(3,) unit normal of the planes of a two-dimensional flow (:mod:`foamprb.flow.mesh.layer`); or (0,)."""
 
 
 _FLOATS = {
@@ -113,7 +115,7 @@ def no_mesh() -> MeshArrays:
     empty |= {name: np.empty((0, columns), dtype=np.int32) for name, columns in _TABLES.items()}
     empty |= {"folds": np.empty(0, dtype=np.uint8), "correction": np.empty((0, 4), dtype=np.float32)}
     empty |= {"curvatures": np.empty((0, 18), dtype=np.float32)}
-    empty |= {"phi": np.empty(0)}
+    empty |= {"phi": np.empty(0), "layer": np.empty(0)}
     return MeshArrays(**empty | {"n_points": 0})
 
 

@@ -31,7 +31,7 @@ from foamprb.flow.mesh.geometry import (
 )
 from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32, share
 
-_FACES_OF_PRISM = 5
+_FACES_OF_PRISM, _DIVIDED_FACES = 5, 9
 _MOST_TURNS = 5
 
 
@@ -92,6 +92,9 @@ class Mesh:
     """Number of tetrahedra of negative volume."""
     couplings: tuple[Coupling, ...]
     """Coupled patches and wedges, each way."""
+    divided: bool = False
+    """True if the mesh is one cell thick, and its faces in both planes are divided; see
+    :mod:`foamprb.flow.mesh.layer`."""
 
     @property
     def n_points(self) -> int:
@@ -111,7 +114,7 @@ class Mesh:
     @property
     def simple(self) -> Mask:
         """Return which cells have at most five faces: tetrahedra, pyramids and prisms, (n_cells,)."""
-        return np.diff(self.cell_face_start) <= _FACES_OF_PRISM
+        return np.diff(self.cell_face_start) <= (_DIVIDED_FACES if self.divided else _FACES_OF_PRISM)
 
     @property
     def nodes(self) -> Floats:
@@ -174,8 +177,7 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
     points, faces, surfaces, patch_start, *_ = poly
     # The bases of the fans must not depend on the number of turns of a face.
     faces = faces._replace(points=faces.points.copy())
-    owner, neighbour = faces.owner, faces.neighbour
-    n_internal = len(neighbour)
+    n_internal = len(faces.neighbour)
 
     face_centres, face_areas = measured(points, faces)
     boundary_centres, boundary_areas = face_centres[n_internal:].copy(), face_areas[n_internal:].copy()
@@ -193,27 +195,42 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
     _, centres, volumes = cell_geometry(faces, face_centres, face_areas)
     del face_centres, face_areas
     inverted = rotate_faces(points, centres, faces)
+    return cut(
+        points, faces, patch_start, cells, source, boundary_areas, centres=centres, volumes=volumes,
+        patches=patches, boundary_centres=boundary_centres, inverted=inverted, couplings=couplings,
+    )  # fmt: skip
 
+
+def cut(
+    points: Floats,
+    faces: Faces,
+    patch_start: Index,
+    cells: tuple[Ints, Ints],
+    source: str,
+    boundary_areas: Floats,
+    **known: Any,
+) -> tuple[Mesh, Index]:
+    """Cut cells into tetrahedra; return the mesh, and the cells with faces that turn against each other.
+
+    ``known`` are further fields of the mesh.
+    """
+    n_internal = len(faces.neighbour)
     cell_start, tets, neighbours, triangle_tet, astray = cut_into_tetrahedra(faces, len(points), source)
     triangles = tets[triangle_tet][:, 1:]
     counts = np.diff(faces.start)[n_internal:] - 2
     triangle_face = np.repeat(np.arange(len(counts)), counts)
-    boundary_patch = np.repeat(np.arange(len(patches)), np.diff(patch_start))
+    boundary_patch = np.repeat(np.arange(len(patch_start) - 1), np.diff(patch_start))
     mesh = Mesh(
         points=points,
-        centres=centres,
-        volumes=volumes,
         cell_point_start=cells[0],
         cell_points=cells[1],
         face_start=faces.start,
         face_points=faces.points,
         cell_face_start=faces.first,
         cell_faces=faces.of_cell,
-        owner=owner,
-        neighbour=neighbour,
-        patches=patches,
+        owner=faces.owner,
+        neighbour=faces.neighbour,
         patch_start=int32(patch_start),
-        boundary_centres=boundary_centres,
         boundary_areas=boundary_areas,
         cell_start=cell_start,
         tets=tets,
@@ -223,8 +240,7 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
         triangle_face=int32(triangle_face),
         triangle_tet=triangle_tet,
         triangle_normals=inward_normals(points, triangles, boundary_areas[triangle_face]),
-        inverted=inverted,
-        couplings=couplings,
+        **known,
     )
     return mesh, astray
 

@@ -287,7 +287,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     parts = whole.mesh, u, l, notes, zones, name, turbulence, fluxes, viscosity, curvatures
     flow = RotatingFlow(rotating, *parts) if rotating else MeshFlow(*parts)
     if sampled is not None:
-        flow.field_table, flow.field_columns = sampled
+        flow.field_table, flow.field_columns = flow.widened(sampled[0]), sampled[1]
     return flow
 
 
