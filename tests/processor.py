@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import os
+
 import numba
-from llvmlite import binding
+
+from foamprb.compile.processor import SWITCH, processor
 
 
 def has_avx2() -> bool:
-    """Return True if numba compiles for AVX2, with NUMBA_CPU_NAME and NUMBA_CPU_FEATURES respected."""
-    override = numba.config.CPU_FEATURES
-    if override is not None:
-        return "+avx2" in override.split(",")
-    return bool(binding.get_host_cpu_features().get("avx2"))
+    """Return True if code is compiled for AVX2."""
+    return processor().register > 2
 
 
 def is_host() -> bool:
     """Return True if numba compiles for the processor of this machine, as numpy does."""
-    return numba.config.CPU_NAME is None and numba.config.CPU_FEATURES is None
+    return numba.config.CPU_NAME is None and numba.config.CPU_FEATURES is None and not os.environ.get(SWITCH)

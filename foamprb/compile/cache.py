@@ -6,6 +6,8 @@ root wrote are read, as compiled code can do anything.
 
 Code that cannot be read, or is not trusted, is compiled again; if it cannot be written, in each process.
 Neither ends a run.
+
+A wheel may contain code as well, which is trusted as its Python code is, and only read.
 """
 
 from __future__ import annotations
@@ -23,10 +25,12 @@ from typing import Any, Protocol
 
 import platformdirs
 
-__all__ = ["Store", "cache_directory"]
+__all__ = ["SUPPLIED", "Store", "cache_directory"]
 
 log = logging.getLogger("foamprb")
 
+SUPPLIED = Path(__file__).with_name("supplied")
+"""Folder of the code that came with the package, laid out as the cache; absent in a clone."""
 _SUFFIX = ".code"
 _MAGIC = b"foamprb compiled code 1\n"
 _WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
@@ -60,14 +64,14 @@ class Store:
         self.folder = self._root / name
 
     def __bool__(self) -> bool:
-        """Return True if there is a file and the folder is trusted."""
-        return self._trusted() and any(self.folder.glob(f"*{_SUFFIX}"))
+        """Return True if there is a file in a trusted folder."""
+        folders = (SUPPLIED / self._name, *([self.folder] if self._trusted() else []))
+        return any(True for folder in folders for _ in folder.glob(f"*{_SUFFIX}"))
 
     def load(self, key: Any) -> Any:
         """Return the value saved under ``key``; None if there is no trusted one."""
-        if not self._trusted():
-            return None
-        data = _read(self._file(key), self._root)
+        file = self._file(key)
+        data = _supplied(self._name, file.name) or (_read(file, self._root) if self._trusted() else b"")
         # It may name a class that no longer exists.
         with suppress(Exception):
             saved_key, value = pickle.loads(data)
@@ -132,6 +136,19 @@ def _read(file: Path, root: Path) -> bytes:
         return b""
     finally:
         os.close(descriptor)
+    return _checked(data)
+
+
+def _supplied(folder: str, name: str) -> bytes:
+    """Return the content of a file that came with the package; empty if it is absent or damaged."""
+    try:
+        return _checked((SUPPLIED / folder / name).read_bytes())
+    except OSError:
+        return b""
+
+
+def _checked(data: bytes) -> bytes:
+    """Return the data after its checksum; empty if they differ."""
     head, data = data[: len(_MAGIC) + 32], data[len(_MAGIC) + 32 :]
     return data if head == _MAGIC + hashlib.sha256(data).digest() else b""
 

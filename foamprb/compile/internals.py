@@ -20,13 +20,14 @@ import logging
 import pickle
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from functools import cache
 from types import SimpleNamespace
 from typing import Any, Literal, TypeAlias
 
 from llvmlite import binding, ir  # type: ignore[import-untyped]
 from numba import _dynfunc, config, types
 from numba.core.bytecode import FunctionIdentity
-from numba.core.codegen import JITCodeLibrary
+from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder, compile_result
 from numba.core.compiler_machinery import PassManager, register_pass
 from numba.core.funcdesc import PythonFunctionDescriptor
@@ -38,10 +39,11 @@ from numba.core.typing import signature
 
 from foamprb.compile.cache import Store
 from foamprb.compile.part import Keys, Part
+from foamprb.compile.processor import processor
 from foamprb.compile.record_type import RecordType, read_item
 from foamprb.compile.trace import TRACED, Code, Numbers, UntraceableError, trace
 
-__all__ = ["Role", "pipeline", "use_cache"]
+__all__ = ["Role", "pipeline", "use_cache", "widen_indices"]
 
 log = logging.getLogger("foamprb")
 
@@ -49,10 +51,39 @@ Role: TypeAlias = Literal["entry", "lanes", "scalar", "inlined"]
 """Python calls an entry; compiled code calls, by name, functions of all lanes and scalar ones; an inlined one
 is a part of its callers."""
 
+_NAMED = "code_"
+"""Start of the names of functions that callers find by a name."""
 _WIDE = '"prefer-vector-width"="512"'
 """LLVM attribute: use registers of 512 bits where the processor has them."""
 _ALIGNED = '"stackrealign"'
 """LLVM attribute: spilled registers lie on whole cache lines."""
+
+
+class _Codegen(JITCPUCodegen):  # type: ignore[misc]
+    """Code generator for :func:`~foamprb.compile.processor.processor`."""
+
+    def _get_host_cpu_name(self) -> str:
+        return processor().name
+
+    def _get_host_cpu_features(self) -> str:
+        return processor().features
+
+
+@cache
+def _codegen() -> _Codegen:
+    """Return the code generator of this process; functions of others keep that of numba."""
+    return _Codegen("foamprb")
+
+
+_helpers: dict[Any, Any] = {}
+"""Functions that numba compiles for its own ones."""
+
+
+def _target(context: Any) -> Any:
+    """Return a copy of numba's context with the code generator of this module."""
+    target = context.subtarget(_internal_codegen=_codegen())
+    target.cached_internal_func = _helpers
+    return target
 
 
 class _Inlined(JITCodeLibrary):  # type: ignore[misc]
@@ -98,6 +129,17 @@ class _Entry(_Inlined):
         self._finish()
 
     def _finish(self) -> None:
+        """Make the code callable.
+
+        Raises
+        ------
+        RuntimeError
+            If it calls a function that is nowhere: the process would crash.
+        """
+        called = [function.name for function in self._final_module.functions if function.is_declaration]
+        absent = [name for name in called if _is_absent(name)]
+        if absent:
+            raise RuntimeError(f"{self.name} calls {', '.join(absent)}, which is not compiled")
         # Another loop may hold a function of the same name that calls other functions.
         for function in self.get_defined_functions():
             if function.linkage == binding.Linkage.linkonce_odr:
@@ -149,18 +191,27 @@ def _collect(library: Any, inlined: dict[Any, None]) -> None:
             inlined[other] = None
 
 
+def _is_absent(name: str) -> bool:
+    """Return True for the name of a function with machine code of its own that this process lacks."""
+    return name.startswith(_NAMED) and not _codegen()._engine.is_symbol_defined(name)
+
+
 def _name_by_key(qualified: str, kinds: Sequence[Any]) -> str:
     """Return the name of a function for arguments of some types in machine code.
 
     Of ``qualified`` only the key at the end counts, in whose place a caller's code may have another.
     """
-    return (
-        f"code_{qualified.rpartition('_')[2]}_{hashlib.sha256(repr(tuple(kinds)).encode()).hexdigest()[:16]}"
-    )
+    kind = hashlib.sha256(repr(tuple(kinds)).encode()).hexdigest()[:16]
+    return f"{_NAMED}{qualified.rpartition('_')[2]}_{kind}"
+
+
+def _kind_in(compiled: Any) -> str:
+    """Return the last part of a name by key, which depends on the types of the arguments."""
+    return str(compiled.fndesc.mangled_name).rpartition("_")[2]
 
 
 def _context(target: Any, named: str = "") -> Any:
-    """Return a copy of numba's context of a target for functions that Python does not call.
+    """Return a copy of a context for functions that Python does not call.
 
     ``named`` is the qualified name, with its key, of a function that is found by a name.
     """
@@ -191,6 +242,12 @@ _LIBRARIES: dict[Role, type[_Inlined]] = {
 }
 
 
+class _Passes(PassManager):  # type: ignore[misc]
+    """Passes between which numba does not analyse the lifetimes of variables: the last ones do so anew."""
+
+    _ENFORCING = False
+
+
 def _lowering(role: Role) -> type:
     """Return numba's last pass, which writes into the library of a role."""
 
@@ -199,17 +256,18 @@ def _lowering(role: Role) -> type:
         _name = f"lowering_of_{role}"
 
         def run_pass(self, state: Any) -> bool:
-            target = state.targetctx
-            name = state.func_id.func_qualname
+            before, name = state.targetctx, state.func_id.func_qualname
+            target = _target(before)
             state.library = _LIBRARIES[role](target.codegen(), name)
             if role != "inlined":
                 state.library.enable_object_caching()
-            if role != "entry":
-                state.targetctx = _context(target, "" if role == "inlined" else name)
+            state.targetctx = (
+                target if role == "entry" else _context(target, "" if role == "inlined" else name)
+            )
             try:
                 return bool(super().run_pass(state))
             finally:
-                state.targetctx = target
+                state.targetctx = before
 
     return Lowering
 
@@ -234,7 +292,7 @@ def _compiler(role: Role) -> type:
                 return super().compile_extra(function)
 
         def define_pipelines(self) -> list[Any]:
-            passes = PassManager(f"foamprb_{role}")
+            passes = _Passes(f"foamprb_{role}")
             for step, description in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
                 passes.add_pass(lowering if step is NativeLowering else step, description)
             passes.finalize()
@@ -293,13 +351,13 @@ def _traced(state: Any, function: Callable[..., Any]) -> Any:
         If it cannot be traced.
     """
     identity = FunctionIdentity.from_function(function)
-    context = _context(state.targetctx, identity.func_qualname)
+    context = _context(_target(state.targetctx), identity.func_qualname)
     flags = " ".join(sorted(state.flags.fastmath.flags))
 
     def arguments(code: Code) -> list[Any]:
         return [_symbols(kind, code, (k,)) for k, kind in enumerate(state.args)]
 
-    code = trace(function, _register(), flags, arguments)
+    code = trace(function, processor().register, flags, arguments)
     descriptor = PythonFunctionDescriptor(
         native=True,
         modname=identity.modname,
@@ -340,14 +398,6 @@ def _traced(state: Any, function: Callable[..., Any]) -> Any:
         metadata=state.metadata,
         reload_init=[],
     )
-
-
-def _register() -> int:
-    """Return how many doubles a register of this processor holds."""
-    features: dict[str, bool] = {}
-    with suppress(RuntimeError):
-        features = binding.get_host_cpu_features()
-    return 8 if features.get("avx512f") else 4 if features.get("avx") else 2
 
 
 def _symbols(kind: Any, code: Code, path: tuple[int | str, ...]) -> Any:
@@ -440,32 +490,32 @@ class _Cache:
 
     def load_overload(self, signature: Any, context: Any) -> Any:
         context.refresh()
-        saved = self._store.load((signature, context.codegen().magic_tuple()))
+        saved = self._store.load(signature)
         if saved is None:
             return None
         # It may name a module that is gone.
         with suppress(Exception):
-            return self._rebuilt(context, saved)
+            return self._rebuilt(_target(context), saved)
         return None
 
     def save_overload(self, signature: Any, result: Any) -> None:
         # Machine code that holds addresses serves one process only.
         if not result.library.has_dynamic_globals:
-            codegen = result.target_context.codegen()
             state = dumps(result._reduce())
             for keys in self._keys:
                 state = state.replace(keys.full.encode(), keys.outside.encode())
-            self._store.save((signature, codegen.magic_tuple()), (self._called(result), state))
+            self._store.save(signature, (self._called(result), state))
 
     def flush(self) -> None:
         self._store.flush()
 
     def _rebuilt(self, context: Any, saved: Any) -> Any:
         called, state = saved
-        for key, kinds, returned in called:
+        for key, kinds, returned, kind in called:
             dispatcher = self._named[key].dispatcher
             dispatcher.compile(kinds)
-            if dispatcher.overloads[kinds].signature.return_type != returned:
+            compiled = dispatcher.overloads[kinds]
+            if (compiled.signature.return_type, _kind_in(compiled)) != (returned, kind):
                 return None
         for keys in self._keys:
             state = state.replace(keys.outside.encode(), keys.full.encode())
@@ -476,15 +526,25 @@ class _Cache:
         # Without the environments of interpreted code, which belong to entries.
         return CompileResult._rebuild(target, *pickle.loads(state)[:-1], ())
 
-    def _called(self, result: Any) -> list[tuple[str, Any, Any]]:
-        """Return the keys of the functions that compiled code calls, and their types."""
+    def _called(self, result: Any) -> list[tuple[str, Any, Any, str]]:
+        """Return keys and types of the functions that compiled code calls, and the ends of their names."""
         declared = {f.name for f in result.library._final_module.functions if f.is_declaration}
         return [
-            (key, kinds, compiled.signature.return_type)
+            (key, kinds, compiled.signature.return_type, _kind_in(compiled))
             for key, part in self._named.items()
             for kinds, compiled in part.dispatcher.overloads.items()
             if compiled.fndesc.mangled_name in declared
         ]
+
+
+def widen_indices(dispatcher: Any) -> None:
+    """Compile a function for 64-bit integers where a caller has 32-bit ones, as for items of arrays."""
+    template = dispatcher.get_call_template
+
+    def of_wide(args: Sequence[Any], kws: dict[str, Any]) -> Any:
+        return template([types.int64 if arg == types.int32 else arg for arg in args], kws)
+
+    dispatcher.get_call_template = of_wide
 
 
 def use_cache(dispatcher: Any, keys: Keys, named: Mapping[str, Part], is_entry: bool) -> Store:

@@ -20,10 +20,8 @@ import dis
 import hashlib
 import logging
 import os
-import platform
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import version
@@ -38,6 +36,7 @@ from foamprb.body.choice import CHOICE
 from foamprb.body.tensor import select
 from foamprb.compile.cache import Store
 from foamprb.compile.part import Keys, Part
+from foamprb.compile.processor import processor
 from foamprb.compile.trace import LANES, TRACED, branch
 
 if TYPE_CHECKING:
@@ -413,24 +412,12 @@ def _link_select() -> Part:
 def _compiler(plain: bool) -> str:
     """Return versions, options and processor, on which machine code depends."""
     import numba
+    from llvmlite import binding  # type: ignore[import-untyped]
 
     python = f"{sys.implementation.cache_tag} numba {numba.__version__} {_OWN_CODE}"
     how = "plain" if plain else ""
-    return f"{python} llvmlite {version('llvmlite')} {how} {_processor()}"
-
-
-@cache
-def _processor() -> str:
-    """Return name and features of the processor: several machines may share a home."""
-    import numba
-    from llvmlite import binding  # type: ignore[import-untyped]
-
-    with suppress(RuntimeError):
-        features = binding.get_host_cpu_features().flatten()
-        # From NUMBA_CPU_NAME and NUMBA_CPU_FEATURES.
-        override = f"{numba.config.CPU_NAME} {numba.config.CPU_FEATURES}"
-        return f"{binding.get_host_cpu_name()} {features} {override}"
-    return platform.machine()
+    system = binding.get_process_triple()
+    return f"{python} llvmlite {version('llvmlite')} {how} {system} {processor().level}"
 
 
 def _internals() -> ModuleType | None:
@@ -473,6 +460,7 @@ def _compile(function: Function, role: Role, keys: Keys, named: Mapping[str, Par
     if internals is None:
         return numba.njit(**options)(function)
     dispatcher = numba.njit(**options, **internals.pipeline(role))(function)
+    internals.widen_indices(dispatcher)
     if role != "inlined":
         store = internals.use_cache(dispatcher, keys, named, is_entry=role == "entry")
         others = [_stores[id(part.dispatcher)] for part in named.values()] if role == "entry" else []

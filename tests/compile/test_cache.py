@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import pickle
+import platform
 import random as chance
 import resource
 import signal
@@ -13,6 +14,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 import small_program
@@ -21,17 +23,21 @@ from small_program import renamed
 
 from foamprb.compile import cache as caching
 from foamprb.compile import link as linking
+from foamprb.compile import processor
 from foamprb.compile.cache import Store
 from foamprb.compile.link import is_compiled, link, traced
+from foamprb.errors import InputError
 
 IS_ROOT = os.geteuid() == 0
 SOMEBODY = 54321
 
 PROGRAM = """
-import logging, sys
+import logging, os, pathlib, sys
 logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+from foamprb.compile import cache
 from foamprb.compile.link import is_compiled, link
 from small_program import swapped
+cache.SUPPLIED = pathlib.Path(os.environ.get("SUPPLIED", cache.SUPPLIED))
 f = link(swapped)
 print(is_compiled(f), f((1.0, 3.0)), is_compiled(f), sum(f.stats.cache_hits.values()))
 """
@@ -205,8 +211,7 @@ class TestOwners:
         wrong = folder.parent / "run by an intruder"
         f = link(swapped_by_hand)
         (store,) = linking._stores[id(f)]
-        signature = f.signatures[0]
-        key = signature, f.targetctx.codegen().magic_tuple()
+        key = f.signatures[0]
         caching._write(file, pickle.dumps(((file.parent.name, key), Intruder(wrong))))
         if which == "file":
             file.chmod(0o600 | mode)
@@ -428,19 +433,48 @@ class TestProcessors:
 
     def test_numba_may_be_told_which_processor_it_is(self, tmp_path, monkeypatch):
         """Both what numba asks of the processor and what its user says are in the key."""
-        for name in ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"):
+        for name in ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", processor.SWITCH):
             monkeypatch.delenv(name, raising=False)
         assert said(start(tmp_path)) == [NOT_FOUND]
         assert said(start(tmp_path, NUMBA_CPU_NAME="generic")) == [NOT_FOUND]
         assert said(start(tmp_path, NUMBA_CPU_FEATURES="")) == [NOT_FOUND]
         assert said(start(tmp_path)) == [FOUND]
 
-    def test_the_name_and_the_features_are_those_of_this_machine(self):
-        """As the kernel tells them."""
-        text = Path("/proc/cpuinfo").read_text()
-        known = linking._processor()
-        for flag, feature in (("avx2", "+avx2"), ("fma", "+fma"), ("sse4_2", "+sse4.2"), ("asimd", "+neon")):
-            assert (f" {flag} " in text.replace("\n", " ")) == (feature in known)
+    @pytest.mark.skipif(platform.machine() != "x86_64", reason="other processors have one level")
+    def test_processors_of_a_level_share_code(self, tmp_path):
+        """Code of all features of this processor has another key, and each level is one."""
+        assert said(start(tmp_path, FOAMPRB_CPU="x86-64")) == [NOT_FOUND]
+        assert said(start(tmp_path, FOAMPRB_CPU="native")) == [NOT_FOUND]
+        assert said(start(tmp_path, FOAMPRB_CPU="x86-64")) == [FOUND]
+
+    @pytest.mark.parametrize(
+        ("machine", "features", "levels"),
+        [
+            ("x86_64", "sse4.2 avx", ["x86-64"]),
+            ("x86_64", "avx avx2 bmi bmi2 f16c fma lzcnt movbe avx512f", ["x86-64", "x86-64-v3"]),
+            ("aarch64", "neon", ["arm64"]),
+        ],
+    )
+    def test_a_processor_between_two_levels_counts_as_the_lower(self, machine, features, levels, monkeypatch):
+        monkeypatch.setattr(platform, "machine", lambda: machine)
+        assert list(processor._levels(set(features.split()))) == levels
+
+    def test_an_unknown_level_is_reported(self, monkeypatch):
+        for name in ("CPU_NAME", "CPU_FEATURES"):
+            monkeypatch.setattr(numba.config, name, None)
+        monkeypatch.setenv(processor.SWITCH, "i486")
+        with pytest.raises(InputError, match=r"^FOAMPRB_CPU is i486; allowed on this machine: .*, native$"):
+            processor.processor.__wrapped__()
+
+
+class TestSupplied:
+    def test_code_of_the_package_serves_an_empty_cache(self, tmp_path):
+        """A process reads it there and writes nothing; code for another level is not used."""
+        supplied, cache = tmp_path / "supplied", tmp_path / "cache"
+        assert said(start(supplied)) == [NOT_FOUND]
+        assert said(start(cache, SUPPLIED=str(supplied))) == [FOUND]
+        assert not cache.exists()
+        assert said(start(cache, SUPPLIED=str(supplied), NUMBA_CPU_NAME="generic")) == [NOT_FOUND]
 
 
 class TestSpace:

@@ -94,3 +94,35 @@ def test_pipe_is_the_same_with_plain_numba(tmp_path, monkeypatch):
         assert ours == pytest.approx(theirs, rel=1e-11, abs=1e-13 * np.nanmax(np.abs(theirs)), nan_ok=True), (
             name
         )
+
+
+def test_call_of_an_absent_function_is_an_error(tmp_path, monkeypatch):
+    """LLVM would leave the address of the function at zero, and the process would crash."""
+    from foamprb.compile import internals
+
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(linking, "_dispatchers", {})
+    engine = internals._codegen()._engine
+    monkeypatch.setattr(engine, "is_symbol_defined", lambda name: not name.startswith("code_"))
+    with pytest.raises(RuntimeError, match=r"outer_\w+ calls code_\w+, code_\w+, which is not compiled"):
+        small_program.linked()(small_program.example())
+
+
+def test_indices_of_any_width_share_code(tmp_path, monkeypatch):
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(linking, "_dispatchers", {})
+    cells, weights = np.array([2, 0], dtype=np.int32), np.array([1.0, 2.0, 4.0])
+    assert linking.link(sum_at)(cells, weights) == 1.0 + 4.0 + 2.0
+    (weight,) = (d for d in linking._dispatchers.values() if d.py_func.__name__ == "weight_at")
+    assert len(weight.signatures) == 1
+
+
+def weight_at(weights, cell):
+    return weights[cell]
+
+
+def sum_at(cells, weights):
+    total = weight_at(weights, len(cells) - 1)
+    for cell in cells:
+        total += weight_at(weights, cell)
+    return total

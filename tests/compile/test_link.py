@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from llvmlite import binding
 from small_program import renamed
 
 import foamprb
@@ -19,13 +18,14 @@ from foamprb.body.choice import choice
 from foamprb.body.tensor import longest_stretch, principal_frame
 from foamprb.compile import link as compiling
 from foamprb.compile.link import link, separate
+from foamprb.compile.processor import processor
 
 FIRST, SECOND = 2, 3
 LANES = 16
 
 
 def has_registers_of_512_bits():
-    return bool(binding.get_host_cpu_features().get("avx512f"))
+    return processor().register == 8
 
 
 PROGRAM = """
