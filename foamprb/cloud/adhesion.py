@@ -27,7 +27,7 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     STUCK,
     PatchTable,
-    clearance_of,
+    renew_clearance,
     settle,
 )
 from foamprb.cloud.patches import STICK
@@ -122,7 +122,7 @@ def let_go(flow: object, s: Scratch, i: int, t: float, dt: float) -> None:
     block[at.t * LANES + i], block[at.h * LANES + i] = t, dt
     block[at.taken * LANES + i], block[at.renewed * LANES + i] = 0.0, 1.0
     store3(block, at.v, i, (0.0, 0.0, 0.0))
-    block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
+    renew_clearance(flow, s, i)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -38,11 +38,12 @@ from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import as_slice, path_stokes_number, shape_stokes_number, shear_rate_at
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.needs import check_needs
-from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
+from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Adhere, Interaction
 from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
-from foamprb.cloud.surroundings.base import Survey
+from foamprb.cloud.surroundings.base import Surrounding, Survey
 from foamprb.cloud.surroundings.memory import FadingMemory
+from foamprb.cloud.surroundings.quadratic import QuadraticSolid
 from foamprb.cloud.tracker import Models, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
@@ -168,6 +169,8 @@ class Cloud:
             for kernel in model.kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
+        if "wall_velocity" in self.flow.kernels:
+            refuse_on_moving_mesh(around, self.interactions)
         self.map_ranks(_begin, around)
         self._warned: set[str] = set()
         self._next_check = self.step + _FIRST_CHECK
@@ -692,12 +695,20 @@ def _last_end(p: Particles) -> float:
     return float(p.t[p.status != Status.PENDING].max(initial=-np.inf))
 
 
+def refuse_on_moving_mesh(models: Sequence[Surrounding], interactions: Sequence[Interaction]) -> None:
+    """Raise InputError if a model or an interaction requires that walls are at rest."""
+    if any(isinstance(model, QuadraticSolid) for model in models):
+        raise InputError("the mesh moves, but shapeModel quadratic requires walls at rest. Allowed: affine.")
+    if any(isinstance(interaction, Adhere) for interaction in interactions):
+        raise InputError("the mesh moves, but adhere requires walls at rest. Allowed: stick, rebound.")
+
+
 def find_hosts(p: Particles, flow: Flow) -> None:
     """Find the hosts of particles that have none; raise InputError for those outside the flow."""
     homeless = np.flatnonzero((p.host < 0) & (p.status <= Status.ACTIVE))
     if len(homeless) == 0:
         return
-    p.host[homeless] = flow.locate(p.x[homeless])
+    p.host[homeless] = flow.locate(p.x[homeless], np.fmax(p.t0[homeless], p.t[homeless]))
     outside = homeless[p.host[homeless] < 0]
     if len(outside):
         first = ", ".join("({:g} {:g} {:g})".format(*x) for x in p.x[outside[:3]])

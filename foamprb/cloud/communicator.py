@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.instants import PREFIX, Moments, hosts_at, state_at, status_at, store
+from foamprb.cloud.instants import PREFIX, Moments, hosts_at, ridden, state_at, status_at, store
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.paths import Observation
 from foamprb.cloud.state import Particles, Status, concatenate, empty
@@ -105,11 +105,12 @@ class Rank:
         """
         p, moments = self.particles if now is None else now, self.moments
         if time not in moments.times:
-            return p
+            return ridden(self.tracker.kernels, self.flow, p, time)
         then = state_at(p, self.share.memory, moments.times.index(time), moments)
+        then = ridden(self.tracker.kernels, self.flow, then, time)
         if not in_flow:
             return then
-        hosts = hosts_at(self.tracker.kernels, self.flow, p, then.x)
+        hosts = hosts_at(self.tracker.kernels, self.flow, p, then)
         return then._replace(host=hosts.astype(p.host.dtype))
 
     def advance(self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool]) -> Outcome:

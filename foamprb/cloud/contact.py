@@ -71,7 +71,15 @@ def mode_of(_p: Particles, _k: int, _F: Tensor) -> Any:
 
 
 @choice
-def gap(flow: object, host: int, x: Vector, F: Tensor, R: float, mode: Any) -> tuple[float, int, int]:
+def gap(
+    flow: Any,
+    host: int,
+    x: Vector,
+    F: Tensor,
+    R: float,
+    mode: Any,
+    t: float,  # noqa: ARG001
+) -> tuple[float, int, int]:
     """Return gap, m, patch and triangle of the wall nearest to a body, of a flow's unpacked arrays."""
     return gap_free(flow, host, x, F, R, mode)
 
@@ -92,15 +100,15 @@ def gap_of_particle(
     return math.inf, -1, -1
 
 
-def _gap_of_lane(flow: object, block: Block, i: int, host: int, x: Vector, F: Tensor, _t: float) -> Contact:
-    clearance, patch, triangle = gap(flow, host, x, F, block[at.R * LANES + i], mode_in(block, i, F))
+def _gap_of_lane(flow: object, block: Block, i: int, host: int, x: Vector, F: Tensor, t: float) -> Contact:
+    clearance, patch, triangle = gap(flow, host, x, F, block[at.R * LANES + i], mode_in(block, i, F), t)
     return clearance, int(patch), int(triangle)
 
 
 def _gap_of_particle(
-    flow: object, p: Particles, k: int, host: int, x: Vector, F: Tensor, _t: float
+    flow: object, p: Particles, k: int, host: int, x: Vector, F: Tensor, t: float
 ) -> Contact:
-    clearance, patch, triangle = gap(flow, host, x, F, p.R[k], mode_of(p, k, F))
+    clearance, patch, triangle = gap(flow, host, x, F, p.R[k], mode_of(p, k, F), t)
     return clearance, int(patch), int(triangle)
 
 

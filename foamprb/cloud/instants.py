@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.paths import COLUMNS, Steps, step
 from foamprb.cloud.state import VARIABLES, Particles, Status
-from foamprb.flow.kernels import linked_with, recover, walk
+from foamprb.flow.kernels import linked_with, recover, ride, walk
 
 Floats = NDArray[np.float64]
 
@@ -119,24 +119,58 @@ def status_at(
     return stored, np.where(stored, status, np.where(released, p.status, Status.PENDING))
 
 
-def hosts_at(kernels: Mapping[str, Any], flow: object, p: Particles, x: Floats) -> NDArray[np.int64]:
-    """Return the hosts of points x near particles, (n, 3), m, in a flow; −1 outside the mesh, (n,).
+def hosts_at(kernels: Mapping[str, Any], flow: object, p: Particles, then: Particles) -> NDArray[np.int64]:
+    """Return the hosts of particles at an instant in a flow; −1 outside the mesh, (n,).
 
-    They are at the ends of straight ways from the particles, or found by the tree.
+    They are at the ends of straight ways from the particles as they are, or found by the tree.
     """
     hosts = np.empty(p.size, dtype=np.int64)
     walk_all, packed_flow = linked_with(kernels, flow, _walk_all)
-    walk_all(packed_flow, p.host, p.x, p.t, x, hosts)
+    walk_all(packed_flow, p.host, p.x, p.t, then.x, then.t, hosts)
     return hosts
 
 
 def _walk_all(
-    flow: object, hosts: NDArray[np.int64], x0: Floats, t: Floats, x1: Floats, reached: NDArray[np.int64]
+    flow: object,
+    hosts: NDArray[np.int64],
+    x0: Floats,
+    t0: Floats,
+    x1: Floats,
+    t1: Floats,
+    reached: NDArray[np.int64],
 ) -> None:
     for k in range(len(hosts)):
         start, goal = (x0[k, 0], x0[k, 1], x0[k, 2]), (x1[k, 0], x1[k, 1], x1[k, 2])
         if hosts[k] < 0 or start == goal:
             reached[k] = hosts[k]
         else:
-            host, _, patch, _ = walk(flow, hosts[k], start, t[k], goal, t[k])
-            reached[k] = host if patch == -1 else recover(flow, goal, t[k])
+            host, _, patch, _ = walk(flow, hosts[k], start, t0[k], goal, t1[k])
+            reached[k] = host if patch == -1 else recover(flow, goal, t1[k])
+
+
+def ridden(kernels: Mapping[str, Any], flow: Any, p: Particles, time: float) -> Particles:
+    """Return particles with those that stick to walls where these have carried them until a time, s."""
+    rows = np.flatnonzero((p.status == Status.STUCK) & (p.t < time) & (p.host >= 0))
+    if "ride" not in kernels or len(rows) == 0:
+        return p
+    x, v, turns = p.x[rows], p.v[rows], np.empty((len(rows), 3, 3))
+    ride_all, packed_flow = linked_with(kernels, flow, _ride_all)
+    ride_all(packed_flow, p.host[rows].astype(np.int64), p.t[rows], float(time), x, v, turns)
+    moved: dict[str, NDArray[Any]] = {"x": x, "v": v}
+    for name in ("F", "A"):
+        moved[name] = (turns @ getattr(p, name)[rows].reshape(-1, 3, 3)).reshape(-1, 9)
+    whole = {name: np.array(getattr(p, name)) for name in moved}
+    for name, values in moved.items():
+        whole[name][rows] = values
+    return p._replace(**whole)
+
+
+def _ride_all(
+    flow: Any, hosts: NDArray[np.int64], t: Floats, time: float, x: Floats, v: Floats, turns: Floats
+) -> None:
+    for k in range(len(hosts)):
+        place, turn, speed = ride(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), t[k], time)
+        for i in range(3):
+            x[k, i], v[k, i] = place[i], speed[i]
+        for i in range(9):
+            turns[k, i // 3, i % 3] = turn[i]

@@ -24,9 +24,9 @@ from foamprb.cloud.motion import (
     PENDING,
     SHORTEST_STEP,
     PatchTable,
-    clearance_of,
     interrupted,
     release,
+    renew_clearance,
 )
 from foamprb.cloud.state import Particles
 from foamprb.compile.link import separate, slot
@@ -155,7 +155,7 @@ def fill_lanes(
         for i in range(LANES):
             if new >> i & 1:
                 if s.status[i] == ACTIVE:
-                    s.block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
+                    renew_clearance(flow, s, i)
                 release_due(flow, patches, s, i, last, dt, start)
     moving = 0
     for i in range(LANES):

@@ -49,7 +49,7 @@ from foamprb.cloud.state import Particles, Reason, Status
 from foamprb.compile.link import separate, slot
 from foamprb.compile.record import record
 from foamprb.flow.base import NEAR
-from foamprb.flow.kernels import cell_volume, cross, normal, recover, sample, walk, walk_on
+from foamprb.flow.kernels import cell_volume, cross, normal, recover, sample, walk, walk_on, wall_velocity
 
 PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status if status <= Status.FAILED)
 
@@ -328,8 +328,8 @@ def would_stick(flow: object, patches: PatchTable, s: Scratch, i: int, goal: Vec
     return bool(patch >= 0 and patches.code[patch] == STICK)
 
 
-def clearance_of(flow: object, s: Scratch, i: int) -> tuple[float, int, int]:
-    """Return the gap between the body in lane i and the walls, m, and the nearest patch and triangle.
+def clearance_of(flow: object, s: Scratch, i: int, t: float) -> tuple[float, int, int]:
+    """Return the gap between the body in lane i and the walls at t, m, and the nearest patch and triangle.
 
     Where walls are listed, a gap of at least :data:`NEAR` radii at rest is infinite, with −1 and −1: it does
     not depend on the reach of the lists.
@@ -341,11 +341,16 @@ def clearance_of(flow: object, s: Scratch, i: int) -> tuple[float, int, int]:
             s.outgrown[0] = UNLISTED
         else:
             fail(s, i, WALLS_TOO_MANY)
-    x, t = load3(block, at.x, i), block[at.t * LANES + i]
+    x = load3(block, at.x, i)
     clearance, patch, triangle = gap_of_lane(flow, block, i, s.host[i], x, F, t)
     if clearance >= NEAR * R and s.bounds.reach < math.inf:
         return math.inf, -1, -1
     return clearance, patch, triangle
+
+
+def renew_clearance(flow: object, s: Scratch, i: int) -> None:
+    """Store the gap between the body in lane i and the walls at its time."""
+    s.block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i, s.block[at.t * LANES + i])
 
 
 @separate
@@ -558,7 +563,7 @@ def touch(
         if f == 1.0:
             form_bond(flow, patches, s, i, met[0], t + h, h)
         return f
-    after, patch, triangle = clearance_of(flow, s, i)
+    after, patch, triangle = clearance_of(flow, s, i, t + h)
     block[at.clearance * LANES + i] = after
     rests = _TOUCH * block[at.R * LANES + i]
     if after > 0.0:
@@ -615,8 +620,8 @@ def meet_wall(
     block, (start, goal), (patch, triangle) = s.block, way, met
     x, R = load3(block, at.x, i), block[at.R * LANES + i]
     bouncing = s.switches.bouncing
-    n = normal(flow, triangle, x, t + h)
-    fall = inner(minus(goal, start), n)
+    n, W = normal(flow, triangle, x, t + h), wall_velocity(flow, triangle, x, t + h)
+    fall = inner(minus(goal, start), n) - h * inner(W, n)
     reflected = s.switches.reflects_steps > 0
     if after == -math.inf:
         F = load9(block, at.F, i)
@@ -633,13 +638,14 @@ def meet_wall(
     if not rests:
         record_contact(s, i, patch, t + f * h, between(start, goal, f), n)
     e = 0.0 if rests and bouncing > 0 else patches.e[patch]
-    store3(block, at.v, i, rebound_velocity(load3(block, at.v, i), n, e, patches.mu[patch]))
+    v = minus(load3(block, at.v, i), W)
+    store3(block, at.v, i, plus(W, rebound_velocity(v, n, e, patches.mu[patch])))
     bounce_along(block, i, n)
     back = -(1.0 - f) * min(fall, 0.0) * (2.0 if reflected else 1.0)
     place, went = move_back(flow, patches, s, i, t + h, x, plus_scaled(goal, back, n))
     if went:
         store3(block, at.x, i, place)
-        block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
+        block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i, t + h)
     return 1.0
 
 
@@ -661,7 +667,7 @@ def bounce(
     The other parameters are as in :func:`meet_wall`. If the step goes on, ``new_x`` is its new goal, ``v``
     the velocity there, and ``new_v`` that after the contact.
     """
-    block, (start, goal), (patch, _) = s.block, way, met
+    block, (start, goal), (patch, triangle) = s.block, way, met
     d, bouncing = minus(goal, start), s.switches.bouncing
     v0, v1 = load3(block, at.new_v, i), load3(block, at.v, i)
     # Euler's steps lie on parabolas, whose slopes exceed the velocities by o.
@@ -682,11 +688,12 @@ def bounce(
     store3(block, at.v, i, v)
     rewind(block, i, f)
     record_contact(s, i, patch, t + f * h, place, n)
-    v = rebound_velocity(v, n, patches.e[patch], patches.mu[patch])
+    W = wall_velocity(flow, triangle, place, t + f * h)
+    v = plus(W, rebound_velocity(minus(v, W), n, patches.e[patch], patches.mu[patch]))
     bounce_along(block, i, n)
     x, _ = move_back(flow, patches, s, i, t + f * h, load3(block, at.x, i), place)
     store3(block, at.x, i, x)
-    block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
+    block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i, t + f * h)
     if bouncing == GOES_ON:
         g, r = 1.0 - f, (1.0 - f) * h
         dv = scale_vector(g, minus(v1, v0))
@@ -707,7 +714,7 @@ def release(flow: object, patches: PatchTable, s: Scratch, i: int) -> None:
     if math.isnan(block[at.v * LANES + i]):
         u, _, _ = sample(flow, s.host[i], load3(block, at.x, i), t)
         store3(block, at.v, i, u)
-    clearance, patch, _ = clearance_of(flow, s, i)
+    clearance, patch, _ = clearance_of(flow, s, i, t)
     block[at.clearance * LANES + i] = clearance
     if clearance <= 0.0 and patches.code[patch] == STICK:
         settle(s, i, patch, STICK)

@@ -39,7 +39,7 @@ from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid, in_fluid
 from foamprb.cloud.viscosity import model_of
-from foamprb.compile.link import Function, is_compiled, link, packed
+from foamprb.compile.link import Function, conform, is_compiled, link, packed
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
@@ -191,7 +191,7 @@ class Tracker:
         reader = partial(reader_of, columns=columns, inertia=integrator.inertia)
         self.slots: dict[Function, Function] = {
             load_rows: layout.load, save_rows: layout.save, **behind(kernels), **sampling(kernels), **GAPS,
-            gap: gap_free if models.touching == "centre" else kernels["gap"],
+            gap: conform(gap, gap_free if models.touching == "centre" else kernels["gap"]),
             traction: TRACTIONS[models.traction], drag: DRAGS[models.drag],
             **functions_of_solid(material, general, tense), **(DROP if material.liquid else {}),
             sum_of_forces: compose(models.forces, reader), **integrator.slots, **composed.slots,

@@ -81,7 +81,7 @@ class ParticleStatistics(PathFunction):
             ends[:, 1:, fresh] = _stress_at_ends(cloud, steps.take(fresh))
         arrays: Any = cloud.cloud.flow.arrays
         mesh = getattr(arrays, "mesh", arrays)
-        for cells, integrals in parts_in_cells(mesh, steps, fresh, ends[0], ends[1]):
+        for cells, integrals in parts_in_cells(mesh, _in_frames(arrays, steps), fresh, ends[0], ends[1]):
             cloud.add_to_cells(cells, integrals, memory["scale"])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
@@ -100,6 +100,20 @@ class ParticleStatistics(PathFunction):
             }
             path = folder / f"{cloud.time:.12g}" / name
             write_field(path, _DIMENSIONS[name], [in_cells[name]], mesh.n_cells, patches)
+
+
+def _in_frames(arrays: Any, steps: Steps) -> Steps:
+    """Return steps with their places in the frames of a mesh that moves."""
+    if not hasattr(arrays, "pulled"):
+        return steps
+    tables = steps.tables.copy()
+    first, last = (tables[:, row].astype(np.int64).ravel() for row in (step.host0, step.host1))
+    host = np.where(first < 0, last, first)
+    for x, t in ((step.x0, step.t0), (step.x1, step.t1)):
+        places = np.moveaxis(tables[:, x : x + 3], 1, 2)
+        pulled = arrays.pulled(places.reshape(-1, 3), host, tables[:, t].ravel())
+        tables[:, x : x + 3] = np.moveaxis(pulled.reshape(places.shape), 2, 1)
+    return steps._replace(tables=tables)
 
 
 def _fields(sums: Floats, volumes: Floats, time: float) -> dict[str, Floats]:
@@ -173,7 +187,9 @@ def _stuck_on_faces(cloud: ObservedCloud, mesh: Mesh) -> Floats:
 
     counts = np.zeros(len(mesh.boundary_areas))
     trees: dict[int, cKDTree] = {}
-    for x, patch in cloud.map(_stuck):
+    arrays: Any = cloud.cloud.flow.arrays
+    for x, patch, host, t in cloud.map(_stuck):
+        x = arrays.pulled(x, host, t, False) if hasattr(arrays, "pulled") else x
         for index in np.unique(patch):
             first, last = mesh.patch_start[index : index + 2].tolist()
             if last > first:
@@ -183,7 +199,7 @@ def _stuck_on_faces(cloud: ObservedCloud, mesh: Mesh) -> Floats:
     return counts
 
 
-def _stuck(p: Particles, _memory: Memory) -> tuple[Floats, NDArray[np.int32]]:
-    """Return places and patches of stuck particles."""
+def _stuck(p: Particles, _memory: Memory) -> tuple[Floats, NDArray[np.int32], NDArray[np.int32], Floats]:
+    """Return places, patches, hosts and times of stuck particles."""
     stuck = (p.status == Status.STUCK) & (p.patch >= 0)
-    return p.x[stuck], p.patch[stuck]
+    return p.x[stuck], p.patch[stuck], p.host[stuck], p.t[stuck]

@@ -289,7 +289,7 @@ def _role_of(function: Function) -> Role:
 
 def _unpacking(placeholder: Function, implementation: Function, layouts: Mapping[str, Any]) -> Function:
     """Return a function with the parameters of a kernel that calls another with the unpacked argument."""
-    layout = layouts.get(getattr(placeholder, _PACKED))
+    layout = layouts.get(getattr(placeholder, _PACKED, ""))
     key = placeholder, implementation, layout
     if key not in _unpackers:
         names, parameters = _parameters(placeholder), _parameters(implementation)

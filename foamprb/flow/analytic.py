@@ -154,7 +154,7 @@ class AnalyticFlow:
         names: Mapping[str, ArrayLike] = self._parameters._asdict()
         return names
 
-    def locate(self, points: Floats) -> Ints:
+    def locate(self, points: Floats, t: ArrayLike | None = None) -> Ints:  # noqa: ARG002
         """Return host 0 for each point of shape (n, 3) in the flow, −1 outside."""
         inside = self._inside(points)
         return np.where(inside, 0, -1).astype(np.int32)
@@ -176,7 +176,7 @@ class AnalyticFlow:
         """Raise InputError: there are no faces."""
         raise InputError(f"patch {name}: a flow in closed form has no faces to inject from.")
 
-    def cell_zone(self, name: str | None) -> Tetrahedra:
+    def cell_zone(self, name: str | None, t: float | None = None) -> Tetrahedra:  # noqa: ARG002
         """Raise InputError: there are no cells."""
         what = "all cells" if name is None else f"cellZone {name}"
         raise InputError(f"{what}: a flow in closed form has no cells to inject into.")

@@ -172,8 +172,11 @@ class Flow(Sampled, Protocol):
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """Replace large constant arrays for the kernels by the copies that ``place`` returns."""
 
-    def locate(self, points: Floats) -> Ints:
-        """Return the host of each point of shape (n, 3), −1 outside."""
+    def locate(self, points: Floats, t: ArrayLike | None = None) -> Ints:
+        """Return the host of each point of shape (n, 3), −1 outside.
+
+        The times t, s, are one for all or (n,), by default the first; they matter where the mesh moves.
+        """
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Return the cube root of the volume of each host's cell, m; infinite without cells."""
@@ -184,8 +187,11 @@ class Flow(Sampled, Protocol):
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Return the triangles of a patch at time t, s; InputError if there is no such patch or no faces."""
 
-    def cell_zone(self, name: str | None) -> Tetrahedra:
-        """Return the tetrahedra of a zone of cells, or of all cells; InputError if there is no such zone."""
+    def cell_zone(self, name: str | None, t: float | None = None) -> Tetrahedra:
+        """Return the tetrahedra of a zone of cells, or of all cells, at the time t, s, by default the first.
+
+        InputError if there is no such zone.
+        """
 
     def at_some_nodes(self) -> NodeValues:
         """Return the values at some nodes, evenly spread over their numbers."""

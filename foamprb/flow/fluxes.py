@@ -109,7 +109,14 @@ class Conservation:
         self._pairs = face_pairs(mesh)
         self._closed_pieces = closed_pieces(mesh, self._pairs, self._open)
 
-    def __call__(self, u: Floats, l: Floats, mass: Mass | None = CONSTANT, where: object = "flow") -> Floats:
+    def __call__(
+        self,
+        u: Floats,
+        l: Floats,
+        mass: Mass | None = CONSTANT,
+        where: object = "flow",
+        frame: tuple[Floats, Floats, float] | None = None,
+    ) -> Floats:
         """Return the flux out of the owner of each face, (n_faces,), m³/s.
 
         Parameters
@@ -121,6 +128,9 @@ class Conservation:
             interpolation makes.
         where
             Source of the velocity, for the message.
+        frame
+            Velocity and its gradient at the nodes of frames in which the mesh is at rest, and their largest
+            speed at any time, m/s: the fluxes are relative to them. A frame keeps volume.
 
         Raises
         ------
@@ -137,15 +147,20 @@ class Conservation:
         share(len(fluxes), faces)
         if not np.isfinite(fluxes).all():
             raise UnbalancedFlowError(f"the velocity of {where} is not finite at some nodes of the mesh.")
+        carried, fastest = np.zeros(self.n_faces), 0.0
+        if frame is not None:
+            of_frame, fastest = at._replace(u=frame[0], l=frame[1].reshape(-1, 9)), frame[2]
+            share(self.n_faces, lambda low, high: integrate(low, high, of_frame, sides, carried))
+            fluxes -= carried
         outer = fluxes[mesh.n_internal :]
         outer[self._closed] = 0.0
         # What leaves through a coupled patch enters through its partner.
         crossing = self._pairs.crossing(outer)
         outer[self._coupled] = self._pairs.total(crossing)[self._coupled]
         if mass is not None:
-            measures = _measured(mesh, at, sides, fluxes)
+            measures = _measured(mesh, at, sides, fluxes + carried)
             balance = Balance(mesh, self._pairs, measures, fluxes, self._open, self._closed_pieces)
-            speed = float(np.linalg.norm(u[self._ends], axis=1).max(initial=0.0))
+            speed = max(fastest, float(np.linalg.norm(u[self._ends], axis=1).max(initial=0.0)))
             left, change, iterations = balance(crossing, mass, speed)
             if not (left <= 10.0 * BALANCED and change <= _LARGEST_CHANGE):
                 raise UnbalancedFlowError(

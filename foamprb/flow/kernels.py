@@ -27,6 +27,7 @@ __all__ = [
     "linked_with",
     "normal",
     "recover",
+    "ride",
     "rotation_at",
     "sample",
     "sample_ahead",
@@ -34,6 +35,7 @@ __all__ = [
     "viscosity",
     "walk",
     "walk_on",
+    "wall_velocity",
     "walls",
 ]
 
@@ -110,6 +112,12 @@ def normal(flow: object, triangle: int, x: Vector, t: float) -> Vector:
 
 
 @kernel
+def wall_velocity(flow: object, triangle: int, x: Vector, t: float) -> Vector:
+    """Return the velocity of the wall at x on a triangle of the boundary, m/s."""
+    return _ZERO
+
+
+@kernel
 def cross(flow: object, triangle: int, x: Vector, t: float) -> tuple[int, Vector, Tensor]:
     """Return host, place and rotation of a particle that meets a triangle of a coupled patch at x."""
     return 0, x, _UNIT
@@ -119,6 +127,12 @@ def cross(flow: object, triangle: int, x: Vector, t: float) -> tuple[int, Vector
 def recover(flow: object, x: Vector, t: float) -> int:
     """Return the host of a point, found without a hint; −1 outside."""
     return 0
+
+
+@kernel
+def ride(flow: object, host: int, x: Vector, t0: float, t1: float) -> tuple[Vector, Tensor, Vector]:
+    """Return place, m, turn and velocity, m/s, at t1 of what sticks to the mesh and was at x at t0."""
+    return x, _UNIT, _ZERO
 
 
 @kernel

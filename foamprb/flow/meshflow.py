@@ -380,7 +380,7 @@ class MeshFlow:
         """Fields that are sampled, at the first time, (n_nodes, columns)."""
         return self.field_table
 
-    def locate(self, points: Floats) -> Ints:
+    def locate(self, points: Floats, t: ArrayLike | None = None) -> Ints:  # noqa: ARG002
         """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         hosts = np.empty(len(points), dtype=np.int32)
@@ -437,7 +437,7 @@ class MeshFlow:
             hosts=mesh.triangle_tet[at],
         )
 
-    def cell_zone(self, name: str | None) -> Tetrahedra:
+    def cell_zone(self, name: str | None, t: float | None = None) -> Tetrahedra:  # noqa: ARG002
         """Return the tetrahedra of a zone of cells, or of all cells, cell by cell."""
         hosts = np.arange(len(self.mesh.tets), dtype=np.int32) if name is None else self._hosts_in(name)
         volumes = np.empty(len(hosts))

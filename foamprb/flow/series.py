@@ -506,6 +506,7 @@ def series_of(
     viscous: bool = False,
     sampled: Sequence[FieldColumns] = (),
     curved: bool = False,
+    flow: Callable[..., SeriesFlow] = SeriesFlow,
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
 
@@ -523,6 +524,8 @@ def series_of(
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
     period, notes, zones, turbulent, conservative, viscous, sampled, curved
         See :class:`SeriesFlow`.
+    flow
+        Class of the flow.
     """
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
@@ -532,7 +535,7 @@ def series_of(
     keep = _MOST_IN_MEMORY // size if period is not None else 0
     times = [float(name) for name in names]
     try:
-        return SeriesFlow(
+        return flow(
             mesh, times, lambda i: read(names[i]), period, [*notes, note], keep=keep, zones=zones,
             turbulent=turbulent, conservative=conservative, viscous=viscous, sampled=sampled, curved=curved,
         )  # fmt: skip

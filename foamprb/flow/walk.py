@@ -617,7 +617,7 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
     if depth < -_APART and first < end:
         # Surfaces that are cut into different faces lie apart, or overlap, by the difference of their chords.
         nearest = _nearest(flow, first, end, y)
-        host, _, patch, _, _ = follow(flow, nearest, _blend3(flow, nearest, _MIDDLE), y)
+        host, _, patch, _, _ = follow(flow, nearest, middle_of(flow, nearest), y)
         host = nearest if patch == FAILED else host
     elif host >= 0 and depth < 0.0:
         origin, c1, c2, c3, volume = frame(flow, host)
@@ -627,6 +627,11 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
         s = 1.0 / (w0 + w1 + w2 + w3)
         y = _blend3(flow, host, (s * w0, s * w1, s * w2, s * w3))
     return host, y, turn
+
+
+def middle_of(flow: MeshArrays, tet: int) -> Vector:
+    """Return the middle of a tetrahedron."""
+    return _blend3(flow, tet, _MIDDLE)
 
 
 def _blend3(flow: MeshArrays, tet: int, w: Weights) -> Vector:

@@ -212,6 +212,10 @@ def moving(case):
     shutil.copy(case / "constant/polyMesh/points", case / "0.5/polyMesh/points")
 
 
+def remade(case):
+    shutil.copytree(case / "constant/polyMesh", case / "0.5/polyMesh")
+
+
 def compress(file):
     packed = gzip.compress(file.read_bytes())
     file.unlink()
@@ -249,7 +253,10 @@ MISTAKES = {
         lambda c: edit(c, "SOI 0.3", "SOI 0.3"), ["-time", "0.5:"],
         ["injection model manual: SOI is 0.3. Allowed: from 0.5 on"],
     ),
-    "a mesh that moves": (moving, [], ["0.5/polyMesh/points", "the mesh changes in time"]),
+    "points at some times": (
+        moving, [], ["the mesh moves, but polyMesh/points is missing at the times 1.5. Allowed: points"],
+    ),
+    "other faces": (remade, [], ["0.5/polyMesh: the faces of the mesh change in time"]),
     "several times of a steady flow": (
         lambda c: edit(c, "transient yes; ", ""), ["-time", "0:0.5"],
         ["solution/transient is no", "-time '0:0.5' selects several times"],

@@ -135,7 +135,7 @@ class ManualInjection(Injection):
         """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``."""
         SOI = start_of_injection(self, flow)
         x, columns = read(self.positionsFile, GIVEN)
-        hosts = flow.locate(x)
+        hosts = flow.locate(x, SOI)
         inside = _inside(x, hosts, self.ignoreOutOfBounds, self.positionsFile)
         t = np.full(np.count_nonzero(inside), SOI)
         columns = {name: column[inside] for name, column in columns.items()}
@@ -269,9 +269,9 @@ class LineInjection(Injection):
         """Return the places on the line, without those outside the flow if ``ignoreOutOfBounds``."""
         n = require_room(self.number, f"lineInjection: number {self.number}")
         x = np.linspace(self.start, self.end, n)
-        hosts = flow.locate(x)
-        inside = _inside(x, hosts, self.ignoreOutOfBounds, "lineInjection")
         times = start_of_injection(self, flow) + self.duration * random.permutation(n).astype(float) / n
+        hosts = flow.locate(x, times)
+        inside = _inside(x, hosts, self.ignoreOutOfBounds, "lineInjection")
         return Places(x[inside], hosts[inside], times[inside], self.U0)
 
 
@@ -347,17 +347,18 @@ def _in_mesh(
     low, high = np.maximum(box[0], flow.bounds[0]), np.minimum(box[1], flow.bounds[1])
     n = require_room(model.number, f"{what}: number {model.number}")
     x, hosts, tried, placed = np.empty((n, 3)), np.empty(n, dtype=np.int64), 0, 0
+    start = start_of_injection(model, flow)
     while placed < n:
         drawn = low + (high - low) * random.random((min(max(n - placed, 1000), _AT_ONCE), 3))
         tried += len(drawn)
         drawn = drawn[contains(drawn)]
-        held = flow.locate(drawn)
+        held = flow.locate(drawn, start)
         rows = np.flatnonzero(held >= 0)[: n - placed]
         x[placed : placed + len(rows)], hosts[placed : placed + len(rows)] = drawn[rows], held[rows]
         placed += len(rows)
         if (low > high).any() or (placed < n and tried > _MOST_DRAWN * (placed + 10)):
             raise InputError(f"{what}: only {placed} of {tried} random places lie in the mesh.")
-    times = start_of_injection(model, flow) + model.duration * np.arange(n, dtype=float) / n
+    times = start + model.duration * np.arange(n, dtype=float) / n
     return Places(x, hosts, times, model.U0)
 
 
@@ -412,7 +413,7 @@ class CellZoneInjection(Injection):
     def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
         """Return random places in the zone; the number in any part follows its volume, within two."""
         SOI = start_of_injection(self, flow)
-        zone = flow.cell_zone(self.cellZone or None)
+        zone = flow.cell_zone(self.cellZone or None, SOI)
         # An inverted tetrahedron overlaps its neighbours, which contain its share.
         volumes = np.maximum(zone.volumes, 0.0)
         total = np.cumsum(volumes)
@@ -457,7 +458,7 @@ class ConeInjection(Injection):
         """Return the positions in turn, at even intervals in time, with a random direction each."""
         SOI = start_of_injection(self, flow)
         positions, axes = (np.array(part, dtype=float) for part in zip(*self.positionAxis, strict=True))
-        hosts = flow.locate(positions)
+        hosts = flow.locate(positions, SOI)
         if (hosts < 0).any():
             first = "({:g} {:g} {:g})".format(*positions[hosts < 0][0])
             raise InputError(f"coneInjection: the position {first} lies outside the mesh.")

@@ -48,11 +48,11 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     bounce_to_end,
-    clearance_of,
     end_block,
     interrupted,
     is_sound,
     release,
+    renew_clearance,
 )
 from foamprb.cloud.paths import RecordedRows, record_ends, record_starts
 from foamprb.cloud.state import Particles
@@ -235,7 +235,7 @@ def _track_block(
     for i in range(len(members)):
         load_particle(p, members[i], scratch, i)
         if status[i] == ACTIVE:
-            block[at.clearance * LANES + i], _, _ = clearance_of(flow, scratch, i)
+            renew_clearance(flow, scratch, i)
     resume_frames(block)
     new_integrals(block)
 

@@ -62,7 +62,7 @@ from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3, store
 from foamprb.cloud.contact import mode_in, mode_of
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
-from foamprb.cloud.motion import clearance_of, turn_along
+from foamprb.cloud.motion import renew_clearance, turn_along
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey, add3
 from foamprb.cloud.viscosity import VaryingViscosity
@@ -271,7 +271,7 @@ def stress_slope(
 def close_update(flow: object, s: Scratch, i: int, spin: Vector) -> None:
     """Store that the mode of lane i is that of its time, and the gap of its surface from the walls."""
     block = s.block
-    block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
+    renew_clearance(flow, s, i)
     store3(block, mode.fluid_spin, i, spin)
     block[mode.sampled * LANES + i], block[mode.reached * LANES + i] = 1.0, block[at.t * LANES + i]
 

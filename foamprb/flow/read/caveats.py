@@ -19,7 +19,7 @@ from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.fluxes import Conservation, UnbalancedFlowError
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
-from foamprb.flow.read.case import active_zones, find_dictionary, word_of
+from foamprb.flow.read.case import active_zones, available_times, find_dictionary, word_of
 from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.density import FLUX_FIELD, densities, varies
 from foamprb.flow.read.field import FoamField, Kind
@@ -318,6 +318,10 @@ def _moving(case: Path, region: str, folder: Path) -> Iterator[Caveat]:
     moved, remade = (existing(folder / "polyMesh" / part) is not None for part in ("points", "faces"))
     if kind in ("", *_AT_REST):
         kind = "points at this time" if moved and not remade else ""
+    # A dictionary alone, as that of a motion by MRFProperties or of a shape optimisation, moves nothing.
+    times = folder.parents[1 if region else 0]
+    if not any(existing(times / name / region / "polyMesh/points") for name in available_times(times)):
+        kind = ""
     if kind:
         yield Caveat(
             f"the mesh moves ({kind}), but is read at one time: it stands still, and particles meet its "

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from functools import cached_property, partial
+from dataclasses import replace
+from functools import cached_property, lru_cache, partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.curvatures import mean_curvatures
@@ -21,6 +21,8 @@ from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.motion import Motion
+from foamprb.flow.moving import MovingFlow
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
 from foamprb.flow.read.boundary_values import boundary_values, with_openings, with_walls
 from foamprb.flow.read.case import (
@@ -57,6 +59,14 @@ from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
+from foamprb.flow.read.motion import (
+    moving_times,
+    notes_of,
+    require_points,
+    rigid_motion,
+    spin_of_walls,
+    with_moving_walls,
+)
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.overlap import reduced
 from foamprb.flow.read.polymesh import read_poly
@@ -68,7 +78,7 @@ from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.viscosity import read_viscosity_field
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
-from foamprb.flow.series import series_of
+from foamprb.flow.series import SeriesFlow, series_of
 from foamprb.memory import trim
 
 _STEADY = 0.01
@@ -163,6 +173,10 @@ class Case:
     def mesh_folder(self, time: str) -> Path:
         """Return the folder of the mesh at a time."""
         return mesh_folder(self.root, time, self.region)
+
+    def points(self, time: str) -> Floats:
+        """Read the points of the mesh at a time, (n_points, 3), m."""
+        return self.poly(time)[0].points
 
 
 def read_case(
@@ -313,6 +327,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, first[0])
+    motion, means = _motion(case, names, whole, period, source), {}
     operators = _Operators(whole.mesh)
     prepared = PreparedTimes(source.cache, whole.mesh)
 
@@ -320,20 +335,32 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators.reconstruct)
 
     def read(name: str) -> tuple[Any, ...]:
-        if name != names[0]:
-            _refuse_moving(case, name)
         reads = [partial(case.field, name) for name in names]
-        values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
-        index = names.index(name)
-        mass = mass_of(case.root, case.region, whole, names, reads, index, source.velocity)
+        here, own, index = whole, operators, names.index(name)
+        if motion is not None:
+            here = _mesh_at(case, name, whole)
+            own = _Operators(here.mesh)
+        field = case.field(name, source.velocity, VELOCITY_FIELD)
+        values = velocities(field, here)
+        mass = mass_of(case.root, case.region, here, names, reads, index, source.velocity)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
 
         def make() -> tuple[Floats, Floats, Floats]:
-            u, l = operators.reconstruct(*values)
-            return u, l, balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
+            u, l = own.reconstruct(*values)
+            frame = None if motion is None else motion.frame(index, here.mesh)
+            fluxes = balanced_in_time(own.conserve, u, l, mass, where, frame, accept=source.accept)
+            if motion is not None and frame is not None:
+                u, l = motion.in_frames(index, here.mesh, u - frame[0], l - frame[1])
+            return u, l, fluxes
 
-        u, l, fluxes = prepared.get((*values, mass), make)
-        more = _further(case, name, source, whole, operators)
+        key = (*values, mass)
+        if motion is not None:
+            values = values[0], with_moving_walls(motion, index, here, field, values[1])
+            means[index] = motion.means(here.mesh, values[0])
+            pose = (array[index] for array in (motion.Q, motion.y, motion.omega, motion.velocity))
+            key = (*values, mass, here.mesh.points, *pose)
+        u, l, fluxes = prepared.get(key, make)
+        more = _further(case, name, source, here, own)
         curvatures = [mean_curvatures(whole.mesh, l)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
 
@@ -348,12 +375,52 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             )
         )
     zones = partial(case.zones, names[0])
-    notes += flux
+    notes += (
+        flux if motion is None else [*flux, notes_of(motion, float(np.ptp(whole.mesh.points, axis=0).max()))]
+    )
     return series_of(
         case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
-        curved=source.curved,
+        curved=source.curved, flow=SeriesFlow if motion is None else partial(MovingFlow, motion, means),
     )  # fmt: skip
+
+
+def _mesh_at(case: Case, time: str, whole: CaseMesh) -> CaseMesh:
+    """Return the mesh at another time, with the same patches."""
+    mesh = case.mesh(time).mesh
+    return whole._replace(mesh=replace(mesh, patches=whole.mesh.patches))
+
+
+def _motion(
+    case: Case, names: Sequence[str], whole: CaseMesh, period: float | None, source: FlowSource
+) -> Motion | None:
+    """Return the motion of the mesh of a case; None if it is at rest."""
+    folders = {name: case.folder(name) for name in names[1:]}
+    moved = moving_times(folders, "points")
+    if not moved:
+        return None
+    require_points(list(folders), moved, case.root)
+    if source.sampled:
+        raise InputError(
+            f"{case.root}: the mesh moves, but fields of the case ({' '.join(source.sampled)}) are read on "
+            "meshes at rest only. Allowed: no fieldSampling, and no force that reads them."
+        )
+
+    @lru_cache(maxsize=2)
+    def around(index: int) -> tuple[CaseMesh, FoamField, Floats]:
+        here = _mesh_at(case, names[index], whole)
+        field = case.field(names[index], source.velocity, VELOCITY_FIELD)
+        return here, field, velocities(field, here)[1]
+
+    def spin(index: int, cells: NDArray[np.int64]) -> Floats | None:
+        return spin_of_walls(*around(index), cells)
+
+    if any(patch.rows is not None for patch in whole.patches):
+        raise InputError(
+            f"{case.root}: cyclicACMI patches are read on meshes at rest only. Allowed: cyclicAMI."
+        )
+    motion = rigid_motion(case.root, names, case.points, whole.mesh, case.zones(names[0]), spin, period)
+    return motion if motion.turns.any() or np.ptp(motion.y, axis=0).any() else None
 
 
 def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[list[str], list[str]]:
@@ -385,8 +452,12 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
                 "pseudoTime",
             )
         )
-    for name in names[1:]:
-        _refuse_moving(case, name)
+    remade = moving_times({name: case.folder(name) for name in names[1:]}, "faces")
+    if remade:
+        raise InputError(
+            f"{case.folder(remade[0]) / 'polyMesh'}: the faces of the mesh change in time, as by refinement "
+            "or layers. Allowed: meshes at rest, and pieces that move as rigid bodies."
+        )
     return names, notes
 
 
@@ -447,13 +518,6 @@ def _instant(case: Case, name: str, velocity: str, cells: Floats, mesh: Mesh) ->
 def _mean_square(vectors: Floats) -> float:
     """Return the mean of the squares of vectors at the cells."""
     return float(np.einsum("ci,ci->c", vectors, vectors).mean())
-
-
-def _refuse_moving(case: Case, time: str) -> None:
-    for part in ("points", "faces"):
-        path = existing(case.folder(time) / "polyMesh" / part)
-        if path is not None:
-            raise InputError(f"{path}: the mesh changes in time; only meshes at rest can be read.")
 
 
 def velocities(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:

@@ -5,7 +5,7 @@ Where the neighbour covers a face, OpenFOAM takes the couple, elsewhere the wall
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -41,7 +41,7 @@ def used_faces(
     InputError
         A neighbour or the patch of the walls is not there, or has other faces; or the couple is transformed.
     """
-    known, used = {patch.name: patch for patch in patches}, {}
+    known, used = {patch.name: patch for patch in patches}, dict[str, Mask]()
     for patch in patches:
         wall = patch.entries.get("nonOverlapPatch", "")
         if patch.type != _TYPE or not patch.faces:
@@ -79,7 +79,7 @@ def _covered(points: Floats, start: Labels, lists: Labels, patch: PatchInfo, oth
     return covered
 
 
-def reduced(patches: Sequence[PatchInfo], used: dict[str, Mask]) -> tuple[PatchInfo, ...]:
+def reduced(patches: Sequence[PatchInfo], used: Mapping[str, Mask]) -> tuple[PatchInfo, ...]:
     """Return the patches with the faces that count; ``PatchInfo.rows`` has them."""
     first, found = patches[0].start if patches else 0, []
     for patch in patches:

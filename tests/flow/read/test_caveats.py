@@ -26,6 +26,12 @@ def caveats(case, **options):
     return [str(note) for note in read_case(case, **options).notes if isinstance(note, Caveat)]
 
 
+def move(case):
+    """Give a time points of its own."""
+    (case / "0.5/polyMesh").mkdir()
+    shutil.copy(case / "constant/polyMesh/points", case / "0.5/polyMesh/points")
+
+
 def put(path, text, kind="dictionary"):
     path.parent.mkdir(exist_ok=True)
     path.write_text(header(kind, path.name) + text)
@@ -66,6 +72,10 @@ def test_one_warning_for_what_particles_do_not_feel(name, case):
     assert caveats(case) == []
     file, words = CASES[name]
     put(case / file[0], *file[1:])
+    if name == "a mesh that moves":
+        # A dictionary alone moves nothing.
+        assert caveats(case) == []
+        move(case)
     (found,) = caveats(case)
     assert re.search(words, found)
 
@@ -335,6 +345,7 @@ def test_a_flux_that_is_not_there_for_a_patch_is_taken_from_the_velocity(case):
 
 def test_a_motion_that_cannot_be_read_is_one(case):
     put(case / "constant/dynamicMeshDict", "dynamicFvMesh {")
+    move(case)
     (found,) = caveats(case)
     assert "the mesh moves (dynamicMeshDict), but is read at one time" in found
     put(case / "constant/dynamicMeshDict", "motion yes;")

@@ -1,0 +1,310 @@
+"""Motion of the mesh of a case, from the points that it has written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial.transform import Rotation
+
+from foamprb.dictionary.files import existing
+from foamprb.errors import InputError
+from foamprb.flow.base import Floats
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.motion import Motion, nearest_times, rates_of
+from foamprb.flow.read.boundary import CaseMesh
+from foamprb.flow.read.field import FoamField
+from foamprb.flow.read.times import listed
+from foamprb.flow.timeline import one_period
+
+_RIGID = 1e-4
+"""Largest distance of a point from its place by a rigid motion, over the size of the piece."""
+_STILL = 1e-6
+"""The distance up to which a piece is at rest: its points are written with few digits."""
+_QUARTER = 0.5 * np.pi
+_LIKE = 0.1
+"""Largest difference between the turn by the points and that by a rate, over half a radian and the turn."""
+
+
+class Spin(Protocol):
+    """Provider of the angular velocity, 1/s, of some cells by the velocity on their walls."""
+
+    def __call__(self, index: int, cells: NDArray[np.int64]) -> Floats | None:
+        """Return it at the time of an index; None without walls that move with the mesh."""
+
+
+def moving_times(folders: Mapping[str, Path], part: str) -> list[str]:
+    """Return the times with an own ``points``, or another part of the mesh."""
+    return [name for name, folder in folders.items() if existing(folder / "polyMesh" / part) is not None]
+
+
+def pieces_of(mesh: Mesh) -> NDArray[np.int64]:
+    """Return the piece of each cell, (n_cells,): cells that faces join."""
+    n = mesh.n_internal
+    graph = sparse.coo_array((np.ones(n), (mesh.owner[:n], mesh.neighbour)), shape=(mesh.n_cells,) * 2)
+    return connected_components(graph, directed=False)[1].astype(np.int64)
+
+
+def rigid_motion(
+    source: Path,
+    times: Sequence[str],
+    points: Callable[[str], Floats],
+    mesh: Mesh,
+    zones: Mapping[str, NDArray[np.int64]],
+    spin: Spin,
+    period: float | None,
+) -> Motion:
+    """Fit the motion of the pieces of a mesh.
+
+    Parameters
+    ----------
+    source
+        The case, for messages.
+    times
+        Names of the times of the flow.
+    points
+        Reads the points at a time, (n_points, 3), m.
+    mesh
+        The mesh at the first time.
+    zones
+        Cells of zones, by which pieces are named.
+    spin
+        Returns the angular velocity, 1/s, by the velocity on the walls of the cells of a piece at the time of
+        an index; None without such walls.
+    period
+        Period of the flow, s.
+
+    Raises
+    ------
+    InputError
+        A piece deforms; a piece turns by more than 90 degrees between two times, and no wall shows how fast;
+        or a period does not return the points.
+    """
+    piece = pieces_of(mesh)
+    given = [float(name) for name in times]
+    if period is not None:
+        # The time at which the next period begins must have the points of the first one.
+        n = len(one_period(given, period))
+        again = [times[k] for k in range(n, len(times)) if abs(given[k] - given[0] - period) < 1e-6 * period]
+        size = float(np.ptp(mesh.points, axis=0).max())
+        for name in again[:1]:
+            back = points(name)
+            off = float(np.abs(back - mesh.points[: len(back)]).max())
+            if off > _RIGID * size:
+                raise InputError(
+                    f"{source}: a period of {period:g} s does not return the points of the mesh: they are up "
+                    f"to {off:.3g} m off at {name} s. Allowed: a period of the motion, or none."
+                )
+        times = times[:n]
+    n, count, t = len(times), int(piece.max()) + 1, np.array([float(name) for name in times])
+    names = tuple(_name(p, np.flatnonzero(piece == p), zones) for p in range(count))
+    of_points = np.zeros(mesh.n_points, dtype=np.int64)
+    of_points[mesh.cell_points] = np.repeat(piece, np.diff(mesh.cell_point_start))
+    first = mesh.points
+    R, s = np.tile(np.eye(3), (n, count, 1, 1)), np.zeros((n, count, 3))
+    for j, name in enumerate(times[1:], 1):
+        now = points(name)
+        if len(now) > len(first):
+            raise InputError(f"{source}: the mesh has {len(now)} points at {name} s and {len(first)} before.")
+        for p in range(count):
+            own = np.flatnonzero(of_points[: len(now)] == p)
+            a, b = first[own], now[own]
+            size = float(np.ptp(a, axis=0).max())
+            if np.abs(b - a).max() <= _STILL * size:
+                continue
+            R[j, p], s[j, p], miss = _fit(a, b, _STILL * size)
+            if miss > _RIGID * size:
+                raise InputError(
+                    f"{source}: {names[p]} of the mesh deforms: its points at {name} s are up to "
+                    f"{miss:.3g} m off a rigid motion. Allowed: meshes at rest, and pieces that move as "
+                    "rigid bodies."
+                )
+    c = np.stack([_quiet_point(first[of_points == p], R[:, p], s[:, p]) for p in range(count)])
+    y = np.einsum("jpab,pb->jpa", R, c) + s
+    ends = [*range(n), 0] if period is not None else [*range(n)]
+    t_ends = np.append(t, t[0] + period) if period is not None else t
+    turns = np.zeros((len(ends) - 1, count, 3))
+    for p in range(count):
+        own, rate = np.flatnonzero(piece == p), None
+        for k in range(len(ends) - 1):
+            step, h = R[ends[k + 1], p] @ R[ends[k], p].T, float(t_ends[k + 1] - t_ends[k])
+            turn = Rotation.from_matrix(step).as_rotvec()
+            known = _with_whole_turns(turn, h, rate, partial(spin, cells=own), ends[k : k + 2])
+            if known is None and np.linalg.norm(turn) > _QUARTER + 1e-6:
+                degrees = np.degrees(np.linalg.norm(turn))
+                raise InputError(
+                    f"{source}: {names[p]} of the mesh turns by {degrees:.3g} degrees from {times[ends[k]]} "
+                    f"to {t_ends[k + 1]:g} s, or by whole turns more or less, and no wall with "
+                    "movingWallVelocity shows how fast. Allowed: at most 90 degrees from time to time."
+                )
+            turn = turn if known is None else known
+            turns[k, p], rate = turn, turn / h
+    return _with_rates(Motion(piece, names, c, R, y, turns, np.zeros_like(y), np.zeros_like(y)), t, period)
+
+
+def _with_whole_turns(
+    turn: Floats, h: float, rate: Floats | None, spin: Callable[[int], Floats | None], ends: Sequence[int]
+) -> Floats | None:
+    """Return the rotation vector of an interval, h s long, that fits a known rate; None if none fits.
+
+    Known are the rate of the interval before, and those on walls at the ends.
+    """
+    for j in (-1, *ends):
+        guess = rate if j < 0 else spin(j)
+        if guess is not None:
+            near = nearest_turn(turn, guess * h)
+            if np.linalg.norm(near - guess * h) <= _LIKE * (0.5 + np.linalg.norm(guess) * h):
+                return near
+    return None
+
+
+def _with_rates(motion: Motion, t: Floats, period: float | None) -> Motion:
+    """Return the motion with its rates, of the polynomials through up to five times."""
+    n, count = motion.y.shape[:2]
+    around = range(-2, n + 2) if period is not None else range(n)
+    level = [(j % n, j // n * (period or 0.0)) for j in around]
+    times = [float(t[j]) + shift for j, shift in level]
+    for at in range(n):
+        here = at + (2 if period is not None else 0)
+        near = nearest_times(len(level), here)
+        rows = [level[k][0] for k in near]
+        motion.velocity[at] = rates_of([times[k] for k in near], motion.y[rows], here - near[0])
+        # The rotation vector to another time is the one nearest to the sum of those on the way.
+        since = np.zeros((len(near), count, 3))
+        for way in (1, -1):
+            total = np.zeros((count, 3))
+            for k in range(here, near[-1] if way > 0 else near[0], way):
+                index = level[k][0] if way > 0 else level[k - 1][0]
+                total = total + way * motion.turns[index % len(motion.turns)]
+                for p in range(count):
+                    step = motion.Q[level[k + way][0], p] @ motion.Q[at, p].T
+                    turn = Rotation.from_matrix(step).as_rotvec()
+                    since[k + way - near[0], p] = nearest_turn(turn, total[p])
+        motion.omega[at] = rates_of([times[k] for k in near], since, here - near[0])
+    return motion
+
+
+def nearest_turn(turn: Floats, guess: Floats) -> Floats:
+    """Return the rotation vector of the same rotation that is nearest to a guess."""
+    angle = float(np.linalg.norm(turn))
+    axis = turn / angle if angle > 1e-9 else guess / max(float(np.linalg.norm(guess)), 1e-300)
+    whole = np.round((guess @ axis - angle) / (2.0 * np.pi))
+    near: Floats = (angle + 2.0 * np.pi * whole) * axis
+    return near
+
+
+def _fit(a: Floats, b: Floats, least: float) -> tuple[Floats, Floats, float]:
+    """Return the rigid motion b = R·a + s of best fit (Kabsch 1976), and the largest distance from it.
+
+    A motion without rotation whose distances are up to ``least``, m, counts as one.
+    """
+    middle, other = a.mean(axis=0), b.mean(axis=0)
+    miss = float(np.abs(b - a - (other - middle)).max())
+    if miss <= least:
+        return np.eye(3), other - middle, miss
+    u, _, v = np.linalg.svd((a - middle).T @ (b - other))
+    sign = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))])
+    R: Floats = (u @ sign @ v).T
+    s: Floats = other - R @ middle
+    return R, s, float(np.abs(a @ R.T + s - b).max())
+
+
+def _quiet_point(points: Floats, R: Floats, s: Floats) -> Floats:
+    """Return the point of a piece that moves least; of several the nearest to its middle."""
+    middle = points.mean(axis=0)
+    change = R - np.eye(3)
+    matrix = np.einsum("jba,jbc->ac", change, change)
+    scale = float(np.trace(matrix))
+    if scale == 0.0:
+        return middle
+    right = -np.einsum("jba,jb->a", change, s + change @ middle)
+    point: Floats = middle + np.linalg.solve(matrix + 1e-9 * scale * np.eye(3), right)
+    return point
+
+
+def _name(p: int, cells: NDArray[np.int64], zones: Mapping[str, NDArray[np.int64]]) -> str:
+    same = [
+        name for name, of_zone in zones.items() if len(of_zone) == len(cells) and set(of_zone) == set(cells)
+    ]
+    inside = f"{same[0]}, " if same else ""
+    return f"piece {p + 1} ({inside}{len(cells)} cells)"
+
+
+def notes_of(motion: Motion, size: float) -> str:
+    """Return a sentence about the motion of each piece in a mesh of a size, m."""
+    parts = []
+    for p, name in enumerate(motion.names):
+        angles = np.linalg.norm(motion.turns[:, p], axis=1)
+        ways = np.linalg.norm(np.diff(motion.y[:, p], axis=0), axis=1)
+        omega = motion.omega[:, p][np.linalg.norm(motion.omega[:, p], axis=1).argmax()]
+        most = float(np.linalg.norm(omega))
+        text = []
+        if angles.max() > 0.0:
+            axis = " ".join(f"{x:.4g}" for x in np.round(omega / max(most, 1e-300), 6) + 0.0)
+            changes = "up to " if np.ptp(angles) > 1e-3 * angles.max() else ""
+            degrees = f"{np.degrees(angles.max()):.3g} degrees a write"
+            text.append(f"turns with {changes}{most:.5g} rad/s about ({axis}), {degrees}")
+        if ways.max(initial=0.0) > 2.0 * _STILL * size:
+            text.append(f"moves by up to {ways.max():.3g} m a write")
+        parts.append(f"{name} {' and '.join(text) or 'is at rest'}")
+    return f"The mesh moves: {'; '.join(parts)}."
+
+
+def require_points(names: Sequence[str], moved: Sequence[str], source: Path) -> None:
+    """Raise InputError if some of the times have no points although others do."""
+    missing = [name for name in names if name not in moved]
+    if missing:
+        raise InputError(
+            f"{source}: the mesh moves, but polyMesh/points is missing at the times {listed(missing)}. "
+            "Allowed: points at each time."
+        )
+
+
+def with_moving_walls(
+    motion: Motion, index: int, whole: CaseMesh, field: FoamField, boundary: Floats
+) -> Floats:
+    """Return the velocities of the boundary faces with that of the piece where a wall moves with the mesh.
+
+    OpenFOAM's ``movingWallVelocity`` lags by half a step of the solver.
+    """
+    values, rows = boundary.copy(), _of_moving_walls(whole, field)
+    mesh = whole.mesh
+    pieces = motion.piece[mesh.owner[mesh.n_internal :][rows]]
+    values[rows] = motion.speed(index, mesh.boundary_centres[rows], pieces)
+    return values
+
+
+def spin_of_walls(
+    whole: CaseMesh, field: FoamField, boundary: Floats, cells: NDArray[np.int64]
+) -> Floats | None:
+    """Return the angular velocity, 1/s, of the walls of some cells that move with the mesh; None without any.
+
+    It is that of best fit to v + Ω × x.
+    """
+    mesh, rows = whole.mesh, _of_moving_walls(whole, field)
+    rows = rows[np.isin(mesh.owner[mesh.n_internal :][rows], cells)]
+    if len(rows) == 0:
+        return None
+    x = mesh.boundary_centres[rows]
+    x = x - x.mean(axis=0)
+    # Ω × x is linear in Ω.
+    across = np.stack([np.cross(axis, x) for axis in np.eye(3)], axis=2)
+    columns = np.concatenate([across, np.tile(np.eye(3), (len(x), 1, 1))], axis=2).reshape(-1, 6)
+    found: Floats = np.linalg.lstsq(columns, boundary[rows].reshape(-1), rcond=None)[0]
+    return found[:3]
+
+
+def _of_moving_walls(whole: CaseMesh, field: FoamField) -> NDArray[np.intp]:
+    """Return the boundary faces on which the velocity is that of the mesh."""
+    found = [np.empty(0, dtype=np.intp)]
+    for patch, first in zip(whole.patches, whole.mesh.patch_start, strict=False):
+        entry = field.of(patch)
+        if entry is not None and entry.type == "movingWallVelocity":
+            found.append(np.arange(first, first + patch.faces))
+    return np.concatenate(found)

@@ -1,0 +1,190 @@
+"""Flows on meshes whose pieces move as rigid bodies, against flows that are known in the inertial frame."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mesh_shapes import block, box_patches, rings
+from scipy.spatial.transform import Rotation
+
+from foamprb import Cloud, Medium, Rebound, Status, Stick, spheres
+from foamprb.cloud.patches import Cyclic
+from foamprb.errors import InputError
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.moving import MovingFlow
+from foamprb.flow.read.motion import notes_of, rigid_motion
+from foamprb.flow.sampling import sample_with
+
+TIMES = ("0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6")
+STEP = 0.1
+WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
+
+
+def no_walls(_index, cells):
+    """No wall shows how fast a piece turns."""
+
+
+def moved_by(mesh, motion, u, l=None, period=None):
+    """Return the flow u(x, t), with the gradient l, on a mesh that ``motion(points, t)`` moves."""
+    t = [float(name) for name in TIMES]
+    fit = rigid_motion(
+        Path("case"), TIMES, lambda name: motion(mesh.points, float(name)), mesh, {}, no_walls, period
+    )
+    means = {}
+
+    def read(index):
+        x = np.einsum("nij,nj->ni", fit.Q[index, fit.nodes(mesh)], mesh.nodes - fit.c[fit.nodes(mesh)])
+        x += fit.y[index, fit.nodes(mesh)]
+        gradient = np.zeros((3, 3)) if l is None else l
+        _, W, _ = fit.frame(index, mesh)
+        means[index] = fit.means(mesh, u(x, t[index])[mesh.n_points :])
+        v = u(x, t[index]) - fit.speed(index, x, fit.nodes(mesh))
+        return fit.in_frames(index, mesh, v, gradient - W)
+
+    return MovingFlow(fit, means, mesh, t, read, period)
+
+
+def turned(angle):
+    return lambda x, t: Rotation.from_rotvec([0.0, 0.0, angle * t / STEP]).apply(x)
+
+
+def rotor(angle):
+    """The inner ring of ``rings`` turns by an angle a write, radians."""
+
+    def motion(points, t):
+        inner = np.hypot(*points[:, :2].T) < 0.99
+        inner |= np.arange(len(points)) < len(points) * 24 // 60
+        return np.where(inner[:, None], turned(angle)(points, t), points)
+
+    return motion
+
+
+@pytest.fixture(scope="module")
+def stirred():
+    """A stream through a ring that turns by 50 degrees a write, and a fluid that turns more slowly."""
+    u0, omega = np.array([0.3, 0.1, 0.0]), np.array([0.0, 0.0, 1.5])
+    l = np.array([[0.0, -1.5, 0.0], [1.5, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    mesh = rings()
+    mesh = replace(mesh, patches=[p._replace(type="patch") if p.type == "wall" else p for p in mesh.patches])
+    flow = moved_by(mesh, rotor(np.radians(50.0)), lambda x, _t: u0 + np.cross(omega, x), l)
+    return flow, u0, l
+
+
+def test_the_motion_of_each_piece_follows_from_the_points(stirred):
+    flow = stirred[0]
+    note = notes_of(flow.motion, 3.0)
+    assert note.startswith("The mesh moves: piece 1 (72 cells) turns with 8.7266 rad/s about (0 0 1), 50 deg")
+    assert note.endswith("piece 2 (108 cells) is at rest.")
+    assert np.abs(flow.motion.c[0, :2]).max() < 1e-9
+
+
+def test_a_stream_and_a_turning_fluid_are_exact_at_all_times(stirred, random):
+    """Velocity, gradient and acceleration, in the piece that turns and in that at rest."""
+    flow, u0, l = stirred
+    for t in (0.0, 0.137, 0.3, 0.55):
+        a, r = random.uniform(0.0, 2.0 * np.pi, 200), random.uniform(0.52, 1.45, 200)
+        x = np.column_stack([r * np.cos(a), r * np.sin(a), random.uniform(0.1, 0.9, 200)])
+        hosts = flow.locate(x, t)
+        x, hosts = x[hosts >= 0], hosts[hosts >= 0]
+        assert len(x) > 190
+        u, gradient = flow.sample(x, hosts, t)
+        assert u == pytest.approx(u0 + x @ l.T, abs=2e-3)
+        assert np.median(np.abs(u - u0 - x @ l.T)) < 1e-9
+        assert gradient == pytest.approx(np.broadcast_to(l, gradient.shape), abs=1e-9)
+        # Along its own path a point has the velocity at a slightly later time.
+        h = 1e-6
+        later, _ = sample_with(flow.kernels["sample"], flow.arrays(), x + h * u, hosts, t + h)
+        assert (later - u) / h == pytest.approx(u @ l.T, abs=0.1)
+
+
+def test_tracers_cross_the_interface_of_a_turning_ring(stirred):
+    flow, u0, _ = stirred
+    r = np.linspace(0.6, 1.35, 31)
+    a = 2.4 * np.arange(31)
+    x = np.column_stack([r * np.cos(a), r * np.sin(a), np.full(31, 0.5)])
+    bodies = spheres(x, d=1e-6, rho=1000.0, mu=1e3)
+    patches = [Cyclic() if p.neighbour else Rebound() for p in flow.patches]
+    cloud = Cloud(bodies, flow, WATER, patches, 0.02, threads=1)
+    cloud.advance(10)
+    angle = 1.5 * 0.2
+    # The fluid turns about the point at which it rests.
+    centre = np.array([-u0[1], u0[0]]) / 1.5
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    assert np.all(bodies.status == Status.ACTIVE)
+    assert bodies.x[:, :2] == pytest.approx(centre + (x[:, :2] - centre) @ turn.T, abs=2e-4)
+
+
+def shaken(interaction, speed=1.0):
+    """A box that moves along x at a constant speed, in it a fluid that is all but absent."""
+    shape = block(3, 0.0)
+    mesh = build_mesh(shape, [p._replace(type="wall") for p in box_patches(shape)])
+    way = np.array([speed, 0.0, 0.0])
+    flow = moved_by(mesh, lambda x, t: x + t * way, lambda x, _t: np.broadcast_to(way, x.shape))
+    bodies = spheres([[0.2, 0.5, 0.5], [0.2, 0.4, 0.6]], d=1e-2, rho=1e9, mu=1e9)
+    bodies.v[:] = 0.0
+    air = Medium(1e-9, 1e-9, (0.0, 0.0, 0.0))
+    return Cloud(bodies, flow, air, [interaction] * len(flow.patches), 0.01, threads=1)
+
+
+@pytest.mark.parametrize("e", [1.0, 0.5])
+def test_a_body_at_rest_that_a_wall_hits_leaves_with_the_speed_of_the_wall_and_e_times_it(e):
+    cloud = shaken(Rebound(e=e))
+    cloud.advance(30)
+    p = cloud.particles
+    assert p.v == pytest.approx(np.broadcast_to([1.0 + e, 0.0, 0.0], (2, 3)), abs=1e-5)
+    assert p.x[:, 0] == pytest.approx(0.2 + (1.0 + e) * (0.3 - 0.195), abs=1e-5)
+
+
+def test_a_body_that_sticks_to_a_moving_wall_rides_along():
+    cloud = shaken(Stick())
+    cloud.advance(30)
+    assert np.all(cloud.particles.status == Status.STUCK)
+    assert cloud.particles.t == pytest.approx(0.195, abs=1e-6)
+    now = cloud.comm.rank.at_instant(0.3, False)
+    assert now.x[:, 0] == pytest.approx(0.3 + 0.005, abs=1e-6)
+    assert now.v == pytest.approx(np.broadcast_to([1.0, 0.0, 0.0], (2, 3)), abs=1e-9)
+
+
+def test_whole_turns_follow_from_the_walls():
+    mesh, spins = rings(), {"turns": 10.0 * np.radians(400.0), "none": None}
+    for name, rate in spins.items():
+
+        def spin(index, cells, rate=rate):
+            return None if rate is None or len(cells) != 72 else np.array([0.0, 0.0, rate])
+
+        fit = rigid_motion(
+            Path("case"),
+            TIMES,
+            lambda n: rotor(np.radians(40.0))(mesh.points, float(n)),
+            mesh,
+            {},
+            spin,
+            None,
+        )
+        degrees = np.degrees(np.linalg.norm(fit.turns[:, 0], axis=1))
+        assert degrees == pytest.approx(400.0 if name == "turns" else 40.0)
+
+
+@pytest.mark.parametrize(
+    ("motion", "period", "message"),
+    [
+        (
+            rotor(np.radians(120.0)),
+            None,
+            r"piece 1 \(72 cells\) of the mesh turns by 120 degrees from 0 to 0.1 s",
+        ),
+        (
+            lambda x, t: x * (1.0 + t),
+            None,
+            r"piece 1 \(72 cells\) of the mesh deforms: its points at 0.1 s are up",
+        ),
+        (rotor(np.radians(50.0)), 0.5, r"a period of 0.5 s does not return the points of the mesh"),
+    ],
+)
+def test_a_motion_that_cannot_be_followed_is_reported(motion, period, message):
+    mesh = rings()
+    with pytest.raises(InputError, match=message):
+        moved_by(mesh, motion, lambda x, _t: 0.0 * x, period=period)
