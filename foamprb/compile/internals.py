@@ -8,6 +8,8 @@ function of a name, with the key of this one in place of another. Stages that ca
 
 Nothing of this is documented by numba: :mod:`foamprb.compile.link` imports the module only for a tested
 version. Plain numba compiles more slowly and keeps no code; results differ by round-off at most.
+Public llvmlite makes machine code of LLVM code, but documented numba gives that of a function only after its
+own, slower compilation to machine code. Its documented inlining rejects calls with ``*args``.
 """
 
 from __future__ import annotations
