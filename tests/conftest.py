@@ -44,9 +44,11 @@ TESTS = Path(__file__).parent
 QUICK = (
     "body/", "dictionary/", "results/", "settings/", "cloud/injection/", "cloud/test_cloud.py",
     "cloud/test_integrators.py", "cloud/test_layout.py", "flow/mesh/test_mesh.py",
-    "flow/read/test_openfoam.py", "run/test_job.py", "view/test_bodies.py",
+    "flow/read/test_openfoam.py", "view/test_bodies.py",
 )  # fmt: skip
 """Files of the tier for each commit: at most 5 min of CPU time with an empty cache of compiled code."""
+COMPILES = ("results/test_background.py", "settings/test_extension.py", "settings/test_libs.py")
+"""Files among these that compile for long."""
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -54,7 +56,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the quick tests; those of a file, which may share a run, stay together in ``--dist loadgroup``."""
     for item in items:
         path = item.path.relative_to(TESTS).as_posix()
-        if path.startswith(QUICK):
+        if path.startswith(QUICK) and path not in COMPILES:
             item.add_marker("quick")
         if not path.startswith("mpi/"):
             item.add_marker(pytest.mark.xdist_group(path))

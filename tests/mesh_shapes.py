@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pyvista
-from scipy.spatial.transform import Rotation
 
 from foamprb.flow.mesh.boundary import PatchSurface, Transform
 from foamprb.flow.mesh.mesh import build_mesh
@@ -290,19 +289,6 @@ def joined_boxes(cuts, joints, openings=(), perturbation=0.2):
         for p in boundary(part, name, types[i])
     ]
     return build_mesh(beside(parts), patches)
-
-
-def folds_at_a_gap(n):
-    """Two cubes of n³ cells, one of them with folds at a narrow gap between them, oblique to the axes."""
-    shapes = [block(n, 0.0), block(n, 0.0)]
-    points = [np.array(shape.points) for shape in shapes]
-    inside = np.argmin(np.linalg.norm(points[0] - [1.0 - 1.0 / n, 0.5, 0.5], axis=1))
-    points[0][inside] += np.array([-1.3, 0.2, 0.0]) / n
-    points[1][:, 0] += 1.05
-    turn = Rotation.from_rotvec([0.0, 0.0, np.pi / 4.0]).as_matrix()
-    for shape, own in zip(shapes, points, strict=True):
-        shape.points = own @ turn.T
-    return build_mesh(beside(shapes))
 
 
 def ring(inner, outer, around, layers=3):

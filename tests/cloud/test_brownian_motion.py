@@ -74,11 +74,11 @@ def test_a_spheroid_diffuses_and_turns_as_perrin_says(ratio):
     assert tilted == pytest.approx([1.0, 1.0], rel=1.5 * tolerance)
 
 
-@pytest.mark.parametrize(("steps", "share", "stride"), [(200, 1, 1), (800, 16, None)])
+@pytest.mark.parametrize(("steps", "share", "stride"), [(200, 1, 1), (400, 8, None)])
 def test_heights_over_a_wall_come_to_boltzmanns(steps, share, stride):
     """With the hindered mobility, heights come to exp(−W h/kT) in steps √(2 D Δt) of a tenth of kT/W.
 
-    And in steps of any length, from a sixteenth of these on.
+    And in steps of any length, from an eighth of these on.
     """
     n = 250
     p = beads(n, rho=RHO_OF_SCALE_R)

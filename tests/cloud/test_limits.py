@@ -251,7 +251,7 @@ class TestStop:
             p = spheres(np.zeros((len(Ca), 3)), d=1e-5, rho=1000.0, mu=1.0 / Ca)
             models = Models(integrator="stokes", tolerance=1e-11)
             limits = Limits(maxSubSteps=1e12)
-            return Cloud(p, analytic.shear(1.0), OIL, (), 200.0, models, 2, limits=limits)
+            return Cloud(p, analytic.shear(1.0), OIL, (), 100.0, models, 2, limits=limits)
 
         whole, parts = cloud(), cloud()
         for each in (whole, parts):

@@ -7,7 +7,6 @@ import subprocess
 import sys
 
 import numpy as np
-import pytest
 import pyvista
 from paths import ROOT
 from pipe_case import edit
@@ -22,13 +21,12 @@ def arrays(case):
     return {"points": np.asarray(mesh.points), **{name: np.asarray(a) for name, a in mesh.point_data.items()}}
 
 
-@pytest.mark.parametrize("integrator", ["paper", "stokes"])
-def test_run_without_compilation_gives_the_same(integrator, tmp_path):
+def test_run_without_compilation_gives_the_same(tmp_path):
+    """`tests/cloud/test_cloud.py` has the scheme of the paper."""
     found = []
     for name in ("compiled", "interpreted"):
         (tmp_path / name).mkdir()
         case = write_transient_case(tmp_path / name)
-        edit(case, "shape stokes;", f"shape {integrator};")
         edit(case, "endTime 1.2;", "endTime 0.4;")
         if name == "compiled":
             assert main(["run", "-case", str(case), "-threads", "1"]) == 0
