@@ -32,12 +32,14 @@ _ANGLE = 30.0
 """Default angle in degrees at which openings and planes end."""
 _ACROSS, _ROUND_OFF = 0.1, 1e-6
 """Least velocity across a face that is open, over the local velocity and over the largest."""
-_OPEN, _OPEN_PART, _STEADY, _OPEN_VALUED = 0.1, 0.9, 0.6, 0.05
+_OPEN, _OPEN_PART, _STEADY, _OPEN_VALUED = 0.5, 0.9, 0.7, 0.05
 """Least fluxes of an opening.
 
 In the cells over that of their speed, if it is a smooth surface or a part of one; across the faces over that
 in the cells; and across faces with a velocity of their own over that of its magnitude.
 """
+_SLANTED, _STEADY_SLANTED = 0.1, 0.6
+"""The same of a smooth surface at which the speed does not fall, as it does at a wall at rest."""
 _LEAST_SHARE = 1e-4
 """Least flux across an opening over that across all patches."""
 _LEAST_FACES, _LEAST_FLUX, _LEAST_AREA = 8, 0.01, 0.1
@@ -242,6 +244,9 @@ def _are_openings(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp], lea
     sums = (np.bincount(labels, f.sum(axis=0)) for f in (steady, np.abs(in_cells), stated, allowed, at_most))
     steady, across, stated, allowed, at_most = sums
     openings: Mask = (steady >= _STEADY * across) & (across >= least * allowed)
+    if least == _OPEN:
+        slanted = (steady >= _STEADY_SLANTED * across) & (across >= _SLANTED * allowed)
+        openings |= slanted & ~_falls(u, labels)
     openings &= steady > _LEAST_SHARE * steady.sum()
     openings |= (stated > _ROUND_OFF * stated.sum()) & (stated >= _OPEN_VALUED * at_most)
     return openings
@@ -274,9 +279,15 @@ def faces_at_rest(mesh: Mesh, u: BoundaryVelocity | None) -> Mask:
         return np.zeros(len(labels), dtype=bool)
     walls = np.array([patch.type == "wall" for patch in mesh.patches], dtype=bool)[labels]
     labels = _by_angle(mesh, _ANGLE, labels)
-    at_faces, in_cells = (np.bincount(labels, np.square(v).sum(axis=(0, 2))) for v in (u.faces, u.cells))
-    at_rest: Mask = walls & (at_faces <= _AT_REST**2 * in_cells)[labels]
+    at_rest: Mask = walls & _falls(u, labels)[labels]
     return at_rest
+
+
+def _falls(u: BoundaryVelocity, labels: NDArray[np.intp]) -> Mask:
+    """Return True for patches towards which the speed decreases, as towards a wall at rest."""
+    at_faces, in_cells = (np.bincount(labels, np.square(v).sum(axis=(0, 2))) for v in (u.faces, u.cells))
+    falls: Mask = at_faces <= _AT_REST**2 * in_cells
+    return falls
 
 
 def patch_lines(mesh: Mesh, u: BoundaryVelocity | None) -> list[str]:
