@@ -203,7 +203,7 @@ def in_plane(flow: MeshArrays, v: Vector) -> Vector:
 
 def is_added(flow: MeshArrays, node: Any) -> bool:
     """Return True for the centres of faces in the planes of a two-dimensional flow."""
-    return flow.n_points - 2 * (flow.cell_start.shape[0] - 1) <= node < flow.n_points
+    return bool(flow.n_points - 2 * (flow.cell_start.shape[0] - 1) <= node < flow.n_points)
 
 
 def _flatten(flow: MeshArrays, begin: int, n: int, memory: Work) -> None:

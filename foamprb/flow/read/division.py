@@ -38,8 +38,8 @@ _OPEN, _OPEN_PART, _STEADY, _OPEN_VALUED = 0.5, 0.9, 0.7, 0.05
 In the cells over that of their speed, if it is a smooth surface or a part of one; across the faces over that
 in the cells; and across faces with a velocity of their own over that of its magnitude.
 """
-_SLANTED, _STEADY_SLANTED = 0.1, 0.6
-"""The same of a smooth surface at which the speed does not fall, as it does at a wall at rest."""
+_SLANTED, _STEADY_SLANTED, _STEADY_RISING = 0.1, 0.85, 0.6
+"""The same of a smooth surface which the flow crosses at an angle; and if the speed rises towards it."""
 _LEAST_SHARE = 1e-4
 """Least flux across an opening over that across all patches."""
 _LEAST_FACES, _LEAST_FLUX, _LEAST_AREA = 8, 0.01, 0.1
@@ -245,8 +245,8 @@ def _are_openings(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp], lea
     steady, across, stated, allowed, at_most = sums
     openings: Mask = (steady >= _STEADY * across) & (across >= least * allowed)
     if least == _OPEN:
-        slanted = (steady >= _STEADY_SLANTED * across) & (across >= _SLANTED * allowed)
-        openings |= slanted & ~_falls(u, labels)
+        most = np.where(_falls(u, labels, 1.0), _STEADY_SLANTED, _STEADY_RISING)
+        openings |= (steady >= most * across) & (across >= _SLANTED * allowed)
     openings &= steady > _LEAST_SHARE * steady.sum()
     openings |= (stated > _ROUND_OFF * stated.sum()) & (stated >= _OPEN_VALUED * at_most)
     return openings
@@ -283,10 +283,10 @@ def faces_at_rest(mesh: Mesh, u: BoundaryVelocity | None) -> Mask:
     return at_rest
 
 
-def _falls(u: BoundaryVelocity, labels: NDArray[np.intp]) -> Mask:
-    """Return True for patches towards which the speed decreases, as towards a wall at rest."""
+def _falls(u: BoundaryVelocity, labels: NDArray[np.intp], most: float = _AT_REST) -> Mask:
+    """Return True for patches towards which the speed decreases, by default as towards a wall at rest."""
     at_faces, in_cells = (np.bincount(labels, np.square(v).sum(axis=(0, 2))) for v in (u.faces, u.cells))
-    falls: Mask = at_faces <= _AT_REST**2 * in_cells
+    falls: Mask = at_faces < most**2 * in_cells
     return falls
 
 
