@@ -57,7 +57,7 @@ _ROOMS: tuple[tuple[int, tuple[str, ...]], ...] = (
     (180, ("RelaxationRows", "StiffnessRows")),
     (12, ("LargestRows",)),
     (8, ("ViscosityRows", "FieldRows", "MixtureRows")),
-    (40, ("QuadraticRows",)),
+    (48, ("QuadraticRows",)),
     (20, ("SecondRows",)),
     (40, ("FaxenRows",)),
     (100, ("WallRows",)),

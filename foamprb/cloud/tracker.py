@@ -37,8 +37,8 @@ from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.memory import FadingMemory
-from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid, in_fluid
-from foamprb.cloud.viscosity import model_of
+from foamprb.cloud.surroundings.quadratic import QuadraticDrop, QuadraticSolid
+from foamprb.cloud.viscosity import in_fluid, model_of
 from foamprb.compile.link import Function, conform, is_compiled, link, packed
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free

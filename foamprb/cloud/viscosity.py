@@ -41,6 +41,7 @@ from foamprb.cloud.block import (
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey
+from foamprb.cloud.surroundings.quadratic import QuadraticInVarying, QuadraticSolid
 from foamprb.compile.link import Slots, traced
 from foamprb.flow.base import Patch, Sampled
 from foamprb.flow.kernels import viscosity
@@ -389,6 +390,13 @@ def _weighted(values: tuple[float, float], fraction: Floats) -> Floats:
 def model_of(mu: float | VaryingViscosity) -> tuple[VaryingViscosity, ...]:
     """Return the model of a viscosity, none for a constant."""
     return (mu,) if isinstance(mu, VaryingViscosity) else ()
+
+
+def in_fluid(model: Surrounding, mu: float | VaryingViscosity) -> Surrounding:
+    """Return a model of the surroundings as it acts in a fluid: the mode of solids depends on it."""
+    if isinstance(mu, VaryingViscosity) and type(model) is QuadraticSolid:
+        return QuadraticInVarying(fluid=mu, beside=type(mu).beside)
+    return model
 
 
 def viscosity_of(

@@ -56,10 +56,7 @@ def read_rtdc(path: Path) -> Events:
 
     The deformation is less by the effect of pixels (Herold, arXiv:1704.00572, as dclab has it).
     """
-    load("dclab", "cytometry", "files of dclab need")
-    import dclab
-    from dclab.features.emodulus import pxcorr
-
+    dclab, pxcorr = _load("dclab"), _load("dclab.features.emodulus.pxcorr")
     try:
         with warnings.catch_warnings(), dclab.new_dataset(path) as data:
             warnings.simplefilter("ignore")
@@ -85,10 +82,13 @@ def read_rtdc(path: Path) -> Events:
         raise InputError(f"{path}: not a file of dclab ({error}).") from error
 
 
+def _load(module: str) -> Any:
+    return load(module, "cytometry", "files of dclab need")
+
+
 def _conditions(path: Path, data: Any) -> Conditions:
     """Return width, flow rate and viscosity of a file, the latter by dclab's laws."""
-    from dclab.features.emodulus import viscosity
-
+    viscosity = _load("dclab.features.emodulus.viscosity")
     setup = data.config.get("setup", {})
     width, rate = (float(setup.get(name, math.nan)) for name in ("channel width", "flow rate"))
     mu, origin, medium = math.nan, "", str(setup.get("medium", "")).strip()

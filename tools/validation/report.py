@@ -186,12 +186,20 @@ def _count(texts: Iterable[str], column: str) -> Counter[str]:
     return Counter(row[COLUMNS.index(column)] for text in texts for row in _lines_of_rows(text))
 
 
+def _passed_by_kind(texts: Iterable[str]) -> str:
+    """Return how many rows of each kind of reference pass: ``10 equations, 2 others, 1 measured``."""
+    kind, passed = COLUMNS.index("kind"), COLUMNS.index("pass")
+    counts = Counter(row[kind] for text in texts for row in _lines_of_rows(text) if row[passed] == "yes")
+    return ", ".join(f"{counts[name]} {name}" for name in ("equations", "others", "measured"))
+
+
 def _introduction(texts: Iterable[str], quick: bool) -> str:
     form = "the quick form of `tools/validate`" if quick else "`tools/validate`"
     passed, kinds = _count(texts, "pass"), _count(texts, "kind")
     return (
-        f"Made by {form}, version {version('foamprb').partition('+')[0]}. {passed['yes']} of "
-        f"{passed['yes'] + passed['NO']} rows pass; {passed['–']} more are for information only.\n\n"
+        f"{passed['yes']} of {passed['yes'] + passed['NO']} rows pass: {_passed_by_kind(texts)}; "
+        f"{passed['–']} more are for information only. "
+        f"Made by {form}, version {version('foamprb').partition('+')[0]}.\n\n"
         "The kind of a reference: `equations`, the same equations solved by another method, or their closed "
         f"form ({kinds['equations']} rows, verification); `others`, theory or a computation of more than the "
         f"model that others printed ({kinds['others']} rows); `measured`, an experiment "

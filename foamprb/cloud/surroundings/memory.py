@@ -36,13 +36,13 @@ from foamprb.body.relaxation import Relaxation
 from foamprb.body.rosenbrock import Elasticity, Stiffness
 from foamprb.body.stokes import Mobility, velocity_gradient
 from foamprb.body.tensor import ZERO, Tensor, add, dot, from_frame, scale, select
+from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium, at, load9, store9
 from foamprb.cloud.integrators.adaptive import SHARE_OF_MEMORY
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.rosenbrock import with_fading as with_inertial_fading
 from foamprb.cloud.integrators.stokes import gradient_at_end, gradient_by_slope, with_fading
 from foamprb.cloud.layout import LANES, MOST_TIMES, Block, Row, offsets
-from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.motion import mirror_memory
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey
 from foamprb.compile.link import Slots, traced
@@ -260,7 +260,12 @@ class FadingMemory(Surrounding):
                     f"{high / low:.2g} deltaT. Up to 1e7 deltaT it holds within {100.0 * _LARGE_ERROR:g} %."
                 )
             p = survey.p.take(np.flatnonzero(survey.p.host >= 0))
-            rate = float(shear_rate_at(survey.flow, p, float(p.t[0])).max()) if p.size else 0.0
+            l = (
+                survey.flow.sample(p.x, p.host, float(p.t[0]))[1].reshape(-1, 9)
+                if p.size
+                else np.zeros((1, 9))
+            )
+            rate = float(np.max(shear_rate(tuple(l.T))))
             if rate > _BEYOND * high:
                 warnings.append(
                     f"the shear rate at particles is up to {rate:.3g} 1/s where they start: the power law "

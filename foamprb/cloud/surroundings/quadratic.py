@@ -3,8 +3,8 @@
 The formulas are those of :mod:`foamprb.body.quadratic`. In a fluid whose viscosity varies, μ S and μ v follow
 from the stress, by its differences over the body: where a thinning fluid has no shear, μ S is not the
 product of both. The flow is sampled where steps start. Between two
-starts its S is linear in time, in a frame that turns with the fluid, and the mode is advanced exactly. The
-drift in a step is that of the mode in the middle of it.
+starts its S is linear in time, in a frame that turns with the fluid, and the mode is advanced exactly. On
+its way through a step a body drifts by a mode that is linear between the start and the predicted end.
 """
 
 from __future__ import annotations
@@ -50,10 +50,13 @@ from foamprb.body.tensor import (
     dev,
     dot,
     dot_vector,
+    inner,
+    minus,
     norm,
     plus,
     scale,
     scale_vector,
+    select,
     sym,
     transpose,
     vector_product,
@@ -65,7 +68,6 @@ from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import renew_clearance, turn_along
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey, add3
-from foamprb.cloud.viscosity import VaryingViscosity
 from foamprb.compile.link import Slots, separate, traced
 from foamprb.flow.base import Patch
 from foamprb.flow.kernels import curvature, sample, walk
@@ -84,7 +86,9 @@ class QuadraticRows(NamedTuple):
     growth: Annotated[int, Row(7, "1/s", "source of B then")]
     pull: Annotated[int, Row(3, "m/s", "source of q then")]
     fluid_spin: Annotated[int, Row(3, "1/s", "angular velocity of the fluid then")]
-    middle: Annotated[int, Row(7, "1", "B in the middle of the step")]
+    end: Annotated[int, Row(7, "1", "B where the step is to lead")]
+    next_growth: Annotated[int, Row(7, "1/s", "source of B there")]
+    way: Annotated[int, Row(3, "m", "the way there; 0 as long as it is unknown")]
     shift_drift: Annotated[int, Row(3, "m/s", "mean drift by q in the step")]
 
 
@@ -96,6 +100,8 @@ class SecondRows(NamedTuple):
     laplacian: Annotated[int, Row(3, "1/(m s)", "Laplacian of the velocity")]
 
 
+_HELD = 6.0
+"""Time without an update, in steps, after which a body at rest has been held by a wall."""
 _CHANGE, _CHANGE_OF_B = 0.2, 1e-3
 """Relative change of S, and change of B, within a step longer than Δt."""
 
@@ -136,11 +142,13 @@ def flow_parts(flow: object, s: Scratch, i: int) -> Parts:
 def elapsed(block: Block, i: int) -> float:
     """Return the time for which the mode of lane i has to be advanced, s.
 
-    It is 0 for a body that has just been loaded, and for a body at rest: a wall has just let go of it.
+    It is 0 for a body that has just been loaded, and for one at rest of which a wall has just let go. Where
+    the flow has no velocity a body is at rest, too, and is updated in each step.
     """
-    if block[mode.sampled * LANES + i] > 0.0 and norm(load3(block, at.v, i)) > 0.0:
-        return float(block[at.t * LANES + i] - block[mode.reached * LANES + i])
-    return 0.0
+    if not block[mode.sampled * LANES + i] > 0.0:
+        return 0.0
+    h = float(block[at.t * LANES + i] - block[mode.reached * LANES + i])
+    return h if norm(load3(block, at.v, i)) > 0.0 or h <= _HELD * block[at.h * LANES + i] else 0.0
 
 
 def ahead(block: Block, i: int, remaining: float) -> float:
@@ -149,7 +157,7 @@ def ahead(block: Block, i: int, remaining: float) -> float:
 
 
 def advance_mode(block: Block, i: int, growth: Third, rate: float, spin: Vector, step: float) -> None:
-    """Advance B of lane i to its time, and store it with that in the middle of the next step.
+    """Advance B of lane i to its time, and store it with a first one at the end of the next step.
 
     Parameters
     ----------
@@ -165,9 +173,9 @@ def advance_mode(block: Block, i: int, growth: Third, rate: float, spin: Vector,
         turn = rotation(combine_vectors(0.5, load3(block, mode.fluid_spin, i), 0.5, spin), h)
         B = advanced(B, load7(block, mode.growth, i), growth, weights(rate, h), turn)
         store7(block, mode.B, i, B)
-    half = 0.5 * step
-    store7(block, mode.middle, i, advanced(B, growth, growth, weights(rate, half), rotation(spin, half)))
+    store7(block, mode.end, i, advanced(B, growth, growth, weights(rate, step), rotation(spin, step)))
     store7(block, mode.growth, i, growth)
+    store3(block, mode.way, i, (0.0, 0.0, 0.0))
     block[mode.recovery * LANES + i] = rate
 
 
@@ -183,12 +191,18 @@ def advance_shift(block: Block, i: int, pull: Vector, rate: float, spin: Vector,
         store3(block, mode.shift, i, q)
     store3(block, mode.pull, i, pull)
     if step > 0.0:
-        end = advanced_vector(q, pull, pull, weights(rate, step), rotation(spin, step))
-        change = combine_vectors(1.0 / step, end, -1.0 / step, q)
-        q = combine_vectors(0.5, q, 0.5, end)
+        store_shift_drift(block, i, pull, rate, spin, step)
     else:
         change = plus(combine_vectors(1.0, pull, -rate, q), vector_product(spin, q))
-    store3(block, mode.shift_drift, i, drift_by_shift(spin, q, change))
+        store3(block, mode.shift_drift, i, drift_by_shift(spin, q, change))
+
+
+def store_shift_drift(block: Block, i: int, pull: Vector, rate: float, spin: Vector, step: float) -> None:
+    """Store the mean drift by q of lane i in a step, at whose end the source of q is ``pull``, m/s."""
+    q = load3(block, mode.shift, i)
+    end = advanced_vector(q, load3(block, mode.pull, i), pull, weights(rate, step), rotation(spin, step))
+    change = combine_vectors(1.0 / step, end, -1.0 / step, q)
+    store3(block, mode.shift_drift, i, drift_by_shift(spin, combine_vectors(0.5, q, 0.5, end), change))
 
 
 def advance_solid(
@@ -210,7 +224,7 @@ def advance_solid(
 def viscosity_beside(
     _flow: object, _host: int, _x: Vector, _t: float, _l: Tensor, _coefficients: Any
 ) -> float:
-    """Return :attr:`foamprb.cloud.viscosity.VaryingViscosity.beside`, Pa s."""
+    """Return :attr:`QuadraticInVarying.beside`, Pa s."""
     raise NotImplementedError
 
 
@@ -313,11 +327,36 @@ def update_drop(
     store3(block, second.laplacian, i, v)
 
 
+def advance_ahead(block: Block, i: int, mu_f: float, mu_S: Third, mu_v: Vector) -> None:
+    """Store B of lane i where the step is to lead, with μ S and μ v, Pa/m², there; the way and the drift."""
+    a, mu_s, eta = block[at.R * LANES + i], block[at.mu * LANES + i], block[at.eta * LANES + i]
+    h, growth = block[at.dt * LANES + i], combine(source(eta / mu_f) * a / mu_f, mu_S, 0.0, mu_S)
+    w, spin = weights(block[mode.recovery * LANES + i], h), load3(block, mode.fluid_spin, i)
+    end = advanced(load7(block, mode.B, i), load7(block, mode.growth, i), growth, w, rotation(spin, h))
+    rate = relaxation_of_shift(mu_f, mu_s, eta)
+    first = load3(block, mode.shift_drift, i)
+    store_shift_drift(block, i, scale_vector(rate, shift(a, 1.0, mu_s, mu_v)), rate, spin, h)
+    # The path takes twice the change from here on.
+    mean = combine_vectors(0.5, first, 0.5, load3(block, mode.shift_drift, i))
+    store3(block, mode.shift_drift, i, mean)
+    store7(block, mode.end, i, end)
+    store7(block, mode.next_growth, i, growth)
+    store3(block, mode.way, i, minus(load3(block, at.new_x, i), load3(block, at.x, i)))
+
+
+def mode_on_way(block: Block, i: int, share: float) -> Third:
+    """Return B of lane i at a share of the way; ``share`` is 0 at the start of a step."""
+    way, moved = load3(block, mode.way, i), minus(load3(block, at.new_x, i), load3(block, at.x, i))
+    length_2 = inner(way, way)
+    gone = select((share > 0.0) & (length_2 > 0.0), inner(moved, way) / (length_2 + 1e-300), 0.0)
+    return combine(1.0 - gone, load7(block, mode.B, i), gone, load7(block, mode.end, i))
+
+
 @traced
 def carry_solid(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add the drift of solids to the velocity of the fluid."""
     for i in range(LANES):
-        E, B = sym(load9(block, at.l, i)), load7(block, mode.middle, i)
+        E, B = sym(load9(block, at.l, i)), mode_on_way(block, i, share)
         drift = drift_of_solid(block[at.R * LANES + i], B, E)
         add3(block, at.u, i, plus(drift, load3(block, mode.shift_drift, i)))
 
@@ -330,33 +369,37 @@ def carry_drop(block: Block, medium: Medium, share: float, coefficients: Any) ->
         A = scale(0.5, dev(dot(F, transpose(F))))
         ratio = block[at.eta * LANES + i] / viscosity_at(block, i, medium)
         flow = Parts(load7(block, second.S, i), load9(block, second.T, i), load3(block, second.laplacian, i))
-        B = load7(block, mode.middle, i)
+        B = mode_on_way(block, i, share)
         add3(block, at.u, i, drift_of_drop(block[at.R * LANES + i], ratio, A, B, E, flow))
 
 
-def stays_resolved(flow: object, s: Scratch, i: int, medium: Medium, _coefficients: Any) -> float:
-    """Return the share of a step of lane i in which the source of B changes little, or changes B little."""
+def look_at_end(flow: object, s: Scratch, i: int, medium: Medium, _coefficients: Any) -> None:
+    """Advance the mode of lane i to where the step is to lead."""
     block = s.block
     t, h = block[at.t * LANES + i], block[at.dt * LANES + i]
-    S = parts(curvature(flow, s.ahead[i], load3(block, at.new_x, i), t + h)).S
-    c = source(block[at.eta * LANES + i] / viscosity_at(block, i, medium)) * block[at.R * LANES + i]
-    return share_resolved(block, i, c, S)
+    S, _, v = parts(curvature(flow, s.ahead[i], load3(block, at.new_x, i), t + h))
+    mu_f = viscosity_at(block, i, medium)
+    advance_ahead(block, i, mu_f, combine(mu_f, S, 0.0, S), scale_vector(mu_f, v))
 
 
-def stays_resolved_in_varying(flow: object, s: Scratch, i: int, _medium: Medium, coefficients: Any) -> float:
-    """Return the same in a fluid whose viscosity varies."""
+def look_in_varying(flow: object, s: Scratch, i: int, _medium: Medium, coefficients: Any) -> None:
+    """Do the same in a fluid whose viscosity varies."""
     block = s.block
     a, t = block[at.R * LANES + i], block[at.t * LANES + i] + block[at.dt * LANES + i]
-    mu_S, _, mu_f = stress_parts(flow, s.ahead[i], load3(block, at.new_x, i), t, a, coefficients)
-    return share_resolved(block, i, source(block[at.eta * LANES + i] / mu_f) * a / mu_f, mu_S)
+    mu_S, mu_v, mu_f = stress_parts(flow, s.ahead[i], load3(block, at.new_x, i), t, a, coefficients)
+    advance_ahead(block, i, mu_f, mu_S, mu_v)
 
 
-def share_resolved(block: Block, i: int, c: float, S: Third) -> float:
-    """Return the share of a step of lane i to a source c S of B."""
-    h = block[at.dt * LANES + i]
-    before = load7(block, mode.growth, i)
-    change = square(combine(c, S, -1.0, before)) ** 0.5
-    largest = max(square(before) ** 0.5, c * square(S) ** 0.5)
+def stays_resolved(_flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> float:
+    """Return the share of a step of lane i in which the source of B changes little, or changes B little."""
+    block = s.block
+    h, before, after = (
+        block[at.dt * LANES + i],
+        load7(block, mode.growth, i),
+        load7(block, mode.next_growth, i),
+    )
+    change = square(combine(1.0, after, -1.0, before)) ** 0.5
+    largest = max(square(before) ** 0.5, square(after) ** 0.5)
     time = min(h, 1.0 / block[mode.recovery * LANES + i])
     allowed = max(_CHANGE * largest, _CHANGE_OF_B / time)
     return float(min(1.0, allowed / (change + 1e-300)))
@@ -386,12 +429,13 @@ def turn_mode(block: Block, i: int, turn: Tensor) -> None:
 
 
 def _stages(
-    update: Callable[..., None], carry: Callable[..., None], resolve: Callable[..., float] = stays_resolved
+    update: Callable[..., None], carry: Callable[..., None], look: Callable[..., None]
 ) -> tuple[Stage, ...]:
     return (
-        Stage("start", update, writes=(mode.B, mode.middle), before=(at.l,)),
-        Stage("accept", resolve),
-        Stage("fluid", carry, reads=(mode.middle,), adds=(at.u,), before=(at.l,)),
+        Stage("start", update, writes=(mode.B,), before=(at.l,)),
+        Stage("ahead", look, writes=(mode.end,)),
+        Stage("accept", stays_resolved),
+        Stage("fluid", carry, reads=(mode.B, mode.end), adds=(at.u,), before=(at.l,)),
     )
 
 
@@ -405,7 +449,7 @@ class QuadraticSolid(Surrounding):
     measures: ClassVar = ("quadraticShape", "bulletAmplitude")
     surveys: ClassVar = ("F0",)
     switches: ClassVar = {"updates_end": 1}
-    stages: ClassVar = _stages(update_solid, carry_solid)
+    stages: ClassVar = _stages(update_solid, carry_solid, look_at_end)
 
     def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
         """Return how mirrors turn the mode, and contact."""
@@ -441,9 +485,12 @@ class QuadraticSolid(Surrounding):
 class QuadraticInVarying(QuadraticSolid):
     """Quadratic mode of elastic bodies in a fluid whose viscosity varies."""
 
-    fluid: VaryingViscosity
+    fluid: Surrounding
+    """Its viscosity."""
+    beside: Callable[..., Any]
+    """``beside(flow, host, x, t, l, coefficients) -> mu``: μ_f at a point, Pa s."""
 
-    stages: ClassVar = _stages(update_in_varying, carry_solid, stays_resolved_in_varying)
+    stages: ClassVar = _stages(update_in_varying, carry_solid, look_in_varying)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:
         """Return those of the fluid."""
@@ -451,13 +498,7 @@ class QuadraticInVarying(QuadraticSolid):
 
     def slots(self, inertia: bool) -> Slots:
         """Return also the viscosity at a point."""
-        return {**super().slots(inertia), viscosity_beside: type(self.fluid).beside}
-
-
-def in_fluid(model: Surrounding, mu: float | VaryingViscosity) -> Surrounding:
-    """Return a model of the surroundings as it acts in a fluid: the mode of solids depends on it."""
-    varies = type(model) is QuadraticSolid and isinstance(mu, VaryingViscosity)
-    return QuadraticInVarying(fluid=mu) if varies and isinstance(mu, VaryingViscosity) else model
+        return {**super().slots(inertia), viscosity_beside: self.beside}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -465,4 +506,4 @@ class QuadraticDrop(QuadraticSolid):
     """Quadratic mode of drops."""
 
     rows: ClassVar = (QuadraticRows, SecondRows)
-    stages: ClassVar = _stages(update_drop, carry_drop)
+    stages: ClassVar = _stages(update_drop, carry_drop, look_at_end)
