@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from foamprb.dictionary.files import existing
 from foamprb.dictionary.mistakes import Mistake
+from foamprb.dictionary.patterns import matches
 from foamprb.dictionary.tree import CaseFile, Dictionary, DictionaryList, Entry, Stream, real, unquoted
 from foamprb.errors import InputError, suggestion
 
@@ -30,7 +31,7 @@ def read_dictionary(path: Path, case: Path, warn: bool = False) -> Dictionary:
     * ``$:a.b``, sought from the top of the file; ``$.name`` and ``$..name``, sought in this dictionary and in
       the enclosing one only;
     * ``${:$name}``, whose name has the value of another macro or of a variable of the environment;
-    * ``$name;`` in place of an entry, which merges the dictionary ``name``;
+    * ``$name;`` in place of an entry, which merges the dictionary ``name``, by its key or by a pattern;
     * ``#include``, ``#includeIfPresent``, ``#sinclude`` and ``#includeEtc``.
 
     As in OpenFOAM, a macro can name entries that are complete before it; its own dictionary is not.
@@ -133,8 +134,8 @@ _TOKEN = re.compile(
     | (?P<token> "(?:\\.|[^"\\])*"                          # a string
                | \#\{.*?\#\}                                # code
                | \$\{(?:[^\s{}]|\$\{[^\s{}]*\})*\}
-               | [{}()\[\];]
-               | [A-Za-z_][^\s"/;{}()\[\]]* (?: \( [^\s"/;{}()\[\]]* \) [^\s"/;{}()\[\]]* )+ (?=\s)  # out(2)
+               | [{}()\[\];]                                 # below: out(2)
+               | [A-Za-z_][^\s"/;{}()\[\]]* (?: \( [^\s"/;{}()\[\]]* \) [^\s"/;{}()\[\]]* )+ (?=[\s;])
                | (?: [^\s"/;{}()\[\]] | /(?![/*]) )+ )      # a word or number
     """,
     re.DOTALL | re.VERBOSE,
@@ -362,8 +363,6 @@ class _Parser:
         template = self.look_up(token, dictionary)
         if not isinstance(template, Dictionary):
             raise self.mistake(token, f"stands where a key is expected, but is {template}, not a dictionary.")
-        if self.take().text != ";":
-            raise self.mistake(token, "has no closing ;.")
         dictionary.merge(self.copy(token, template, template.key, dictionary).dictionary())
 
     def function(self, directive: _Token, parent: Dictionary) -> Stream:
@@ -471,6 +470,10 @@ def _descend(dictionary: Dictionary, name: str) -> Entry | None:
     """Find ``a.b`` or, in a nested dictionary ``a``, ``b``."""
     if name in dictionary.entries:
         return dictionary.entries[name]
+    for key in reversed(dictionary.entries):
+        # The last pattern counts.
+        if key.startswith('"') and matches(key[1:-1], name):
+            return dictionary.entries[key]
     first, _, inner_name = name.partition(".")
     inner = dictionary.entries.get(first)
     return _descend(inner, inner_name) if isinstance(inner, Dictionary) and inner_name else None
