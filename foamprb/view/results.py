@@ -12,13 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.source import FlowSource
-from foamprb.flow.read.vtk_guard import require_survival
-from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
 from foamprb.results.folder import FATES, HOW, ResultsFolder
 from foamprb.results.intervals import share
@@ -201,7 +197,6 @@ class Run:
             glyph, d, status = (arrays_of_file[name] for name in SOURCES)
             arrays_of_file |= derived(glyph, d, status, following)
         n = len(data.points)
-        # In a file without bodies VTK does not keep the number of components.
         shapes = {name: (n,) if self.components[name] == 1 else (n, self.components[name]) for name in names}
         values = {name: arrays_of_file[name].reshape(shape) for name, shape in shapes.items()}
         return PointCloud(entry.time, data.points.astype(np.float64), values, self.units, self.names)
@@ -354,49 +349,11 @@ def _units_of(data: PolyFile) -> dict[str, str]:
 
 
 def _read(path: Path, arrays: Collection[str] | None = None) -> PolyFile:
-    """Read a file of points or lines, with all its point arrays or some of them.
-
-    VTK reads files that are not foamprb's, after a second process has read them.
-    """
+    """Read a file of points or lines that foamprb wrote, with all its point arrays or some of them."""
     if not path.exists():
         raise InputError(f"{path}: missing, though the list of files names it. {_AGAIN}")
     with reading(path, remedy=_AGAIN):
-        files = files_of(path)
-        pieces = [file for file in files if file.suffix == ".vtp"]
-        sealed = [is_sealed(file) for file in pieces]
-        if all(sealed):
-            return joined([read_own(file, arrays) for file in pieces])
-        for file in files:
-            require_survival(file)
-    reader = vtkXMLPPolyDataReader() if path.suffix == ".pvtp" else vtkXMLPolyDataReader()
-    reader.SetFileName(str(path))
-    with vtk_messages() as said:
-        reader.Update()
-    if said.errors:
-        raise InputError(f"{path}: damaged ({said.errors[0].rstrip('.')}). {_AGAIN}")
-    with reading(path, "is none of foamprb's"):
-        return _of_vtk(reader.GetOutput())
-
-
-def _of_vtk(data: Any) -> PolyFile:
-    """Return points, lines and arrays that VTK has read."""
-    at_points, at_lines, fields = (
-        [part.GetAbstractArray(k) for k in range(part.GetNumberOfArrays())]
-        for part in (data.GetPointData(), data.GetCellData(), data.GetFieldData())
-    )
-    texts = [array for array in fields if array.IsA("vtkStringArray")]
-    lines, points = data.GetLines(), data.GetPoints()
-    start, order = (
-        vtk_to_numpy(part).astype(np.int64)
-        for part in (lines.GetOffsetsArray(), lines.GetConnectivityArray())
-    )
-    if not ((order >= 0) & (order < data.GetNumberOfPoints())).all() or (np.diff(start) < 0).any():
-        raise ValueError("its lines have points that are not there")
-    return PolyFile(
-        np.zeros((0, 3)) if points is None else vtk_to_numpy(points.GetData()),
-        {array.GetName(): vtk_to_numpy(array) for array in at_points},
-        start if len(start) else np.zeros(1, dtype=np.int64),
-        order,
-        {array.GetName(): vtk_to_numpy(array) for array in at_lines},
-        {t.GetName(): tuple(t.GetValue(k) for k in range(t.GetNumberOfValues())) for t in texts},
-    )
+        pieces = [file for file in files_of(path) if file.suffix == ".vtp"]
+        for file in pieces:
+            is_sealed(file)
+        return joined([read_own(file, arrays) for file in pieces])
