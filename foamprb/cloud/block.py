@@ -67,6 +67,7 @@ class Rows(NamedTuple):
     lame: Annotated[int, Row(1, "Pa", "Lame's first parameter of the solid", 1.0, of="lame")]
     k: Annotated[int, Row(1, "1", "third parameter of the solid, if it has one", 1.0, of="k")]
     eta: Annotated[int, Row(1, "Pa s", "viscosity of the solid", of="eta")]
+    fluid: Annotated[int, Row(1, "Pa s", "viscosity of the fluid at the start of the step", 1.0)]
     inertia: Annotated[
         int, Row(1, "m/kg", "5/(ρ_s R²), the inverse inertia of the shape per volume", 5.0, lasting=True)
     ]

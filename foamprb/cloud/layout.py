@@ -61,7 +61,7 @@ _ROOMS: tuple[tuple[int, tuple[str, ...]], ...] = (
     (20, ("SecondRows",)),
     (40, ("FaxenRows",)),
     (100, ("WallRows",)),
-    (28, ("BrownianRows",)),
+    (37, ("BrownianRows",)),
     (8, ("SwimmerRows",)),
     (12, ("EddyRows",)),
     (8, ("FrameRows",)),

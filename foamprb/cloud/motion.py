@@ -45,6 +45,7 @@ from foamprb.cloud.contact import first_contact, gap_of_lane, on_cubic, record_c
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
 from foamprb.cloud.paths import note_passage
+from foamprb.cloud.pressing import push_out
 from foamprb.cloud.state import Particles, Reason, Status
 from foamprb.compile.link import separate, slot
 from foamprb.compile.record import record
@@ -79,6 +80,8 @@ _MAX_PATCHES = 1000
 _STALL = 1e-9
 """Share of a way below which a particle that goes back and forth between two patches makes no progress."""
 _HALVINGS = 40
+_OFF_WALL = 1e-6
+"""Share of the way into a wall at which a walk away from it begins."""
 _NO_NORMAL = (0.0, 0.0, 0.0)
 
 
@@ -507,12 +510,20 @@ def move_centre(
 
 @separate
 def move_back(
-    flow: object, patches: PatchTable, s: Scratch, i: int, t: float, x0: Vector, x1: Vector
+    flow: object,
+    patches: PatchTable,
+    s: Scratch,
+    i: int,
+    t: float,
+    x0: Vector,
+    x1: Vector,
+    undone: float = 0.0,
 ) -> tuple[Vector, bool]:
     """Move the centre from x0 back to x1 at the time t, through mirrors and coupled patches.
 
-    A patch of another kind that lies between, by round-off, does not stop it. Returns the place, and whether
-    the centre went there.
+    A wall from which bodies rebound undoes the way into it, ``undone`` 1, or mirrors it, 2. A patch of
+    another kind that lies between, by round-off, does not stop the centre. Returns the place, and whether the
+    centre went there.
     """
     for _ in range(_MAX_BOUNCES):
         host, fraction, patch, triangle = walk(flow, s.host[i], x0, t, x1, t)
@@ -521,10 +532,16 @@ def move_back(
         s.host[i] = host
         if patch < 0:
             return x1, True
-        code = patches.code[patch]
-        if code not in (MIRROR, CYCLIC):
+        code, y = patches.code[patch], between(x0, x1, fraction)
+        if code in (MIRROR, CYCLIC):
+            x0, x1, _, _ = cross_patch(flow, s, i, patch, code, triangle, t, y, x1)
+            continue
+        n = normal(flow, triangle, y, t)
+        into = inner(minus(x1, y), n)
+        if code != REBOUND or undone == 0.0 or into >= 0.0:
             return x1, True
-        x0, x1, _, _ = cross_patch(flow, s, i, patch, code, triangle, t, between(x0, x1, fraction), x1)
+        bounce_along(s.block, i, n)
+        x0, x1 = plus_scaled(y, -_OFF_WALL * into, n), plus_scaled(x1, -undone * into, n)
     return x0, True
 
 
@@ -623,7 +640,8 @@ def meet_wall(
     n, W = normal(flow, triangle, x, t + h), wall_velocity(flow, triangle, x, t + h)
     fall = inner(minus(goal, start), n) - h * inner(W, n)
     reflected = s.switches.reflects_steps > 0
-    if after == -math.inf:
+    through = after == -math.inf
+    if through:
         F = load9(block, at.F, i)
         room, _, _ = gap_of_lane(flow, block, i, s.host[i], x, F, t + h)
         # Infinite for a body that is a point to walls.
@@ -632,20 +650,38 @@ def meet_wall(
     if before == math.inf or after - fall > before + _OTHER_WALL * R:
         before = after - fall
     rests = before <= _TOUCH * R
-    if bouncing > 0 and not (rests or turned):
+    # A step that ended on the wall, by chance, was no contact: a body at rest has no speed towards the wall.
+    towards = inner(minus(load3(block, at.v, i), W), n)
+    came = inner(minus(load3(block, at.new_v, i), W), n) < 0.5 * min(towards, 0.0)
+    if bouncing > 0 and not turned and (came or not rests):
         return bounce(flow, patches, s, i, way, met, n, before, after, t, h)
     f = before / (before - after) if before > 0.0 else 0.0
     if not rests:
         record_contact(s, i, patch, t + f * h, between(start, goal, f), n)
     e = 0.0 if rests and bouncing > 0 else patches.e[patch]
+    # Without inertia friction acts on the way.
+    mu = patches.mu[patch] if bouncing > 0 else 0.0
     v = minus(load3(block, at.v, i), W)
-    store3(block, at.v, i, plus(W, rebound_velocity(v, n, e, patches.mu[patch])))
+    store3(block, at.v, i, plus(W, rebound_velocity(v, n, e, mu)))
     bounce_along(block, i, n)
-    back = -(1.0 - f) * min(fall, 0.0) * (2.0 if reflected else 1.0)
-    place, went = move_back(flow, patches, s, i, t + h, x, plus_scaled(goal, back, n))
-    if went:
+    undone = 2.0 if reflected else 1.0
+    if through or bouncing > 0:
+        goal = plus_scaled(goal, -(1.0 - f) * min(fall, 0.0) * undone, n)
+    else:
+        goal = push_out(block, i, n, goal, -after * undone, patches.mu[patch])
+    x = plus_scaled(x, -_OFF_WALL * min(fall, 0.0), n) if through else x
+    for _ in range(_MAX_BOUNCES):
+        place, went = move_back(flow, patches, s, i, t + h, x, goal, undone)
+        if not went:
+            break
         store3(block, at.x, i, place)
-        block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i, t + h)
+        into, patch, triangle = clearance_of(flow, s, i, t + h)
+        block[at.clearance * LANES + i] = into
+        if into >= -_TOUCH * R or patch < 0 or patches.code[patch] != REBOUND:
+            break
+        x, n = place, normal(flow, triangle, place, t + h)
+        bounce_along(block, i, n)
+        goal = plus_scaled(x, -into, n) if bouncing > 0 else push_out(block, i, n, x, -into, 0.0)
     return 1.0
 
 

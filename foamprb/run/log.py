@@ -250,7 +250,7 @@ class RunLog:
         """Log number and share of the particles by fate and patch; their sum is the number injected."""
         job, counts = self._job, self._job.cloud.counts()
         answers = job.cloud.map_in_flow(_fates_of, len(job.patch_names))
-        at_patches, close = zip(*answers, strict=True)
+        at_patches, close, touched = zip(*answers, strict=True)
         log.info("Fate of the particles")
         injected = sum(counts.values()) - counts[Status.PENDING]
         log.info("    %-24s %10d", "injected", injected)
@@ -264,6 +264,9 @@ class RunLog:
                 at = sum(table[status, index] for table in at_patches)
                 if at:
                     log.info("        %-20s %10d%s", name, at, _share(at, injected))
+            if status is Status.STUCK and (n := sum(touched)):
+                log.info("        %-20s %10d   of the others %s", "touched at release", n,
+                         share(counts[status] - n, injected - n).percent())  # fmt: skip
         if any(isinstance(model, WallLift) for model in job.cloud.models.surroundings):
             log.info("    %s", share_of_close(*(sum(numbers) for numbers in zip(*close, strict=True))))
         for line in self._slip.lines():
@@ -328,12 +331,12 @@ def _unstable_of(
 
 def _fates_of(
     p: Particles, _flow: Sampled, _t: float, patches: int
-) -> tuple[NDArray[np.int64], tuple[float, float, int]]:
-    """Return the numbers of particles by status and patch, and :func:`count_close`."""
+) -> tuple[NDArray[np.int64], tuple[float, float, int], int]:
+    """Return the numbers of particles by status and patch, :func:`count_close`, and how many never moved."""
     numbers = np.zeros((len(Status), patches + 1), dtype=np.int64)
     # The last column takes the particles that are on no patch.
     np.add.at(numbers, (p.status, p.patch), 1)
-    return numbers, count_close(p)
+    return numbers, count_close(p), int(((p.status == Status.STUCK) & (p.t <= p.t0)).sum())
 
 
 @contextmanager

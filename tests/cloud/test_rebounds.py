@@ -165,6 +165,14 @@ def test_a_body_that_stays_in_touch_bounced_when_it_came():
     assert 0.0 < found.t[0] < 0.01
 
 
+def test_a_ball_whose_step_ends_on_the_wall_bounces():
+    """To a ten millionth of its radius, in the hundredth step; it flies up for the next fifty."""
+    cloud = falling(D / 2 + 100 * 1e-5 * SPEED + 1e-7 * D, v=(0.0, -SPEED, 0.0), e=1.0, mu=0.0)
+    cloud.advance(150)
+    height = RADIUS + cloud.particles.x[0, 1] - D / 2
+    assert height == pytest.approx(50 * 1e-5 * SPEED, rel=1e-3)
+
+
 def test_sticking_particles_do_not_rebound():
     p = spheres([[0.05, -RADIUS + 2 * D, 0.0]], d=D, rho=2560.0, mu=10.0)
     p.v[:] = (0.0, -SPEED, 0.0)

@@ -235,3 +235,10 @@ def test_warnings_of_validity_are_in_the_log_and_in_the_record(caplog):
     job.cloud.particles.R[:] *= 100.0
     text = "the particle Reynolds number is"
     assert any(text in line for line in describe(job.settings, job.cloud, 1)["warnings"])
+
+
+def test_bodies_that_stuck_at_their_release_are_counted():
+    p = spheres(np.zeros((3, 3)), d=1e-3, rho=1000.0, mu=1.0)
+    p.status[:], p.patch[:], p.t[:] = (Status.STUCK, Status.STUCK, Status.ACTIVE), (0, 0, -1), (0.0, 1.0, 0.0)
+    numbers, _, touched = log_module._fates_of(p, None, 1.0, 1)
+    assert (numbers[Status.STUCK, 0], touched) == (2, 1)

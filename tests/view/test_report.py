@@ -19,7 +19,7 @@ from foamprb.view.geometry import Surface
 from foamprb.view.report import plots
 from foamprb.view.report.deposits import deposits
 from foamprb.view.report.page import table
-from foamprb.view.report.report import write_report
+from foamprb.view.report.report import stuck_at_release, write_report
 
 N = 60
 LARGEST = {
@@ -325,3 +325,13 @@ def test_few_deposits_are_dots():
         x = np.column_stack([np.linspace(0.1, 0.9, n), np.full(n, 0.5), np.zeros(n)])
         svg = plots.unrolled(deposits(tube(), x)).svg
         assert ("particles per area" in svg) == painted
+
+
+def test_bodies_that_touched_a_wall_at_their_release_are_told():
+    fates = {
+        "fate": np.array(["stuck"] * 77 + ["escaped"] * 23), "t0": np.ones(100),
+        "t1": np.where(np.arange(100) < 50, 1.0, 2.0),
+    }  # fmt: skip
+    said = stuck_at_release(fates, 100)
+    assert said.startswith("stuck 77, of these 50 touched at release; of the others 54")
+    assert stuck_at_release({**fates, "t1": np.full(100, 2.0)}, 100) == ""

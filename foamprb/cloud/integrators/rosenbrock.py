@@ -217,6 +217,7 @@ def first_inertial(block: Block, medium: Medium) -> None:
         # Of the flow, and with the surroundings.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
         mark_disturbed(block, i)
+        block[at.fluid * LANES + i] = viscosity_at(block, i, medium)
         G = dot(Q, F)
         # A F⁻¹ = A Fᵀ b⁻¹, with a diagonal b in the particle frame.
         L = over_b(_squares(stretches), dot(dot(Q, A), transpose(G)))

@@ -90,6 +90,7 @@ from foamprb.cloud.integrators.adaptive import (
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, layout, offsets
 from foamprb.cloud.paths import RecordedRows
+from foamprb.cloud.pressing import push_along_mobility, push_out
 from foamprb.compile.link import traced
 
 
@@ -165,6 +166,7 @@ def first_inertialess(block: Block, medium: Medium) -> None:
         # Of the flow, and with the surroundings.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
         mark_disturbed(block, i)
+        block[at.fluid * LANES + i] = viscosity_at(block, i, medium)
         G = dot(Q, F)
         b_e = finger_of_body_in_frame(stretches, G, load9(block, at.M, i))
         m, sigma = _response(block, i, medium, stretches, b_e)
@@ -413,6 +415,7 @@ STOKES = Integrator(
         last_argument: last_inertialess,
         third_slope: third_inertialess,
         end_slope: end_inertialess,
+        push_out: push_along_mobility,
     },
     switches=Switches(updates_end=1),
     adaptive=True,

@@ -175,6 +175,12 @@ def curved_velocity(_block: Block, _i: int, _n: Vector, _h: Scalar, _e: Scalar, 
 
 
 @choice
+def thermal_gradient(_block: Block, _i: int) -> Tensor:
+    """Return the gradient by which the stress of molecules acts on a body, 1/s; by default none."""
+    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+@choice
 def thermal_force(_block: Block, _i: int) -> Vector:
     """Return the force of molecules, N; by default none."""
     return 0.0, 0.0, 0.0

@@ -28,10 +28,14 @@ from foamprb.body.tensor import (
     Tensor,
     Vector,
     add,
+    ddot,
     dot,
     dot_vector,
     from_frame,
+    inner,
+    plus_scaled,
     scale,
+    scale_vector,
     select,
     to_frame,
     transpose,
@@ -54,7 +58,8 @@ from foamprb.cloud.block import (
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
-from foamprb.cloud.motion import turn_along
+from foamprb.cloud.motion import bounce_along, turn_along
+from foamprb.cloud.pressing import push_of, stress_of
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import (
     Remarks,
@@ -62,9 +67,11 @@ from foamprb.cloud.surroundings.base import (
     Surrounding,
     Survey,
     add3,
+    add9,
     hindrance_by_walls,
     resistances,
     thermal_force,
+    thermal_gradient,
     volume_at_rest,
 )
 from foamprb.compile.link import Slots, separate, traced
@@ -98,6 +105,8 @@ class BrownianRows(NamedTuple):
     nine: Annotated[int, Row(9, "1", "normal deviates of the stress")]
     thermal_force: Annotated[int, Row(3, "N", "force of the molecules")]
     thermal_stress: Annotated[int, Row(9, "Pa", "stress of the molecules")]
+    thermal_gradient: Annotated[int, Row(9, "1/s", "gradient whose traction is that stress")]
+    held: Annotated[int, Row(1, "s", "how long force and stress last")]
 
 
 thermal = offsets(BrownianRows)
@@ -132,13 +141,14 @@ def hold_of_molecules(block: Block, i: int, medium: Medium, coefficients: Any) -
     return longest if longest > 0.0 else 0.0
 
 
-def compute_force(block: Block, medium: Medium, share: float, coefficients: Any) -> None:
-    """Compute force and stress of the lanes whose random numbers are new."""
+def act(block: Block, medium: Medium, share: float, coefficients: Any) -> None:
+    """Compute force and stress of the lanes whose random numbers are new, and the gradient of the stress."""
     new = 0
     for i in range(LANES):
         new += block[thermal.duration * LANES + i] > 0.0
     if new > 0 and share == 0.0:
         force_stage(block, medium, coefficients[0])
+    gradient_stage(block, medium, coefficients[2])
 
 
 @traced
@@ -158,7 +168,20 @@ def force_stage(block: Block, medium: Medium, kT: float) -> None:
         T = from_frame(Q, random_stress(r, size / np.sqrt(volume), load9(block, thermal.nine, i), relaxing))
         store3(block, thermal.thermal_force, i, choose3(fresh, f, load3(block, thermal.thermal_force, i)))
         store9(block, thermal.thermal_stress, i, choose(fresh, T, load9(block, thermal.thermal_stress, i)))
+        block[thermal.held * LANES + i] = select(fresh, duration, block[thermal.held * LANES + i])
         block[thermal.duration * LANES + i] = 0.0
+
+
+@traced
+def gradient_stage(block: Block, medium: Medium, shape: float) -> None:
+    """Compute the gradient whose traction on the body at rest is the stress, unless only the force acts."""
+    deforms = shape > 0.0
+    for i in range(LANES):
+        Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
+        T = to_frame(Q, load9(block, thermal.thermal_stress, i))
+        c = 1.0 / viscosity_at(block, i, medium)
+        l = response(shape_resistance(stretches, load_integrals(block, i), 1.0), scale(c, T))
+        store9(block, thermal.thermal_gradient, i, choose(deforms, from_frame(Q, l), scale(0.0, l)))
 
 
 @traced
@@ -166,18 +189,13 @@ def apply_force(block: Block, medium: Medium, share: float, coefficients: Any) -
     """Change u and l so that the fluid exerts the force and stress of the molecules.
 
     The velocity is u + K⁻¹·f_B/μ_f, with K without walls: the hindrance by walls is applied by ``wallLift``.
-    The gradient is added whose traction on the body at rest is the stress, unless only the force acts.
     """
-    deforms = coefficients[2] > 0.0
     for i in range(LANES):
         c = 1.0 / viscosity_at(block, i, medium)
         Q, k = load9(block, at.Q, i), resistances(block, i)
         f = dot_vector(Q, load3(block, thermal.thermal_force, i))
         add3(block, at.u, i, vector_dot((c * f[0] / k[0], c * f[1] / k[1], c * f[2] / k[2]), Q))
-        stretches, felt = load3(block, at.stretch, i), load9(block, at.l, i)
-        T = to_frame(Q, load9(block, thermal.thermal_stress, i))
-        l = response(shape_resistance(stretches, load_integrals(block, i), 1.0), scale(c, T))
-        store9(block, at.l, i, choose(deforms, add(felt, from_frame(Q, l)), felt))
+        add9(block, at.l, i, load9(block, thermal.thermal_gradient, i))
 
 
 @separate
@@ -186,6 +204,28 @@ def turn_force(block: Block, i: int, turn: Tensor) -> None:
     store3(block, thermal.thermal_force, i, dot_vector(turn, load3(block, thermal.thermal_force, i)))
     T = load9(block, thermal.thermal_stress, i)
     store9(block, thermal.thermal_stress, i, dot(turn, dot(T, transpose(turn))))
+
+
+@separate
+def mirror_force(block: Block, i: int, n: Vector) -> None:
+    """Mirror the part of force and stress that drives lane i into a wall of normal n."""
+    c = push_of(block, i, n, block[thermal.held * LANES + i])
+    f, T = load3(block, thermal.thermal_force, i), load9(block, thermal.thermal_stress, i)
+    volume = volume_at_rest(block, i)
+    # The mobility is symmetric: the rate of the gap by f and T is the power of these in the push.
+    by_force, by_stress = inner(c.v, f), volume * ddot(c.l, T)
+    if block[at.clearance * LANES + i] == math.inf:
+        # A point to walls.
+        N = -2.0 * min(by_force, 0.0) / inner(c.v, n)
+    else:
+        N = -2.0 * min(by_force + by_stress, 0.0) / c.rate
+        store9(block, thermal.thermal_stress, i, add(T, stress_of(scale_vector(N, n), c.r, volume)))
+    store3(block, thermal.thermal_force, i, plus_scaled(f, N, n))
+
+
+def gradient_of_molecules(block: Block, i: int) -> Tensor:
+    """Return the gradient by which their stress acts on lane i, 1/s."""
+    return load9(block, thermal.thermal_gradient, i)
 
 
 def force_of_molecules(block: Block, i: int) -> Vector:
@@ -208,7 +248,11 @@ class BrownianMotion(Surrounding):
     stages: ClassVar = (
         Stage("start", draw, writes=(thermal.three, thermal.nine)),
         Stage("hold", hold_of_molecules),
-        Stage("properties", compute_force, writes=(thermal.thermal_force, thermal.thermal_stress)),
+        Stage(
+            "properties",
+            act,
+            writes=(thermal.thermal_force, thermal.thermal_stress, thermal.thermal_gradient),
+        ),
         Stage("fluid", apply_force, reads=(thermal.thermal_force,), adds=(at.u, at.l)),
     )
 
@@ -217,8 +261,13 @@ class BrownianMotion(Surrounding):
         return BOLTZMANN * self.T, np.uint64(self.seed), float(self.shape)
 
     def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
-        """Return the force, which walls hinder too, and how mirrors turn it."""
-        return {thermal_force: force_of_molecules, turn_along: turn_force}
+        """Return force and gradient, which walls hinder and reflect, and how mirrors and walls turn them."""
+        return {
+            thermal_force: force_of_molecules,
+            thermal_gradient: gradient_of_molecules,
+            turn_along: turn_force,
+            bounce_along: mirror_force,
+        }
 
     def refuses(self, integrator: Integrator, liquid: bool) -> str:
         """Refuse ``paper``, whose resistances are those at the start of the step, and drops.

@@ -85,6 +85,7 @@ from foamprb.cloud.surroundings.base import (
     present_hindrance,
     resistances,
     thermal_force,
+    thermal_gradient,
     volume_at_rest,
 )
 from foamprb.compile.link import Slots, separate, slot, traced
@@ -446,8 +447,8 @@ def stresslet(block: Block, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) ->
 def body_gradient(block: Block, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
     """Return l_s of the body in lane i, in the particle frame, 1/s; without inertia, store its mobility.
 
-    Only here, l includes the gradient of the image of the load. The stresslet is then the difference from
-    that of a rigid body, which the hindrance includes.
+    Only here, l includes the gradient of the image of the load, and that by molecules. The stresslet is then
+    the difference from that of a rigid body, which the hindrance includes, less the stress of molecules.
     """
     Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
     m = body_mobility(block, i, medium, stretches)
@@ -456,7 +457,7 @@ def body_gradient(block: Block, i: int, medium: Medium, share: float) -> Tensor:
     store3(block, near.mobility_slip, i, m.slip)
     b_e = finger_of_body_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = incompressible_stress(block, i, stretches, b_e)
-    l = add(load9(block, at.l, i), load9(block, near.load_gradient, i))
+    l = add(add(load9(block, at.l, i), load9(block, near.load_gradient, i)), thermal_gradient(block, i))
     return velocity_gradient(m, scale(1.0 / viscosity_at(block, i, medium), tau), to_frame(Q, l))
 
 

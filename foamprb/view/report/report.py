@@ -243,7 +243,19 @@ def _fates(report: _Report) -> PageSection | None:
     listed = table(caption, ("where", *shown, "share"), rows)
     drawn = report.figure("fates", plots.shares(counts), "Particles by patch and fate.")
     drawn += _origins(report)
+    if said := stuck_at_release(report.fates, total):
+        listed += f"<p>{said}</p>"
     return PageSection("fates", "Fates", grid(drawn, listed))
+
+
+def stuck_at_release(fates: Mapping[str, Any], total: int) -> str:
+    """Return how many of the stuck bodies never moved, and the share of the others; empty if none did."""
+    stuck = fates["fate"] == "stuck"
+    touched, n = int((stuck & (fates["t1"] <= fates["t0"])).sum()), int(stuck.sum())
+    if touched == 0:
+        return ""
+    others = share(n - touched, total - touched).percent()
+    return f"stuck {n}, of these {touched} touched at release; of the others {others}"
 
 
 def _origins(report: _Report) -> str:

@@ -8,8 +8,9 @@ z = c sinh ξ/(cosh ξ − cos η), ρ = c sin η/(cosh ξ − cos η): the wall
 solve Stokes' equations of viscosity 1 if div u = 0. The divergence is harmonic, so it vanishes everywhere if
 it does on both surfaces. The velocity there gives U₀, U₂ and w from Q, and the divergence there gives Q.
 
-Across the wall the flow has a stream function ψ, u_z = −ψ_ρ/ρ and u_ρ = ψ_z/ρ, with modes in ξ for each of
-P_{n−1}(cos η) − P_{n+1}(cos η) (Stimson & Jeffery 1926). On the sphere their values and slopes are those of ψ.
+Across the wall the flow has a stream function ψ, u_z = −ψ_ρ/ρ and u_ρ = ψ_z/ρ, with modes in ξ for each
+of P_{n−1}(cos η) − P_{n+1}(cos η) (Stimson & Jeffery 1926). Their values and slopes on the sphere follow from
+those of ψ.
 """
 
 from __future__ import annotations

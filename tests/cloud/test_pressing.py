@@ -1,0 +1,191 @@
+"""Contact of bodies without inertia with walls: a reaction moves, turns and strains them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mesh_shapes import block, box_patches
+from scipy.stats import kstest
+
+from foamprb.body.brownian import BOLTZMANN
+from foamprb.cloud.block import Medium, at, idle_lanes, new_block, new_frames, new_integrals, store9
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.layout import layout
+from foamprb.cloud.patches import Rebound
+from foamprb.cloud.pressing import push_of
+from foamprb.cloud.state import Status, set_rest_shape, spheres
+from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloud.surroundings.wall_lift import WallLift
+from foamprb.cloud.tracker import Models
+from foamprb.errors import ValidityWarning
+from foamprb.flow import analytic
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+
+STILL = analytic.shear_over_wall(0.0)
+UP = np.array([0.0, 0.0, 1.0])
+VOLUME = 4.0 / 3.0 * np.pi
+
+
+def tilted(ratio, degrees):
+    """Deformation gradient of a spheroid of volume 4π/3 whose axis leans that far from the floor."""
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    axis, b = np.array([c, 0.0, s]), ratio ** (-1.0 / 3.0)
+    return b * np.eye(3) + (ratio - 1.0) * b * np.outer(axis, axis)
+
+
+def resting(F, w, mu=1e7, rest=None):
+    """A unit body in contact with the floor z = 0, pressed by w μ_s, and its medium."""
+    p = spheres(
+        [[0.0, 0.0, np.linalg.norm(F[2])]], d=2.0, rho=1.0 + w * mu / VOLUME, mu=mu, poissons_ratio=0.4999
+    )
+    if rest is not None:
+        set_rest_shape(p, rest)
+        p.F0[:] = F.ravel()
+    p.F[:] = F.ravel()
+    return p
+
+
+def cloud_of(p, dt, around=()):
+    models = Models(integrator="stokes", surroundings=around)
+    return Cloud(p, STILL, Medium(1.0, 1.0, (0.0, 0.0, -1.0)), [Rebound()], dt, models, threads=1)
+
+
+def lean(p):
+    """Angles of the longest axes with the floor, degrees."""
+    F = p.F.reshape(-1, 3, 3)
+    return np.degrees(np.arcsin(abs(np.linalg.eigh(F @ F.transpose(0, 2, 1))[1][:, 2, 2])))
+
+
+def test_a_reaction_turns_a_rigid_spheroid_as_perrin_says():
+    """The rate of the gap is n·K⁻¹·n + |r × n|²/ζ_r, with Perrin's resistances of 3:1."""
+    rows = layout(at)
+    lanes = new_block(rows.rows)
+    idle_lanes(lanes, rows.initial, 1.0)
+    F, n = tilted(3.0, 45.0), tuple(UP)
+    store9(lanes, at.new_F, 0, tuple(F.ravel()))
+    store9(lanes, at.F, 0, tuple(F.ravel()))
+    new_frames(lanes)
+    store9(lanes, at.frame, 0, tuple(lanes[at.Q * 16 : (at.Q + 9) * 16 : 16]))
+    new_integrals(lanes)
+    lanes[at.eta * 16] = 1e9
+    c = push_of(lanes, 0, n, 0.0)
+    r = -F @ F.T @ UP / np.linalg.norm(F[2])
+    np.testing.assert_allclose(c.r, r, rtol=1e-12)
+    across = 0.5 / (0.97380 * 6.0 * np.pi) + 0.5 / (1.19787 * 6.0 * np.pi)
+    torque = np.cross(r, UP)
+    assert c.rate == pytest.approx(across + torque @ torque / (2.34077 * 8.0 * np.pi), rel=1e-5)
+    spin = 0.5 * np.array([c.l[7] - c.l[5], c.l[2] - c.l[6], c.l[3] - c.l[1]])
+    np.testing.assert_allclose(spin, torque / (2.34077 * 8.0 * np.pi), atol=1e-6)
+
+
+def test_a_rigid_spheroid_that_settles_on_its_tip_lies_down():
+    """3:1 from 45°, against (ζ_n s'² + ζ_r) dφ/dt = −W s'(φ) with Perrin's resistances."""
+    F = tilted(3.0, 45.0)
+    p = resting(F, 1e-7, rest=np.sort(np.linalg.svd(F)[1])[::-1])
+    cloud, found = cloud_of(p, 0.25), []
+    for _ in range(3):
+        cloud.advance(80)
+        found.append(lean(p)[0])
+    np.testing.assert_allclose(found, [29.066, 13.627, 3.084], atol=0.06)
+    assert p.x[0, 2] == pytest.approx(0.70134, abs=1e-3)
+
+
+@pytest.mark.parametrize(("w", "height", "wide"), [(2.0, 0.863544, 1.15802), (10.0, 0.580474, 1.72273)])
+def test_a_soft_sphere_is_pressed_as_the_minimum_of_its_energy(w, height, wide):
+    """ζ³ + ω ζ² = 1, ω = 3w/4π, b = (1/ζ, 1/ζ, ζ²): the first order in Δt is left."""
+    p = resting(np.eye(3), w, mu=1.0)
+    cloud_of(p, 0.02).advance(800)
+    assert p.x[0, 2] == pytest.approx(height, abs=3e-3)
+    b = p.F.reshape(3, 3) @ p.F.reshape(3, 3).T
+    np.testing.assert_allclose(np.diag(b), [wide, wide, height**2], rtol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("mu_W", "speed", "spin"), [(9.0, 5.0 / 7.0, 5.0 / 7.0), (3.0, 0.840845, 0.619366), (0.0, 1.0, 0.5)]
+)
+def test_a_rigid_sphere_on_a_floor_rolls_in_shear(mu_W, speed, spin):
+    """It rolls if friction exceeds 12π/7 μ_f κ R², and slides otherwise."""
+    p, dt, W = resting(np.eye(3), 1e-6), 0.005, 10.0
+    # Light, so that the inertia of body and fluid is small.
+    p.rho[:] *= 1e-6
+    flow, medium = analytic.shear_over_wall(1.0), Medium(1.0, 1e-6, (0.0, 0.0, -1e6))
+    Cloud(p, flow, medium, [Rebound(0.0, mu_W / W)], dt, Models(integrator="stokes"), threads=1).advance(200)
+    assert p.x[0, 0] == pytest.approx(speed, rel=2e-3)
+    F = p.F.reshape(3, 3)
+    assert np.arctan2(F[0, 2] - F[2, 0], F[0, 0] + F[2, 2]) == pytest.approx(spin, rel=2e-3)
+
+
+def box_of(n, radius, model, dt, steps):
+    """Bodies uniform in the unit cube whose faces are all walls, after steps."""
+    grid = block(3)
+    mesh = build_mesh(grid, box_patches(grid))
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    x = np.random.default_rng(3).uniform(0.01, 0.99, (n, 3))
+    p = spheres(x, d=2.0 * radius, rho=1.0, mu=1e9)
+    models = Models(integrator="stokes", surroundings=(model,), touching="centre")
+    rules = [Rebound()] * len(flow.patches)
+    cloud = Cloud(p, flow, Medium(1.0, 1.0, (0.0, 0.0, 0.0)), rules, dt, models, threads=1)
+    with pytest.warns(ValidityWarning, match="molecules move particles"):
+        cloud.advance(steps)
+    return p
+
+
+def test_no_body_leaves_a_closed_box():
+    """Random steps of a tenth of the box meet two walls at once near each edge."""
+    radius, kT = 1e-3, 1e-3
+    D = kT / (6.0 * np.pi * radius)
+    p = box_of(600, radius, BrownianMotion(T=kT / BOLTZMANN, shape=False), 0.005 / D, 100)
+    assert (p.status == Status.ACTIVE).all()
+    assert ((p.x >= 0.0) & (p.x <= 1.0)).all()
+    assert min(kstest(p.x[:, k], "uniform").pvalue for k in range(3)) > 1e-3
+
+
+# --- Molecules over a floor ---------------------------------------------------------------------------------
+
+KT = 1e-3
+D = KT / (6.0 * np.pi)
+"""Of a unit sphere in a fluid of viscosity 1."""
+
+
+def over_floor(n, F, rest, around, steps, dt=0.002):
+    """Stiff bodies with kT over the weight of 1, from exponential gaps on; their gaps in the end."""
+    weight = KT / VOLUME
+    height = np.linalg.norm(F[:, 2], axis=1) + np.random.default_rng(7).exponential(size=n)
+    p = spheres(np.stack([0 * height, 0 * height, height], axis=1), d=2.0, rho=1.0 + weight, mu=1e4 * KT)
+    if rest is not None:
+        set_rest_shape(p, rest)
+        p.F0[:] = F.reshape(n, 9)
+    p.F[:] = F.reshape(n, 9)
+    cloud_of(p, dt / D, around).advance(steps)
+    return p, p.x[:, 2] - np.linalg.norm(p.F.reshape(n, 3, 3)[:, 2], axis=1)
+
+
+MOLECULES = BrownianMotion(T=KT / BOLTZMANN)
+
+
+def test_molecules_keep_bodies_over_a_floor_in_boltzmanns_equilibrium():
+    """2:1 spheroids: the force that is held through sub-steps is mirrored, and torque and force together."""
+    random, n = np.random.default_rng(11), 500
+    angles, a = [], np.array([2.0 ** (2.0 / 3.0), 2.0 ** (-1.0 / 3.0)]) ** 2
+    while len(angles) < n:
+        q = random.uniform(-1.0, 1.0)
+        if random.random() < np.exp(a[1] ** 0.5 - np.sqrt(a[0] * q * q + a[1] * (1.0 - q * q))):
+            angles.append(np.degrees(np.arcsin(q)))
+    F = np.array([tilted(2.0, angle) for angle in angles])
+    p, gap = over_floor(n, F, np.sqrt(a[[0, 1, 1]]), (MOLECULES,), 150)
+    assert (p.status == Status.ACTIVE).all()
+    assert np.mean(gap < 0.05) == pytest.approx(0.0488, abs=3.0 * np.sqrt(0.0488 / n))
+    assert np.mean(gap < 0.002) < 0.002 + 4.0 * np.sqrt(0.002 / n)
+    assert np.mean(np.sin(np.radians(lean(p))) ** 2) == pytest.approx(0.2657, abs=0.035)
+
+
+def test_stiff_bodies_do_not_hover_by_the_stress_of_molecules():
+    """Their solid balances it: no stresslet. The order of the models is no matter."""
+    n, F = 160, np.tile(np.eye(3), (160, 1, 1))
+    found = [
+        over_floor(n, F, None, order, 60, 0.01)
+        for order in ((MOLECULES, WallLift()), (WallLift(), MOLECULES))
+    ]
+    assert np.array_equal(found[0][0].x, found[1][0].x)
+    assert found[0][1].mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
