@@ -48,7 +48,7 @@ from foamprb.cloud.tracker import Models, Tracker, available_threads, check, nev
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
-from foamprb.flow.base import Floats, Flow
+from foamprb.flow.base import Floats, Flow, Patch
 from foamprb.flow.fields import columns_of
 from foamprb.flow.nodes import NodeValues
 
@@ -170,7 +170,7 @@ class Cloud:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
         if "wall_velocity" in self.flow.kernels:
-            refuse_on_moving_mesh(around, self.interactions)
+            refuse_on_moving_mesh(around, self.flow.patches, self.interactions)
         self.map_ranks(_begin, around)
         self._warned: set[str] = set()
         self._next_check = self.step + _FIRST_CHECK
@@ -695,8 +695,14 @@ def _last_end(p: Particles) -> float:
     return float(p.t[p.status != Status.PENDING].max(initial=-np.inf))
 
 
-def refuse_on_moving_mesh(models: Sequence[Surrounding], interactions: Sequence[Interaction]) -> None:
+def refuse_on_moving_mesh(
+    models: Sequence[Surrounding], patches: Sequence[Patch], interactions: Sequence[Interaction]
+) -> None:
     """Raise InputError if a model or an interaction requires that walls are at rest."""
+    for model in models:
+        if model.walls(patches)[1]:
+            name = type(model).__name__
+            raise InputError(f"the mesh moves, but {name} requires walls at rest. Allowed: no {name}.")
     if any(isinstance(model, QuadraticSolid) for model in models):
         raise InputError("the mesh moves, but shapeModel quadratic requires walls at rest. Allowed: affine.")
     if any(isinstance(interaction, Adhere) for interaction in interactions):

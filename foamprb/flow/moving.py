@@ -505,6 +505,7 @@ class MovingFlow(SeriesFlow):
         self._apart = _apart(mesh, motion.piece, pieces, self._pitch)
         super().__init__(self._apart, *given, **options)
         self.mesh, self.bounds, self.width = mesh, (low, nodes.max(axis=0)), shortest_extent(mesh)
+        self._rows = np.array([self._poses(i) for i in range(len(motion.turns))])
         owner = mesh.owner[mesh.n_internal :]
         self._beyond = np.full(len(mesh.patches), -1, dtype=np.int32)
         for c in mesh.couplings:
@@ -540,33 +541,34 @@ class MovingFlow(SeriesFlow):
     ) -> MovingArrays:
         """Return the arrays for the kernels; see :meth:`SeriesFlow.arrays`."""
         series = super().arrays(reach, touchable, sight, seen)
-        n = len(self.motion.turns)
-        rows = np.array([self._poses(i) for i in range(n)])
+        for level in self._levels[:-1]:
+            self._set_means(self._index(level), self._index(level + 1))
         end = self.times[0] + self.period if self.period is not None else self.times[-1]
         level = self._index(self._levels[0]) if len(self._levels) else 0
-        starts = np.array(self.times[:n])
+        starts = np.array(self.times[: len(self._rows)])
+        rows = self._rows.copy()
         return MovingArrays(
             series.mesh, series, rows, starts, end, level, self._low, self._pitch, *self._tree, self._beyond
         )
 
-    def _poses(self, level: int) -> Floats:
-        """Return the rows of :attr:`MovingArrays.poses` of the interval from a level on."""
-        m, i, j = self.motion, self._index(level), self._index(level + 1)
-        h, count = self._time_of(level + 1) - self._time_of(level), len(m.names)
-        rows = np.zeros((count, 46))
+    def _poses(self, i: int) -> Floats:
+        """Return the rows of :attr:`MovingArrays.poses` of an interval, without means."""
+        m, j, count = self.motion, self._index(i + 1), len(self.motion.names)
+        h, rows = self._time_of(i + 1) - self._time_of(i), np.zeros((count, 46))
         rows[:, 0:12] = np.concatenate([m.y[i], m.y[j], h * m.velocity[i], h * m.velocity[j]], axis=1)
         end = [np.linalg.solve(_jacobian(r), h * o) for r, o in zip(m.turns[i], m.omega[j], strict=True)]
         rows[:, 12:30] = np.concatenate([m.Q[i].reshape(-1, 9), m.turns[i], h * m.omega[i], end], axis=1)
         rows[:, _CENTRE:_MEANS] = m.c
         rows[:, _CENTRE] += self._pitch * np.arange(count)
-        if i not in self._means or j not in self._means:
-            return rows
-        U0, U1 = self._means[i], self._means[j]
-        own = [np.einsum("pba,pb->pa", m.Q[k], U) for k, U in ((i, U0), (j, U1))]
-        rows[:, _MEANS:45] = np.concatenate([U0, U1, *own], axis=1)
-        turned = np.einsum("pab,pb->pa", m.Q[j], own[0])
-        rows[:, 45] = np.linalg.norm(U1 - U0, axis=1) < np.linalg.norm(U1 - turned, axis=1)
         return rows
+
+    def _set_means(self, i: int, j: int) -> None:
+        """Set the mean velocities of the interval between two times that have been read."""
+        U0, U1, Q = self._means[i], self._means[j], self.motion.Q
+        own = [np.einsum("pba,pb->pa", Q[k], U) for k, U in ((i, U0), (j, U1))]
+        self._rows[i, :, _MEANS:45] = np.concatenate([U0, U1, *own], axis=1)
+        turned = np.einsum("pab,pb->pa", Q[j], own[0])
+        self._rows[i, :, 45] = np.linalg.norm(U1 - U0, axis=1) < np.linalg.norm(U1 - turned, axis=1)
 
     def _with_walls(
         self, reach: float, touchable: Sequence[int], sight: float, seen: Sequence[int]
@@ -586,7 +588,7 @@ class MovingFlow(SeriesFlow):
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """See :meth:`SeriesFlow.traits`; with the first pose."""
-        return {**super().traits(), "poses": self._poses(0)}
+        return {**super().traits(), "poses": self._rows[0, :, :_MEANS]}
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """See :meth:`SeriesFlow.sample`."""

@@ -27,8 +27,6 @@ from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Tracker, available_threads
 from foamprb.compile.cache import cache_directory
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.rotating import RotatingFlow
-from foamprb.flow.series import SeriesFlow
 from foamprb.settings.libs import compiling_libs
 
 log = logging.getLogger("foamprb")
@@ -45,7 +43,7 @@ class Compilation:
         self._span: tuple[float, float] | None = None
         """First and last time at which something was compiled, s."""
 
-    def begin(self, tracker: Tracker, flow: type[MeshFlow] | type[SeriesFlow] | type[RotatingFlow]) -> None:
+    def begin(self, tracker: Tracker, flow: type[MeshFlow]) -> None:
         """Start the second process, if a loop is not compiled and a processor is to spare.
 
         Parameters

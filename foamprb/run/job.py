@@ -38,8 +38,10 @@ from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.moving import MovingFlow
 from foamprb.flow.nodes import NodeValues
 from foamprb.flow.read.flows import check_region, read_flow, read_transient_flow, rotations_of
+from foamprb.flow.read.motion import moves
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
@@ -176,7 +178,7 @@ def prepare(
     compilation = Compilation()
     # A loop whose forces read fields depends on the kinds of these.
     if precompile and not any(force.needed_fields for force in settings.forces.values()):
-        compilation.begin(*_loop(settings, bool(rotations_of(case, source))))
+        compilation.begin(*_loop(settings, bool(rotations_of(case, source)), source))
     log.info("Reading flow of case %s", case if source.file is None else source.file)
     with compilation.shown():
         flow = None if flows is None or settings.solution.transient else flows.get(source)
@@ -229,9 +231,7 @@ def _log_notes(flow: Flow, settings: Settings) -> None:
         raise InputError(f"{settings.case}: {' '.join(faults.values())} Allowed: to go on, {accept}.")
 
 
-def _loop(
-    settings: Settings, rotating: bool
-) -> tuple[Tracker, type[MeshFlow] | type[SeriesFlow] | type[RotatingFlow]]:
+def _loop(settings: Settings, rotating: bool, source: FlowSource) -> tuple[Tracker, type[MeshFlow]]:
     """Return the loop that the settings select, as far as they determine it, and the class of the flow."""
     scheme = settings.solution.integrationSchemes.shape
     models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
@@ -243,7 +243,9 @@ def _loop(
     # Without the start, which the flow may delay, a power law may have one time more or less.
     if n_times := number_of_times(settings.injections, _span(settings, 0.0)):
         models = replace(models, surroundings=(FadingMemory(n_times=n_times), *models.surroundings))
-    flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
+    flow: type[MeshFlow] = RotatingFlow if rotating else MeshFlow
+    if settings.solution.transient:
+        flow = MovingFlow if source.file is None and moves(settings.case, settings.region) else SeriesFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
     return Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow
 

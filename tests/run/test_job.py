@@ -188,9 +188,9 @@ def test_overrides_take_the_place_of_entries(case):
 
 def test_a_mesh_that_moves_is_an_error_unless_accepted(case):
     (case / "constant/dynamicMeshDict").write_text("dynamicFvMesh dynamicMotionSolverFvMesh;")
-    points = min(case.glob("[0-9]*")) / "polyMesh/points"
+    points = max(case.glob("[0-9]*")) / "polyMesh/points.gz"
     points.parent.mkdir()
-    points.write_bytes((case / "constant/polyMesh/points").read_bytes())
+    points.write_bytes((case / "constant/polyMesh/points.gz").read_bytes())
     with pytest.raises(InputError, match=r"moves \(dynamicMotionSolverFvMesh\).*accept \( movingMesh \)"):
         prepare(case)
     assert prepare(case, overrides={"solution/accept": ["movingMesh"]}).cloud.size
@@ -214,9 +214,9 @@ def test_fluxes_that_cannot_be_balanced_are_an_error_unless_accepted(case, monke
 def test_all_faults_of_a_flow_are_told_at_once(case, monkeypatch):
     monkeypatch.setattr(fluxes, "_LARGEST_CHANGE", -1.0)
     (case / "constant/dynamicMeshDict").write_text("dynamicFvMesh dynamicMotionSolverFvMesh;")
-    points = min(case.glob("[0-9]*")) / "polyMesh/points"
+    points = max(case.glob("[0-9]*")) / "polyMesh/points.gz"
     points.parent.mkdir()
-    points.write_bytes((case / "constant/polyMesh/points").read_bytes())
+    points.write_bytes((case / "constant/polyMesh/points.gz").read_bytes())
     with pytest.raises(InputError, match=r"accept \( unbalanced movingMesh \)"):
         prepare(case)
     (case / "constant/softCloudProperties").unlink()

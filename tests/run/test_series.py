@@ -240,6 +240,22 @@ def test_a_time_without_a_whole_velocity_is_left_out(fault, case, capsys):
     assert ("Warning : Times" in said) == (fault != "missing")
 
 
+def test_points_at_all_times_are_the_motion_of_the_mesh(case, capsys):
+    points = (case / "constant/polyMesh/points").read_text()
+    for time, way in (("0.5", 0.05), ("1.5", 0.15)):
+        moved = re.sub(
+            r"\((\S+) (\S+) (\S+)\)", lambda m, way=way: f"({float(m[1]) + way} {m[2]} {m[3]})", points
+        )
+        (case / time / "polyMesh").mkdir()
+        (case / time / "polyMesh/points").write_text(moved)
+    assert main(["run", "-dry-run", "-case", str(case)]) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"The mesh moves: piece 1 \(\d+ cells\) moves by up to 0.1 m a write\.", said)
+    edit(case, "ellipsoidDrag;", "ellipsoidDrag; wallLift;")
+    assert main(["run", "-dry-run", "-case", str(case)]) == 1
+    assert "the mesh moves, but WallLift requires walls at rest" in capsys.readouterr().err
+
+
 MISTAKES = {
     "end beyond the flow": (
         lambda c: edit(c, "endTime 1.2", "endTime 1.6"), [],

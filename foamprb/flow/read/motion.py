@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.motion import Motion, nearest_times, rates_of
 from foamprb.flow.read.boundary import CaseMesh
+from foamprb.flow.read.case import available_times
 from foamprb.flow.read.field import FoamField
 from foamprb.flow.read.times import listed
 from foamprb.flow.timeline import one_period
@@ -42,6 +43,12 @@ class Spin(Protocol):
 def moving_times(folders: Mapping[str, Path], part: str) -> list[str]:
     """Return the times with an own ``points``, or another part of the mesh."""
     return [name for name, folder in folders.items() if existing(folder / "polyMesh" / part) is not None]
+
+
+def moves(case: Path, region: str) -> bool:
+    """Return whether a later time of a case has points, but no faces, of its own."""
+    folders = {name: case / name / region for name in available_times(case)[1:]}
+    return bool({*moving_times(folders, "points")} - {*moving_times(folders, "faces")})
 
 
 def pieces_of(mesh: Mesh) -> NDArray[np.int64]:
@@ -217,7 +224,7 @@ def _fit(a: Floats, b: Floats, least: float) -> tuple[Floats, Floats, float]:
 
 def _quiet_point(points: Floats, R: Floats, s: Floats) -> Floats:
     """Return the point of a piece that moves least; of several the nearest to its middle."""
-    middle = points.mean(axis=0)
+    middle: Floats = points.mean(axis=0)
     change = R - np.eye(3)
     matrix = np.einsum("jba,jbc->ac", change, change)
     scale = float(np.trace(matrix))
@@ -298,6 +305,15 @@ def spin_of_walls(
     columns = np.concatenate([across, np.tile(np.eye(3), (len(x), 1, 1))], axis=2).reshape(-1, 6)
     found: Floats = np.linalg.lstsq(columns, boundary[rows].reshape(-1), rcond=None)[0]
     return found[:3]
+
+
+def nodes_of_moving_walls(whole: CaseMesh, field: FoamField) -> NDArray[np.integer[Any]]:
+    """Return the nodes of the walls that move with the mesh."""
+    faces = _of_moving_walls(whole, field)
+    nodes: NDArray[np.integer[Any]] = np.unique(
+        whole.mesh.triangles[np.isin(whole.mesh.triangle_face, faces)]
+    )
+    return nodes
 
 
 def _of_moving_walls(whole: CaseMesh, field: FoamField) -> NDArray[np.intp]:

@@ -61,6 +61,7 @@ from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.motion import (
     moving_times,
+    nodes_of_moving_walls,
     notes_of,
     require_points,
     rigid_motion,
@@ -348,6 +349,10 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         def make() -> tuple[Floats, Floats, Floats]:
             u, l = own.reconstruct(*values)
             frame = None if motion is None else motion.frame(index, here.mesh)
+            if frame is not None:
+                # Means of the values of the faces around are not quite those of the wall.
+                nodes = nodes_of_moving_walls(here, field)
+                u[nodes] = frame[0][nodes]
             fluxes = balanced_in_time(own.conserve, u, l, mass, where, frame, accept=source.accept)
             if motion is not None and frame is not None:
                 u, l = motion.in_frames(index, here.mesh, u - frame[0], l - frame[1])
