@@ -27,12 +27,12 @@ from foamprb.body.tensor import (
     between,
     dot,
     dot_vector,
-    from_frame,
     inner,
     minus,
     plus,
     plus_scaled,
     scale_vector,
+    to_frame,
     transpose,
     vector_dot,
     vector_product,
@@ -281,7 +281,7 @@ def sample(flow: MovingArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
     X = pull(q, x)
     V, L, V_t = sample_series(flow.series, host, X, t)
     w, o = speed(q, of, x), of.omega
-    V, l = dot_vector(q.Q, V), from_frame(q.Q, L)
+    V, l = dot_vector(q.Q, V), to_frame(q.Q, L)
     frame = minus(of.velocity_t, vector_product(o, of.velocity))
     frame = plus(frame, vector_product(of.omega_t, minus(x, q.y)))
     u_t = plus(plus(frame, vector_product(o, V)), minus(dot_vector(q.Q, V_t), dot_vector(l, w)))
@@ -388,7 +388,7 @@ def cross(flow: MovingArrays, triangle: int, x: Vector, t: float) -> tuple[int, 
     q, other = pose(flow, p, t), flow.beyond[mesh.triangle_patch[triangle]]
     if other < 0:
         host, X, turn = cross_mesh(mesh, triangle, pull(q, x))
-        return host, push(q, X), from_frame(q.Q, turn)
+        return host, push(q, X), to_frame(q.Q, turn)
     a = _nearest(flow, other, p, x, t)
     if a < 0:
         return -1, x, _SAME
@@ -454,9 +454,9 @@ def curvature(flow: MovingArrays, host: int, x: Vector, t: float) -> Curvature:
     b = dot_vector(q.Q, xy), dot_vector(q.Q, yy), dot_vector(q.Q, yz)
     c = dot_vector(q.Q, xz), dot_vector(q.Q, yz), dot_vector(q.Q, zz)
     # For each component, its matrix of second derivatives.
-    x_ = from_frame(q.Q, (a[0][0], a[1][0], a[2][0], b[0][0], b[1][0], b[2][0], c[0][0], c[1][0], c[2][0]))
-    y_ = from_frame(q.Q, (a[0][1], a[1][1], a[2][1], b[0][1], b[1][1], b[2][1], c[0][1], c[1][1], c[2][1]))
-    z_ = from_frame(q.Q, (a[0][2], a[1][2], a[2][2], b[0][2], b[1][2], b[2][2], c[0][2], c[1][2], c[2][2]))
+    x_ = to_frame(q.Q, (a[0][0], a[1][0], a[2][0], b[0][0], b[1][0], b[2][0], c[0][0], c[1][0], c[2][0]))
+    y_ = to_frame(q.Q, (a[0][1], a[1][1], a[2][1], b[0][1], b[1][1], b[2][1], c[0][1], c[1][1], c[2][1]))
+    z_ = to_frame(q.Q, (a[0][2], a[1][2], a[2][2], b[0][2], b[1][2], b[2][2], c[0][2], c[1][2], c[2][2]))
     return (
         (x_[0], y_[0], z_[0]), (x_[4], y_[4], z_[4]), (x_[8], y_[8], z_[8]),
         (x_[1], y_[1], z_[1]), (x_[5], y_[5], z_[5]), (x_[2], y_[2], z_[2]),

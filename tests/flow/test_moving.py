@@ -62,14 +62,18 @@ def rotor(angle):
     return motion
 
 
+def open_rings():
+    """Rings without walls, through which a fluid may flow."""
+    mesh = rings()
+    return replace(mesh, patches=[p._replace(type="patch") if p.type == "wall" else p for p in mesh.patches])
+
+
 @pytest.fixture(scope="module")
 def stirred():
     """A stream through a ring that turns by 50 degrees a write, and a fluid that turns more slowly."""
     u0, omega = np.array([0.3, 0.1, 0.0]), np.array([0.0, 0.0, 1.5])
     l = np.array([[0.0, -1.5, 0.0], [1.5, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    mesh = rings()
-    mesh = replace(mesh, patches=[p._replace(type="patch") if p.type == "wall" else p for p in mesh.patches])
-    flow = moved_by(mesh, rotor(np.radians(50.0)), lambda x, _t: u0 + np.cross(omega, x), l)
+    flow = moved_by(open_rings(), rotor(np.radians(50.0)), lambda x, _t: u0 + np.cross(omega, x), l)
     return flow, u0, l
 
 
@@ -98,6 +102,23 @@ def test_a_stream_and_a_turning_fluid_are_exact_at_all_times(stirred, random):
         h = 1e-6
         later, _ = sample_with(flow.kernels["sample"], flow.arrays(), x + h * u, hosts, t + h)
         assert (later - u) / h == pytest.approx(u @ l.T, abs=0.1)
+
+
+def test_a_strain_is_exact_at_each_time_of_the_flow(random):
+    """The gradient is turned back, and between the times it is that of the velocity."""
+    l = np.array([[0.5, 0.8, 0.1], [0.2, -0.7, 0.3], [-0.4, 0.6, 0.2]])
+    flow = moved_by(open_rings(), rotor(np.radians(50.0)), lambda x, _t: x @ l.T, l)
+    a, r = random.uniform(0.0, 2.0 * np.pi, 50), random.uniform(0.52, 0.95, 50)
+    x = np.column_stack([r * np.cos(a), r * np.sin(a), random.uniform(0.1, 0.9, 50)])
+    for t in (0.0, 0.2, 0.3):
+        u, gradient = flow.sample(x, flow.locate(x, t), t)
+        assert u == pytest.approx(x @ l.T, abs=1e-9)
+        assert gradient == pytest.approx(np.broadcast_to(l, gradient.shape), abs=1e-9)
+    hosts, h = flow.locate(x, 0.13), 1e-6
+    u, gradient = flow.sample(x, hosts, 0.13)
+    for k in range(3):
+        beside, _ = flow.sample(x + h * np.eye(3)[k], hosts, 0.13)
+        assert (beside - u) / h == pytest.approx(gradient[:, :, k], abs=1e-6)
 
 
 def test_tracers_cross_the_interface_of_a_turning_ring(stirred):
