@@ -381,9 +381,8 @@ class _Problem:
             or values.min() <= 0.0
         ):
             return {}
-        levels = [
-            float(f"{level:.2g}") for level in np.geomspace(*np.quantile(values, (0.05, 0.95)), _LEVELS)
-        ]
+        low, high = np.quantile(values, (0.05, 0.95))
+        levels = [float(f"{level:.2g}") for level in np.geomspace(low, high, _LEVELS)]
         sizes, level = (
             a.ravel() for a in np.meshgrid(np.linspace(d.min(), d.max(), _SIZES), levels, indexing="ij")
         )
@@ -576,6 +575,6 @@ def _population(
     population = {name: np.array(column) for name, column in zip(heads, zip(*rows, strict=True), strict=True)}
     if "group" not in table:
         del population["group"]
-    heads = ("property", "group", "other", "difference", "low", "high")
-    columns = zip(heads, zip(*differences, strict=True), strict=True) if differences else ()
+    names = ("property", "group", "other", "difference", "low", "high")
+    columns = zip(names, zip(*differences, strict=True), strict=True) if differences else ()
     return population, {name: np.array(column) for name, column in columns}

@@ -136,7 +136,7 @@ class _Data:
         if place + 4 * n > self._size:
             raise ValueError("it ends too early")
         self._file.seek(place)
-        return np.frombuffer(self._file.read(4 * n), dtype="<u4").tolist()
+        return [int(number) for number in np.frombuffer(self._file.read(4 * n), dtype="<u4")]
 
 
 def _count(text: str) -> int:

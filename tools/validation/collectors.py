@@ -128,7 +128,7 @@ def _flow(name: str) -> analytic.AnalyticFlow:
         n = (x[0] / r, x[1] / r, depth * x[2] / r)
         return Planes(r - RADIUS, n, math.inf, _ZERO, math.inf, _ZERO)
 
-    kernels = {**free.kernels, "gap": gap, "walk": walk, "normal": normal, "walls": planes}
+    kernels: dict[str, Any] = {**free.kernels, "gap": gap, "walk": walk, "normal": normal, "walls": planes}
     return analytic.AnalyticFlow(free._parameters, kernels, (Patch("collector", "wall"),))
 
 

@@ -265,7 +265,8 @@ class FadingMemory(Surrounding):
                 if p.size
                 else np.zeros((1, 9))
             )
-            rate = float(np.max(shear_rate(tuple(l.T))))
+            gradients: Any = tuple(l.T)
+            rate = float(np.max(shear_rate(gradients)))
             if rate > _BEYOND * high:
                 warnings.append(
                     f"the shear rate at particles is up to {rate:.3g} 1/s where they start: the power law "

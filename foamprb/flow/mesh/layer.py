@@ -79,7 +79,7 @@ def _partners(mesh: Mesh, normal: Floats, sides: list[Index]) -> Index | None:
         return None
     partners = np.empty(mesh.n_points, dtype=np.intp)
     partners[here], partners[there[nearest]] = there[nearest], here
-    return partners if distance.max(initial=0.0) <= _SAME * size else None
+    return partners if np.max(distance, initial=0.0) <= _SAME * size else None
 
 
 class Division(NamedTuple):

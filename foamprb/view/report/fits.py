@@ -126,7 +126,8 @@ def _numbers(values: Sequence[float]) -> tuple[str, ...]:
 
 def _medians(fits: Fits) -> dict[str, dict[str, Estimate]]:
     """Return the medians of each property by group, "" without groups."""
-    columns, medians = fits.population, {name: {} for name in fits.unknown}  # type: dict[str, dict[str, Estimate]]
+    columns = fits.population
+    medians: dict[str, dict[str, Estimate]] = {name: {} for name in fits.unknown}
     groups = columns.get("group", np.full(len(columns["property"]), ""))
     ends = (columns[f"median{end}"] for end in ("", "Low", "High"))
     for name, group, *values in zip(columns["property"], groups, *ends, strict=True):
