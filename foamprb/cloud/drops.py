@@ -9,11 +9,11 @@ from foamprb.body.stokes import Mobility
 from foamprb.body.tensor import Scalar, Tensor, Vector, ddot, dev, dot, from_frame, scale, sym, transpose
 from foamprb.cloud import elastic
 from foamprb.cloud.block import Medium, at, load9, viscosity_at
+from foamprb.cloud.elastic import volume_at_rest
 from foamprb.cloud.integrators import adaptive
 from foamprb.cloud.integrators.adaptive import drag_rate_of_solid
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.surroundings import wall_lift
-from foamprb.cloud.surroundings.base import volume_at_rest
 from foamprb.compile.link import Slots
 
 

@@ -1,11 +1,13 @@
-"""Elastic stress, surface tension and mobility of a body, for a lane of a block."""
+"""Elastic stress, surface tension, mobility and resistance of a body, for a lane of a block."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from foamprb.body import rosenbrock
 from foamprb.body.choice import choice
+from foamprb.body.drag import drag
 from foamprb.body.error_control import strain_by, strain_in_frame
 from foamprb.body.material import (
     Material,
@@ -29,8 +31,8 @@ from foamprb.body.rosenbrock import (
 )
 from foamprb.body.stokes import Mobility, mobility
 from foamprb.body.surface_tension import laplace_stress, no_stress
-from foamprb.body.tensor import Scalar, Tensor, Vector, diagonal
-from foamprb.cloud.block import Medium, at, load_integrals, viscosity_at
+from foamprb.body.tensor import Scalar, Tensor, Vector, diagonal, scale_vector
+from foamprb.cloud.block import Medium, at, load3, load_integrals, viscosity_at
 from foamprb.cloud.layout import LANES, Block
 from foamprb.compile.link import Function
 
@@ -127,3 +129,27 @@ def body_mobility(block: Block, i: int, medium: Medium, stretches: Vector) -> Mo
 def mobility_deficit(block: Block, i: int, medium: Medium) -> Any:
     """Return the ``deficit`` of that mobility."""
     return 1.0 - block[at.eta * LANES + i] / viscosity_at(block, i, medium)
+
+
+@choice
+def hindrance_by_walls(_block: Block, _i: int) -> Tensor:
+    """Return the resistance by the walls at the start of a step; by default none."""
+    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+@choice
+def present_hindrance(_block: Block, _i: int) -> Tensor:
+    """Return the same of the walls where the lane is."""
+    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+def resistances(block: Block, i: int) -> Vector:
+    """Return the principal resistances K of lane i without walls, m."""
+    k = drag(load3(block, at.stretch, i), load_integrals(block, i))
+    return scale_vector(block[at.R * LANES + i], k)
+
+
+def volume_at_rest(block: Block, i: int) -> Scalar:
+    """Return the volume of lane i at rest, m³."""
+    R = block[at.R * LANES + i]
+    return 4.0 / 3.0 * math.pi * R * R * R

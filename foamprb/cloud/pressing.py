@@ -38,8 +38,8 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.wall import hindered_resistance
 from foamprb.cloud.block import at, load3, load9, load_integrals, store3, store9, store_integrals
+from foamprb.cloud.elastic import present_hindrance, resistances, volume_at_rest
 from foamprb.cloud.layout import LANES, Block
-from foamprb.cloud.surroundings.base import present_hindrance, resistances, volume_at_rest
 from foamprb.compile.link import separate, slot
 
 _MOST_TURN = 0.2

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Literal, NamedTuple
 
 from foamprb.body.choice import choice
-from foamprb.body.drag import drag
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
     Vector,
     add,
     plus,
-    scale_vector,
 )
-from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.block import Medium, load3, load9, store3, store9
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.layout import LANES, Block
+from foamprb.cloud.layout import Block
 from foamprb.cloud.state import Particles
 from foamprb.compile.link import Slots
 from foamprb.flow.base import Flow, Patch
@@ -157,18 +154,6 @@ def _written(value: Any) -> str:
 
 
 @choice
-def hindrance_by_walls(_block: Block, _i: int) -> Tensor:
-    """Return the resistance by the walls at the start of a step; by default none."""
-    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-
-
-@choice
-def present_hindrance(_block: Block, _i: int) -> Tensor:
-    """Return the same of the walls where the lane is."""
-    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-
-
-@choice
 def curved_velocity(_block: Block, _i: int, _n: Vector, _h: Scalar, _e: Scalar, _share: Scalar) -> Vector:
     """Return the velocity by second derivatives of the flow at a wall, m/s; by default they are unknown."""
     return 0.0, 0.0, 0.0
@@ -184,18 +169,6 @@ def thermal_gradient(_block: Block, _i: int) -> Tensor:
 def thermal_force(_block: Block, _i: int) -> Vector:
     """Return the force of molecules, N; by default none."""
     return 0.0, 0.0, 0.0
-
-
-def resistances(block: Block, i: int) -> Vector:
-    """Return the principal resistances K of lane i without walls, m."""
-    k = drag(load3(block, at.stretch, i), load_integrals(block, i))
-    return scale_vector(block[at.R * LANES + i], k)
-
-
-def volume_at_rest(block: Block, i: int) -> Scalar:
-    """Return the volume of lane i at rest, m³."""
-    R = block[at.R * LANES + i]
-    return 4.0 / 3.0 * math.pi * R * R * R
 
 
 def add3(block: Block, row: int, i: int, v: Vector) -> None:

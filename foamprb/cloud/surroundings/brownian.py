@@ -55,6 +55,7 @@ from foamprb.cloud.block import (
     store9,
     viscosity_at,
 )
+from foamprb.cloud.elastic import hindrance_by_walls, resistances, volume_at_rest
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
@@ -68,11 +69,8 @@ from foamprb.cloud.surroundings.base import (
     Survey,
     add3,
     add9,
-    hindrance_by_walls,
-    resistances,
     thermal_force,
     thermal_gradient,
-    volume_at_rest,
 )
 from foamprb.compile.link import Slots, separate, traced
 from foamprb.dictionary.constraints import Meaning, Positive, Seed

@@ -22,15 +22,11 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.wall import hindered_resistance
 from foamprb.cloud.block import Medium, at, load3, load9, local_medium, viscosity_at
+from foamprb.cloud.elastic import present_hindrance, resistances, volume_at_rest
 from foamprb.cloud.integrators.base import Integrator, lifted
 from foamprb.cloud.integrators.stokes import slip_by_forces, slip_of_body
 from foamprb.cloud.layout import LANES, Block
-from foamprb.cloud.surroundings.base import (
-    Surrounding,
-    present_hindrance,
-    resistances,
-    volume_at_rest,
-)
+from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import Slots
 from foamprb.dictionary.constraints import Only
 

@@ -67,7 +67,15 @@ from foamprb.cloud.block import (
     store9,
     viscosity_at,
 )
-from foamprb.cloud.elastic import body_mobility, incompressible_stress, mobility_deficit
+from foamprb.cloud.elastic import (
+    body_mobility,
+    hindrance_by_walls,
+    incompressible_stress,
+    mobility_deficit,
+    present_hindrance,
+    resistances,
+    volume_at_rest,
+)
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.rosenbrock import drag_axes, find_drag_axes, leave_gradient, resist
@@ -81,12 +89,8 @@ from foamprb.cloud.surroundings.base import (
     add3,
     add9,
     curved_velocity,
-    hindrance_by_walls,
-    present_hindrance,
-    resistances,
     thermal_force,
     thermal_gradient,
-    volume_at_rest,
 )
 from foamprb.compile.link import Slots, separate, slot, traced
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
