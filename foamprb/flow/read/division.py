@@ -246,7 +246,8 @@ def _are_openings(mesh: Mesh, u: BoundaryVelocity, labels: NDArray[np.intp], lea
     openings: Mask = (steady >= _STEADY * across) & (across >= least * allowed)
     if least == _OPEN:
         most = np.where(_falls(u, labels, 1.0), _STEADY_SLANTED, _STEADY_RISING)
-        openings |= (steady >= most * across) & (across >= _SLANTED * allowed)
+        slanted = (steady >= most * across) & (across >= _SLANTED * allowed)
+        openings |= slanted & ~_falls(u, labels)
     openings &= steady > _LEAST_SHARE * steady.sum()
     openings |= (stated > _ROUND_OFF * stated.sum()) & (stated >= _OPEN_VALUED * at_most)
     return openings
