@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from foam_writer import write_case
 from mesh_shapes import block, box_patches, rings
 from scipy.spatial.transform import Rotation
 
@@ -16,6 +18,7 @@ from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.moving import MovingFlow
 from foamprb.flow.read.motion import notes_of, rigid_motion
+from foamprb.flow.read.openfoam import read_series
 from foamprb.flow.sampling import sample_with
 
 TIMES = ("0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6")
@@ -167,6 +170,30 @@ def test_a_body_that_sticks_to_a_moving_wall_rides_along():
     now = cloud.comm.rank.at_instant(0.3, False)
     assert now.x[:, 0] == pytest.approx(0.3 + 0.005, abs=1e-6)
     assert now.v == pytest.approx(np.broadcast_to([1.0, 0.0, 0.0], (2, 3)), abs=1e-9)
+
+
+def test_a_wall_that_moves_with_the_mesh_has_the_velocity_of_its_points(tmp_path):
+    """Whatever the file has there, which lags."""
+    write_case(tmp_path, perturbation=0.0)
+    points = (tmp_path / "constant/polyMesh/points").read_text()
+    for time in ("0", "0.5", "1e1"):
+        turn = Rotation.from_rotvec([0.0, 0.0, 0.03 * float(time)])
+        path = tmp_path / time / "U"
+        path.write_text(re.sub(r"(floor *{ *type) fixedValue", r"\1 movingWallVelocity", path.read_text()))
+
+        def moved(m, turn=turn):
+            return "({:.17g} {:.17g} {:.17g})".format(*turn.apply([float(x) for x in m.groups()]))
+
+        if time != "0":
+            (tmp_path / time / "polyMesh").mkdir()
+            text = re.sub(r"\((\S+) (\S+) (\S+)\)", moved, points)
+            (tmp_path / time / "polyMesh/points").write_text(text)
+    flow = read_series(tmp_path)
+    assert any("0.03 rad/s about (0 0 1)" in note for note in flow.notes)
+    for t in (0.0, 0.5, 3.0):
+        faces = flow.patch_faces("floor", t)
+        expected = np.cross([0.0, 0.0, 0.03], faces.vertices)
+        assert faces.velocity == pytest.approx(expected, abs=1e-9)
 
 
 def test_whole_turns_follow_from_the_walls():
