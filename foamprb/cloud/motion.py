@@ -668,7 +668,7 @@ def meet_wall(
     if through or bouncing > 0:
         goal = plus_scaled(goal, -(1.0 - f) * min(fall, 0.0) * undone, n)
     else:
-        goal = push_out(block, i, n, goal, -after * undone, patches.mu[patch])
+        goal = push_out(block, i, n, goal, -after * undone, patches.mu[patch], W)
     x = plus_scaled(x, -_OFF_WALL * min(fall, 0.0), n) if through else x
     for _ in range(_MAX_BOUNCES):
         place, went = move_back(flow, patches, s, i, t + h, x, goal, undone)
@@ -681,7 +681,7 @@ def meet_wall(
             break
         x, n = place, normal(flow, triangle, place, t + h)
         bounce_along(block, i, n)
-        goal = plus_scaled(x, -into, n) if bouncing > 0 else push_out(block, i, n, x, -into, 0.0)
+        goal = plus_scaled(x, -into, n) if bouncing > 0 else push_out(block, i, n, x, -into, 0.0, W)
     return 1.0
 
 

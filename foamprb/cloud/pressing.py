@@ -25,6 +25,7 @@ from foamprb.body.tensor import (
     inner,
     inverse,
     longest_stretch,
+    minus,
     norm,
     plus,
     plus_scaled,
@@ -92,17 +93,19 @@ def stress_of(f: Vector, r: Vector, volume: Scalar) -> Tensor:
 
 
 @slot
-def push_out(_block: Block, _i: int, n: Vector, x: Vector, width: float, _mu: float) -> Vector:
+def push_out(_block: Block, _i: int, n: Vector, x: Vector, width: float, _mu: float, _W: Vector) -> Vector:
     """Move the centre along n by the width, without friction; return its new place."""
     return plus_scaled(x, width, n)
 
 
 @separate
-def push_along_mobility(block: Block, i: int, n: Vector, x: Vector, width: float, mu: float) -> Vector:
+def push_along_mobility(
+    block: Block, i: int, n: Vector, x: Vector, width: float, mu: float, W: Vector
+) -> Vector:
     """Move, turn and strain the body in lane i by a reaction along n so that its gap grows by the width, m.
 
-    Friction of up to mu times the reaction undoes the slip of its point of contact in the step. A body that
-    does not slip rolls.
+    Friction of up to mu times the reaction undoes the slip of its point of contact on a wall of velocity W,
+    m/s, in the step. A body that does not slip rolls.
 
     Returns
     -------
@@ -115,7 +118,7 @@ def push_along_mobility(block: Block, i: int, n: Vector, x: Vector, width: float
     way, turn = scale_vector(N, v), scale(N, l)
     if mu > 0.0:
         l_s = dot(load9(block, at.A, i), inverse(F))
-        w = plus(load3(block, at.v, i), dot_vector(l_s, r))
+        w = minus(plus(load3(block, at.v, i), dot_vector(l_s, r)), W)
         w = plus_scaled(w, -inner(w, n), n)
         slip = h * norm(w)
         e = scale_vector(-h / (slip + 1e-300), w)
