@@ -119,7 +119,7 @@ def incompressible_elasticity(block: Block, i: int, b_e: Tensor) -> Elasticity:
 
 @choice
 def body_mobility(block: Block, i: int, medium: Medium, stretches: Vector) -> Mobility:
-    """Return the mobility of an affinely deforming solid; :mod:`foamprb.cloud.drops` binds that of a drop."""
+    """Return the mobility of an affinely deforming solid; :mod:`foamprb.cloud.drops` has that of a drop."""
     return mobility(
         stretches, load_integrals(block, i), block[at.eta * LANES + i] / viscosity_at(block, i, medium)
     )

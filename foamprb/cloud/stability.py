@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,7 +23,7 @@ from foamprb.body.tensor import (
     scale,
 )
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile.link import link
+from foamprb.compile.link import Function, compiled, link
 
 Floats = NDArray[np.float64]
 _HALVINGS = 12
@@ -75,16 +77,22 @@ def _limits(p: Particles, mu_f: Floats, dt: float, material: str) -> Floats:
     # one step before and one step after are tested as well.
     for steps in (0.0, -1.0, 1.0):
         doubtful = np.zeros(p.size, dtype=bool)
-        link(_find_doubtful)(p.status, p.F, p.A, p.R, p.rho, p.eta, mu_f, dt, steps, doubtful)
+        compiled(_find_doubtful)(p.status, p.F, p.A, p.R, p.rho, p.eta, mu_f, dt, steps, doubtful)
         rows = np.flatnonzero(doubtful)
         if len(rows):
             part, longest = p.take(rows), np.empty(len(rows))
             shapes = part.F + steps * dt * part.A
-            loop = link(_find_limits, {derivatives: MATERIALS[material].derivatives})
+            loop = _limits_of(MATERIALS[material].derivatives)
             loop(shapes, part.F0, part.R, part.rho, part.mu, part.lame, part.k, part.eta,
                  mu_f[rows], dt, longest)  # fmt: skip
             limits[rows] = np.minimum(limits[rows], longest)
     return limits
+
+
+@cache
+def _limits_of(of_solid: Function) -> Function:
+    """Return the compiled search of limits for the derivatives of a solid's energy."""
+    return link(_find_limits, {derivatives: of_solid})  # type: ignore[no-any-return]
 
 
 def _find_doubtful(
