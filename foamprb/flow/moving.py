@@ -67,7 +67,7 @@ _APART = 4.0
 """Distance between the middles of pieces in the mesh of the kernels, over the size of the mesh."""
 _SMALL = 1e-6
 _SAME: Tensor = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-_PLACE, _ROTATION, _CENTRE, _MEANS = 0, 12, 30, 33
+_CENTRE, _MEANS = 30, 33
 """First columns of :attr:`MovingArrays.poses`."""
 
 
