@@ -163,7 +163,7 @@ def test_mistakes_have_one_message():
     for needs, message in (
         (("x",), r"force a: it needs x, which is inputs\.x"),
         (("grad E",), "force a: it needs 'grad E'. Allowed: names, and gradients"),
-        (("u", "v"), "force a: it needs 2 values and has 1 parameters"),
+        (("u", "v"), "force a: it has 2 parameters for inputs, u, v"),
     ):
         with pytest.raises(ValueError, match=message):
             add_force("a", needs_x, needs)

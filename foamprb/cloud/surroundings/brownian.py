@@ -104,7 +104,7 @@ class BrownianRows(NamedTuple):
     thermal_force: Annotated[int, Row(3, "N", "force of the molecules")]
     thermal_stress: Annotated[int, Row(9, "Pa", "stress of the molecules")]
     thermal_gradient: Annotated[int, Row(9, "1/s", "gradient whose traction is that stress")]
-    held: Annotated[int, Row(1, "s", "how long force and stress last")]
+    held_time: Annotated[int, Row(1, "s", "how long force and stress last")]
 
 
 thermal = offsets(BrownianRows)
@@ -166,7 +166,7 @@ def force_stage(block: Block, medium: Medium, kT: float) -> None:
         T = from_frame(Q, random_stress(r, size / np.sqrt(volume), load9(block, thermal.nine, i), relaxing))
         store3(block, thermal.thermal_force, i, choose3(fresh, f, load3(block, thermal.thermal_force, i)))
         store9(block, thermal.thermal_stress, i, choose(fresh, T, load9(block, thermal.thermal_stress, i)))
-        block[thermal.held * LANES + i] = select(fresh, duration, block[thermal.held * LANES + i])
+        block[thermal.held_time * LANES + i] = select(fresh, duration, block[thermal.held_time * LANES + i])
         block[thermal.duration * LANES + i] = 0.0
 
 
@@ -207,7 +207,7 @@ def turn_force(block: Block, i: int, turn: Tensor) -> None:
 @separate
 def mirror_force(block: Block, i: int, n: Vector) -> None:
     """Mirror the part of force and stress that drives lane i into a wall of normal n."""
-    c = push_of(block, i, n, block[thermal.held * LANES + i])
+    c = push_of(block, i, n, block[thermal.held_time * LANES + i])
     f, T = load3(block, thermal.thermal_force, i), load9(block, thermal.thermal_stress, i)
     volume = volume_at_rest(block, i)
     # The mobility is symmetric: the rate of the gap by f and T is the power of these in the push.
