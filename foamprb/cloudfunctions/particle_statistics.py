@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +55,10 @@ class ParticleStatistics(PathFunction):
     """
 
     sigmaParticles: Annotated[bool, Meaning("whether to write the particles' stress and volume, too")] = False
+    # A run may continue with the other format.
+    writeFormat: Annotated[Literal["binary", "ascii"], Meaning("OpenFOAM's format of the fields")] = field(
+        default="binary", compare=False
+    )
 
     arrays: ClassVar = {**PathFunction.arrays, "D": per_particle, "sums": per_cell, "scale": table}
 
@@ -99,7 +103,8 @@ class ParticleStatistics(PathFunction):
                 for k, patch in enumerate(cloud.cloud.flow.patches)
             }
             path = folder / f"{cloud.time:.12g}" / name
-            write_field(path, _DIMENSIONS[name], [in_cells[name]], mesh.n_cells, patches)
+            binary = self.writeFormat == "binary"
+            write_field(path, _DIMENSIONS[name], in_cells[name], patches, binary=binary)
 
 
 def _in_frames(arrays: Any, steps: Steps) -> Steps:

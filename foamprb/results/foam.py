@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -33,12 +32,13 @@ class PatchValues(NamedTuple):
 def write_field(
     path: Path,
     dimensions: Sequence[int],
-    cells: Iterable[Floats],
-    n: int,
+    cells: Floats,
     patches: Mapping[str, PatchValues],
     name: str | None = None,
+    *,
+    binary: bool = False,
 ) -> None:
-    """Write a ``volScalarField`` or a ``volSymmTensorField``, plain text, in one step.
+    """Write a ``volScalarField`` or a ``volSymmTensorField`` in one step, as text or binary.
 
     Parameters
     ----------
@@ -47,49 +47,38 @@ def write_field(
     dimensions
         Exponents of kg, m, s, K, mol, A, cd.
     cells
-        Values at the cells, part by part, (…,), or (…, 6) in the order xx yy zz xy yz xz.
-    n
-        Number of cells.
+        Values at the cells, (n,), or (n, 6) in the order xx yy zz xy yz xz.
     patches
         Fields on the patches by name, in the order of the mesh.
     name
         Name of the field; by default the file's.
+    binary
+        Whether lists are little-endian doubles.
     """
-    parts = iter(cells)
-    first = next(parts)
-    with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8") as file:
-        file.write(_header("volScalarField" if first.ndim == 1 else "volSymmTensorField", name or path.name))
-        file.write(f"dimensions      [{' '.join(map(str, dimensions))}];\n\ninternalField   ")
-        file.writelines(_values(first, parts, n))
-        file.write(";\n\nboundaryField\n{\n")
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
+        kind = "volScalarField" if cells.ndim == 1 else "volSymmTensorField"
+        file.write(_header(kind, name or path.name, binary=binary).encode())
+        file.write(f"dimensions      [{' '.join(map(str, dimensions))}];\n\ninternalField   ".encode())
+        file.write(_values(cells, binary) + b";\n\nboundaryField\n{\n")
         for key, patch in patches.items():
             word = key if key.replace("_", "").replace("-", "").isalnum() else f'"{key}"'
-            file.write(f"    {word}\n    {{\n        type            {patch.type};\n")
+            file.write(f"    {word}\n    {{\n        type            {patch.type};\n".encode())
             if patch.values is not None:
-                file.write("        value           ")
-                file.writelines(_values(patch.values, iter(()), len(patch.values)))
-                file.write(";\n")
-            file.write("    }\n")
-        file.write("}\n")
+                file.write(b"        value           " + _values(patch.values, binary) + b";\n")
+            file.write(b"    }\n")
+        file.write(b"}\n")
 
 
-def _values(first: Floats, parts: Iterator[Floats], n: int) -> Iterator[str]:
-    """Yield the text of a list of n values: the first of them, and further parts."""
-    part, equal = first, 0
-    while len(part) and (part == first[0]).all():
-        equal += len(part)
-        part = next(parts, first[:0])
-    if n and equal == n:
-        yield f"uniform {_items(first[:1])[0]}"
-        return
-    yield f"nonuniform List<{'scalar' if first.ndim == 1 else 'symmTensor'}> {n}\n(\n"
-    # Parts that are all equal to the first row have been passed over.
-    before = (
-        first[np.zeros(min(len(first), equal - k), dtype=int)] for k in range(0, equal, len(first) or 1)
-    )
-    for values in chain(before, [part], parts):
-        yield "".join(f"{item}\n" for item in _items(values))
-    yield ")"
+def _values(values: Floats, binary: bool) -> bytes:
+    """Return a list of values as it is in a file."""
+    n = len(values)
+    if n and (values == values[0]).all():
+        return f"uniform {_items(values[:1])[0]}".encode()
+    head = f"nonuniform List<{'scalar' if values.ndim == 1 else 'symmTensor'}> {n}\n(".encode()
+    if binary:
+        ordered = values if values.ndim == 1 else values[:, SYMMETRIC]
+        return head + ordered.astype("<f8").tobytes() + b")"
+    return head + "".join(["\n", *(f"{item}\n" for item in _items(values)), ")"]).encode()
 
 
 def _items(values: Floats) -> list[str]:
@@ -167,10 +156,11 @@ def write_lagrangian(
         _write_list(folder / name, kind, n, lines)
 
 
-def _header(kind: str, name: str, location: str = "") -> str:
+def _header(kind: str, name: str, location: str = "", binary: bool = False) -> str:
     place = f'    location    "{location}";\n' if location else ""
+    form = 'binary;\n    arch        "LSB;label=32;scalar=64"' if binary else "ascii"
     return (
-        f"FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {kind};\n"
+        f"FoamFile\n{{\n    version     2.0;\n    format      {form};\n    class       {kind};\n"
         f"{place}    object      {name};\n}}\n\n"
     )
 

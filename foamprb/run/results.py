@@ -20,7 +20,9 @@ from foamprb.cloud.measures import (
     PER_CONTEXT,
     WRITTEN,
     FlowSamples,
+    as_slice,
     flow_samples,
+    injected,
     number_of_contexts,
     released,
     shapes,
@@ -203,9 +205,10 @@ class Results:
         self._write_checkpoint(cloud, memory, self._write_parts(), cloud.comm.rank.moments.times)
 
     def end(self, warnings: Sequence[str] = ()) -> None:
-        """Write ``fates``, a row per particle, ``failed`` if a particle failed, and warnings into the record.
+        """Write ``fates``, ``failed`` if a particle failed, and warnings into the record.
 
-        ``fates`` marks a finished run: it takes its name after the last snapshot and checkpoint.
+        ``fates`` has a row per injected particle, and marks a finished run: it takes its name after the last
+        snapshot and checkpoint.
         """
         cloud = self._job.cloud
         failed = cloud.counts()[Status.FAILED] > 0
@@ -446,10 +449,12 @@ def _due_at(p: Particles, time: float) -> Particles:
 def _fates_of(
     p: Particles, further: Mapping[str, Column], patch_names: Sequence[str], rho: float, quadratic: bool
 ) -> Rows:
-    """Return rows of ``fates``; ``further`` are columns of cloud functions.
+    """Return rows of ``fates`` for the particles that were injected; ``further`` are columns of functions.
 
     For ``rho`` and ``quadratic`` see :func:`foamprb.run.validity.path_values`.
     """
+    here = as_slice(injected(p))
+    p, further = p.take(here), {name: np.asarray(column)[here] for name, column in further.items()}
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last name belongs to the code −1.
     patches = np.array((*patch_names, ""), dtype=object)

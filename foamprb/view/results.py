@@ -290,16 +290,9 @@ class Run:
         return Tracks(points, data.start, values, {"origId": data.of_lines["origId"]})
 
 
-def released_of(fates: Table) -> Table:
-    """Return the rows of the released particles of a table of fates."""
-    here = fates["fate"] != "pending"
-    return {name: column[here] for name, column in fates.items()}
-
-
 def summary_of(fates: Table) -> Table:
     """Return :meth:`Run.summary` of a table of fates."""
-    released = released_of(fates)
-    pairs = np.stack([released["fate"], released["patch"]], axis=1)
+    pairs = np.stack([fates["fate"], fates["patch"]], axis=1)
     kinds, counts = np.unique(pairs, axis=0, return_counts=True)
     order = np.argsort(-counts, kind="stable")
     kinds, counts = kinds[order], counts[order]

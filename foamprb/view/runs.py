@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder
-from foamprb.view.results import Run, Table, frame_of, open_run, released_of
+from foamprb.view.results import Run, Table, frame_of, open_run
 from foamprb.view.sensitivity import design_of, index_table
 
 
@@ -75,7 +75,7 @@ class Runs(Mapping[str, Run]):
         InputError
             If the runs are none of a Sobol design, or too few of it have ended.
         """
-        ended = {name: released_of(fates) for name, run in self.runs.items() if (fates := run.fates())}
+        ended = {name: fates for name, run in self.runs.items() if (fates := run.fates())}
         design = design_of(self.numbers, self.entries, ended)
         if design is None:
             raise InputError(

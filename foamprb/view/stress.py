@@ -68,7 +68,7 @@ def write_stress(target: Path, run: Run, case: Path, mesh: Mesh, fraction: float
         for k, patch in enumerate(mesh.patches)
     }
     target.parent.mkdir(parents=True, exist_ok=True)
-    write_field(target, _KINEMATIC, [sigma], len(sigma), patches, "sigma")
+    write_field(target, _KINEMATIC, sigma, patches, "sigma")
     if len(before) == len(sigma):
         change = float(np.linalg.norm(before[:, np.argsort(SYMMETRIC)] - sigma) / np.linalg.norm(before))
         log.info("Change of the stress: %.3g %%", 100.0 * change)

@@ -14,7 +14,7 @@ from foamprb.results.intervals import Estimate, difference, pair_correlation, qu
 from foamprb.view.colours import with_interval
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, page, table
-from foamprb.view.results import Table, released_of
+from foamprb.view.results import Table
 from foamprb.view.runs import Runs
 from foamprb.view.sensitivity import (
     QUANTITIES,
@@ -56,11 +56,10 @@ def write_comparison(runs: Runs, target: Path) -> Path:
         If the file cannot be written.
     """
     refuse_other_kind(target, PAGE_BEGINS)
-    ended = {name: fates for name, run in runs.items() if (fates := run.fates()) is not None}
-    if not ended:
+    released = {name: fates for name, run in runs.items() if (fates := run.fates()) is not None}
+    if not released:
         raise InputError(f"none of the runs {', '.join(runs)} has ended. To continue: foamprb run -resume.")
-    missing = [name for name in runs if name not in ended]
-    released = {name: released_of(fates) for name, fates in ended.items()}
+    missing = [name for name in runs if name not in released]
     labels = _labels(runs, released)
     sections = [
         PageSection("runs", "Runs", _rows(runs, released)),

@@ -178,8 +178,8 @@ def _subtitle(run: Run) -> str:
 
 def _cards(fates: Table) -> list[tuple[str, str]]:
     """Return the numbers at the top of the page, each with its meaning."""
-    counts = {name: int((fates["fate"] == name).sum()) for name in ("pending", *plots.FATES)}
-    cards = [(f"{len(fates['id']) - counts.pop('pending')}", "injected")]
+    counts = {name: int((fates["fate"] == name).sum()) for name in plots.FATES}
+    cards = [(f"{len(fates['id'])}", "injected")]
     cards += [
         (f"{count}", f"{name}, {share(count, sum(counts.values())).percent()}")
         for name, count in counts.items()
@@ -225,9 +225,8 @@ _ALWAYS = 4
 def _fates(report: _Report) -> PageSection | None:
     counts: dict[str, dict[str, int]] = {}
     for patch, fate in zip(report.fates["patch"].tolist(), report.fates["fate"].tolist(), strict=True):
-        if fate != "pending":
-            place = counts.setdefault(patch or "in the flow", {})
-            place[fate] = place.get(fate, 0) + 1
+        place = counts.setdefault(patch or "in the flow", {})
+        place[fate] = place.get(fate, 0) + 1
     if not counts:
         return None
     sums = {place: sum(by_fate.values()) for place, by_fate in counts.items()}
@@ -260,14 +259,13 @@ def stuck_at_release(fates: Mapping[str, Any], total: int) -> str:
 
 def _origins(report: _Report) -> str:
     fates = report.fates
-    here = fates["fate"] != "pending"
-    if "x0" not in fates or not here.any():
+    if "x0" not in fates:
         return ""
-    x = np.stack([fates[key][here] for key in ("x0", "y0", "z0")], axis=1)
+    x = np.stack([fates[key] for key in ("x0", "y0", "z0")], axis=1)
     if not np.ptp(x, axis=0).any():
         return ""
     return report.figure(
-        "fatesByOrigin", plots.by_origin(x, fates["fate"][here]), "Places of release, coloured by fate."
+        "fatesByOrigin", plots.by_origin(x, fates["fate"]), "Places of release, coloured by fate."
     )
 
 
@@ -370,8 +368,7 @@ def _beyond(fates: Table, run: Run) -> list[str]:
     if "maxD" not in fates:
         return []
     material = run.record.get("models", {}).get("solid", "")
-    released = int(np.count_nonzero(fates["fate"] != "pending"))
-    return warnings_of(released, excesses(fates["id"], fates, material), material)
+    return warnings_of(len(fates["id"]), excesses(fates["id"], fates, material), material)
 
 
 def _largest(report: _Report) -> str:
@@ -389,7 +386,7 @@ def _largest(report: _Report) -> str:
         rows.append((title, *(number(q, 3) for q in np.quantile(values, (0.5, 0.99, 1.0)).tolist()), beyond))
     gap = fates["minGap"]
     if (gap < NEAR).any():
-        gap = np.minimum(gap[fates["fate"] != "pending"], NEAR)
+        gap = np.minimum(gap, NEAR)
         near = f"{share(int(np.count_nonzero(gap < NEAR)), len(gap)).percent()} below {number(NEAR)}"
         ends = np.quantile(gap, (0.5, 0.01, 0.0)).tolist()
         rows.append(("smallest gap/radius", *(number(q, 3) for q in ends), near))
