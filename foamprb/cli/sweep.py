@@ -71,7 +71,7 @@ def execute(arguments: argparse.Namespace) -> int:
             log.warning("%s: %s", what, error)
             continue
         comparable.append(number)
-        counts = job.cloud.particles.counts()
+        counts = job.cloud.counts()
         fates = ", ".join(f"{count} {status.name.lower()}" for status, count in counts.items() if count)
         log.info("%s: %s", what, fates)
     if arguments.run is None and comparable:

@@ -109,6 +109,8 @@ class Cloud:
         The processes that hold the particles; by default this one alone.
     end
         Time at which the last step ends, s. It is shorter than Δt if this is no multiple of Δt.
+    late
+        Number of further particles that never appear before the end, and are not stored.
 
     Raises
     ------
@@ -135,6 +137,7 @@ class Cloud:
     decoupled: Collection[str] = ()
     comm: Communicator = field(default_factory=Communicator)
     end: float = math.inf
+    late: int = 0
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -255,8 +258,9 @@ class Cloud:
         return self.particles if self.comm.size == 1 else concatenate(self.map_by_id(same))
 
     def counts(self) -> dict[Status, int]:
-        """Return the number of particles of each status."""
-        return self.comm.counts()
+        """Return the number of particles of each status, with those that are not stored."""
+        counts = self.comm.counts()
+        return {**counts, Status.PENDING: counts[Status.PENDING] + self.late}
 
     @property
     def time(self) -> float:

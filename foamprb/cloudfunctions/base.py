@@ -61,7 +61,7 @@ class CloudShare(NamedTuple):
     tracker: Tracker
     time: float
     size: int
-    """Number of particles of all processes."""
+    """Number of particles of all processes, and of those that never appear."""
 
 
 @dataclass(frozen=True)

@@ -120,7 +120,8 @@ class ParticleTracks(PathFunction):
         """Write the paths of the particles that have moved."""
         from foamprb.results.vtk import Tracks, write_tracks
 
-        numbers = _tracked(cloud.cloud.size, self.maxTracks)
+        numbers = _tracked(cloud.cloud.size + cloud.cloud.late, self.maxTracks)
+        numbers = numbers[numbers < cloud.cloud.size]
         cloud = cloud.of(numbers)
         p = cloud.particles
         points = self._up_to_now(memory, cloud)

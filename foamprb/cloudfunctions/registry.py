@@ -78,7 +78,7 @@ class CloudFunctions:
         base, away = cloud.cloud, {name: self.functions[name] for name in self.travelling}
         # The sums of all cells stay here.
         initial = {name: self._without_cells(name) for name in away}
-        arguments = base.interactions, base.medium, cloud.names
+        arguments = base.interactions, base.medium, cloud.names, base.late
         base.comm.call(Sampling.install, Sampling(away, initial, *arguments))
 
     def _begin(self, name: str, function: CloudFunction) -> None:

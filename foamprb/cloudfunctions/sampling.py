@@ -41,9 +41,11 @@ class Sampling:
         interactions: Sequence[Interaction],
         medium: Medium,
         names: Mapping[str, Sequence[str]],
+        late: int,
     ) -> None:
         self.functions, self._initial = functions, memory
         self._interactions, self._medium, self._names = tuple(interactions), medium, names
+        self._late = late
         self._events: dict[str, list[NDArray[np.float64]]] = {name: [] for name in functions}
         self._sums: dict[str, NDArray[np.int64]] = {}
 
@@ -54,7 +56,7 @@ class Sampling:
 
     def cloud(self, rank: Rank, p: Particles, time: float) -> ObservedCloud:
         """Return the cloud with some particles of a rank, as functions observe it at a time, s."""
-        n = int(rank.firsts[-1])
+        n = int(rank.firsts[-1]) + self._late
         share: Any = CloudShare(self._interactions, rank.seen, self._medium, rank.tracker, time, n)
         return ObservedCloud(share, self._names, _seen=p)
 

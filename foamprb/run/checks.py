@@ -235,10 +235,13 @@ def outside_flow(settings: Settings, flow: Flow) -> list[str]:
     return sentences
 
 
-def late_releases(settings: Settings, cloud: Cloud, injector: int, n: int) -> list[str]:
-    """Return a sentence if some of the n particles of an injection model are due after the end of the run."""
+def late_releases(settings: Settings, cloud: Cloud, injector: int, n: int, more: int) -> list[str]:
+    """Return a sentence if some particles of an injection model are due after the end of the run.
+
+    The cloud has n of its particles; ``more`` are not stored.
+    """
     end, injection = settings.solution.endTime, settings.injections[injector]
-    late = sum(cloud.map_ranks(_count_late, injector, end))
+    late, n = sum(cloud.map_ranks(_count_late, injector, end)) + more, n + more
     if not late:
         return []
     which = f"{late} of {n} particles are" if late < n else f"none of {n} particles is"

@@ -64,13 +64,14 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     for index, injection in enumerate(settings.injections):
         g = dimensionless_groups(cloud, index, extension)
         ranges = {name: value for name, value in g._asdict().items() if name != "n"} if g.n else {}
+        n = g.n + (cloud.late if injection is settings.injections[-1] else 0)
         injections.append(
-            {"name": injection.name, "type": type(injection.model).__name__, "particles": g.n, **ranges}
+            {"name": injection.name, "type": type(injection.model).__name__, "particles": n, **ranges}
         )
         if g.n:
             liquid = MATERIALS[models.material].liquid
             warnings += validity_warnings(g, models.integrator, f"injection model {injection.name}", liquid)
-            warnings += late_releases(settings, cloud, index, g.n)
+            warnings += late_releases(settings, cloud, index, g.n, n - g.n)
     sizes = [i["size"][1] for i in injections if "size" in i]
     warnings += doubtful_lengths(settings, cloud, max(sizes, default=math.nan))
     p = _surveyed(cloud)

@@ -339,7 +339,9 @@ def assemble(
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = _medium(settings)
     start = _start(settings, flow)
-    release = Release(settings.injections, flow, medium, _span(settings, start, flow))
+    steps, end = _last_step(settings.solution, start)
+    last = max(settings.solution.endTime, start + steps * settings.solution.deltaT)
+    release = Release(settings.injections, flow, medium, _span(settings, start, flow), last)
     solids = sorted({injection.solid.type for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
@@ -362,7 +364,8 @@ def assemble(
             limits=solution.limits,
             decoupled=[patch.name for patch in flow.patches if by_name[patch.name].code != CYCLIC],
             comm=comm,
-            end=_last_step(solution, start)[1],
+            end=end,
+            late=release.late,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error

@@ -193,7 +193,7 @@ class _Schedule:
 
     def _next_steps(self, target: int) -> int:
         cloud = self.stepper.cloud
-        most = MOST_STEPS / moving(cloud)
+        most = MOST_STEPS / max(1, moving(cloud) - cloud.late)
         steps = min(most, self._steps or _FIRST_CALL * most)
         left, stretch = target - cloud.step, cloud.tracker.stretch_steps
         # Calls of similar length: not a long one and a remainder.

@@ -85,6 +85,8 @@ class Release:
         The flow, and its viscosity, density and gravity.
     span
         Shortest and longest time of the run, s.
+    end
+        End of the run, s. The last particles of all are left out if they are due then or later.
 
     Raises
     ------
@@ -98,12 +100,15 @@ class Release:
         flow: Flow,
         medium: Medium,
         span: tuple[float, float] = (1e-3, 1.0),
+        end: float = math.inf,
     ) -> None:
         self.n_times = number_of_times(injections, span)
         self._sources = [
             _Source(i, injection, flow, medium, times_of_power_law(*span), self.n_times)
             for i, injection in enumerate(injections)
         ]
+        self.late = self._sources[-1].leave_out(end) if self._sources else 0
+        """Number of particles that are left out."""
         self.size = sum(source.size for source in self._sources)
 
     def parts(self, most: int = sys.maxsize) -> Iterator[Particles]:
@@ -154,6 +159,16 @@ class _Source:
         except InputError as error:
             raise InputError(f"injection model {injection.name}: {error}") from error
         self.size = len(self._places.t)
+
+    def leave_out(self, end: float) -> int:
+        """Leave out the last particles if they are due at ``end`` (s) or later, but for one; return how many.
+
+        The others do not depend on ``end``.
+        """
+        entering = np.flatnonzero(self._places.t < end)
+        size = self.size
+        self.size = max(int(entering[-1]) + 1 if len(entering) else 0, min(1, size))
+        return size - self.size
 
     def parts(self, most: int) -> Iterator[Particles]:
         """Yield the particles, at most so many together, but for their numbers."""
@@ -211,7 +226,7 @@ class _Source:
     @cached_property
     def _largest_stress(self) -> float:
         """Largest viscous stress around the particles, Pa."""
-        parts = (pending(self._places, rows) for rows in parts_of(self.size))
+        parts = (pending(self._places, rows) for rows in parts_of(len(self._places.t)))
         return max(float(np.max(self._viscous_stress(p), initial=0.0)) for p in parts)
 
     def _refuse_moduli(self, p: Particles) -> None:

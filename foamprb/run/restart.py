@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.communicator import Rank
 from foamprb.cloud.instants import PREFIX
+from foamprb.cloud.measures import as_slice
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
@@ -85,8 +86,11 @@ def require_header(checkpoint: StoredCheckpoint) -> None:
         raise DamagedError(str(error)) from error
 
 
-def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
-    """Return texts and sums of arrays, by name, that determine the paths of a cloud before its first step."""
+def fingerprint(settings: Settings, cloud: Cloud, n: int | None = None) -> Fingerprint:
+    """Return texts and sums of arrays, by name, that determine the paths of a cloud before its first step.
+
+    The sums are those of the first n particles, by default all.
+    """
     texts: dict[str, Any] = {"foamprb": version("foamprb"), "solution/deltaT": cloud.dt}
     # All files of a run have the same arrays.
     texts |= {"solution/writeFields": f"({' '.join(settings.solution.writeFields)})"}
@@ -101,7 +105,8 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         texts |= {f"patch {patch.name}": interaction}
     marks: Fingerprint = {name: str(value) for name, value in texts.items()}
-    marks |= {f"{_PARTICLES}/{name}": sums for name, sums in _sums_of_particles(cloud).items()}
+    marks[f"{_PARTICLES}/number of all"] = str(cloud.size + cloud.late)
+    marks |= {f"{_PARTICLES}/{name}": sums for name, sums in _sums_of_particles(cloud, n).items()}
     for name, array in cloud.flow.traits().items():
         values = np.atleast_1d(array)
         integers = values.dtype.kind != "f"
@@ -114,12 +119,33 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     return marks
 
 
-def _sums_of_particles(cloud: Cloud) -> dict[str, Sums]:
-    """Return the fingerprint of each array of the particles."""
-    n, totals = cloud.size, cloud.map_ranks(_totals_of)
+def with_other_end(
+    marks: Fingerprint, settings: Settings, cloud: Cloud, checkpoint: StoredCheckpoint
+) -> Fingerprint:
+    """Return the fingerprint of a cloud as a run with the end of a checkpoint's has it.
+
+    A run stores the particles that appear before its end. Of a longer run, the particles are those of the
+    checkpoint, which need no comparison.
+    """
+    n = stored_particles(checkpoint)
+    if n < cloud.size:
+        return fingerprint(settings, cloud, n)
+    before = checkpoint.header["fingerprint"].items() if n > cloud.size else ()
+    return marks | {k: v for k, v in before if k.startswith(_PARTICLES) and not isinstance(v, str)}
+
+
+def stored_particles(checkpoint: StoredCheckpoint) -> int:
+    """Return the number of particles in a checkpoint."""
+    return checkpoint.layout[f"{PARTICLES}number"][0][0]
+
+
+def _sums_of_particles(cloud: Cloud, n: int | None = None) -> dict[str, Sums]:
+    """Return the fingerprint of each array of the first n particles, by default all."""
+    n = cloud.size if n is None else n
+    totals = cloud.map_ranks(_totals_of, n)
     sums: dict[str, Sums] = {name: _means(np.sum([t[name] for t in totals], axis=0), n) for name in totals[0]}
     checksums = dict.fromkeys(_INTEGERS, 0)
-    for arrays in cloud.map_by_id(_integers_of):
+    for arrays in cloud.map_by_id(_integers_of, n):
         checksums = {name: zlib.crc32(array.tobytes(), checksums[name]) for name, array in arrays.items()}
     sums |= {name: [[float(n), float(value)]] for name, value in checksums.items()}
     return {name: sums[name] for name in Particles._fields}
@@ -128,13 +154,14 @@ def _sums_of_particles(cloud: Cloud) -> dict[str, Sums]:
 _INTEGERS = tuple(name for name, variable in VARIABLES.items() if not variable.dtype.startswith("f"))
 
 
-def _totals_of(p: Particles) -> dict[str, NDArray[np.float64]]:
+def _totals_of(p: Particles, n: int) -> dict[str, NDArray[np.float64]]:
     """Return the sums of the arrays of numbers that are no integers, see :func:`_totals`."""
+    p = p.take(as_slice(np.flatnonzero(p.number < n)))
     return {name: _totals(a, p.number) for name, a in p._asdict().items() if name not in _INTEGERS}
 
 
-def _integers_of(p: Particles) -> dict[str, NDArray[Any]]:
-    return {name: getattr(p, name) for name in _INTEGERS}
+def _integers_of(p: Particles, n: int) -> dict[str, NDArray[Any]]:
+    return {name: getattr(p, name)[p.number < n] for name in _INTEGERS}
 
 
 def checkpoint_of(
@@ -279,7 +306,7 @@ def restore(
     InputError
         If the checkpoint has other arrays, or is that of a run with other cloud functions.
     """
-    header, n = checkpoint.header, cloud.size
+    header, n = checkpoint.header, stored_particles(checkpoint)
     layout = {
         f"{PARTICLES}{name}": ((n, *array.shape[1:]), array.dtype)
         for name, array in cloud.comm.rank.particles._asdict().items()
@@ -300,7 +327,10 @@ def restore(
 
 
 def _restore_rank(rank: Rank, file: Path) -> None:
-    """Read the particles of a rank, and the arrays of cloud functions, from a checkpoint."""
+    """Read the particles of a rank, and the arrays of cloud functions, from a checkpoint.
+
+    Particles that it lacks stay at their start.
+    """
     stored, first = StoredCheckpoint(file), int(rank.firsts[rank.number])
     for name, array in rank.particles._asdict().items():
         stored.read_into(array, f"{PARTICLES}{name}", first)

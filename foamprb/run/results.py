@@ -57,6 +57,7 @@ from foamprb.run.restart import (
     restore,
     snapshots_until,
     sums_around,
+    with_other_end,
 )  # fmt: skip
 from foamprb.run.validity import path_values
 from foamprb.settings.solution import StartFrom
@@ -353,10 +354,9 @@ class Results:
     def _is_finished(self, checkpoint: StoredCheckpoint) -> bool:
         """Return whether the run has ended at a checkpoint, and has written its tables."""
         status = checkpoint.read(f"{PARTICLES}status")
-        ended = (
-            checkpoint.header["step"] >= self._job.steps
-            or not np.isin(status, self._job.cloud.tracker.movable).any()
-        )
+        cloud = self._job.cloud
+        moving = np.isin(status, cloud.tracker.movable).any() or cloud.size + cloud.late > len(status)
+        ended = checkpoint.header["step"] >= self._job.steps or not moving
         return ended and self._fates.exists()
 
     def _resume(self, checkpoint: StoredCheckpoint) -> None:
@@ -365,7 +365,8 @@ class Results:
         # Before the particles are restored from the checkpoint.
         description = job.description
         where = f"{job.folder.path}: cannot continue from t = {checkpoint.time:.12g} s"
-        refuse_changes(checkpoint, self._fingerprint, where)
+        marks = with_other_end(self._fingerprint, job.settings, job.cloud, checkpoint)
+        refuse_changes(checkpoint, marks, where)
         end = job.settings.solution.endTime
         if checkpoint.time > end + _ROUND_OFF * job.cloud.dt:
             raise InputError(

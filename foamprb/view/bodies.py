@@ -337,13 +337,12 @@ def fields_of_fates(bodies: Bodies, fates: Table) -> dict[str, Quantity]:
 def fates_of(bodies: Bodies, run: Run, fates: Table | None) -> Codes:
     """Return the fates of the bodies, (1, n): "active", "stuck on wall", "escaped through outlet", ….
 
-    They are taken from ``fates.csv``, which lacks bodies due at the end time; or without it from the last of
-    the bodies' times.
+    They are taken from ``fates.csv``, or without it from the last of the bodies' times.
     """
     if fates is not None:
         columns = (fates[name].tolist() for name in ("id", "fate", "patch"))
         by_id = {number: _fate(fate, patch) for number, fate, patch in zip(*columns, strict=True)}
-        words = [by_id.get(body, "pending") for body in bodies.ids.tolist()]
+        words = [by_id.get(body, "unknown") for body in bodies.ids.tolist()]
     else:
         statuses, patches = (dict(enumerate(run.names.get(name, ()))) for name in ("status", "patch"))
         last = bodies.status.codes[-1]

@@ -67,6 +67,19 @@ def test_particles_do_not_depend_on_the_size_of_the_parts(most, flow, monkeypatc
         assert len(np.unique(getattr(whole, name)[~np.isnan(whole.t)], axis=0)) > 2, name
 
 
+def test_particles_that_never_enter_are_not_made(flow):
+    """The others, also their first Lamé parameter, are those of a run that lasts for longer."""
+    injections = (INJECTIONS[1], INJECTIONS[0])
+    whole = concatenate(Release(injections, flow, AIR).parts())
+    release = Release(injections, flow, AIR, end=0.001)
+    p = concatenate(release.parts(77))
+    # 1e5 1/s enter for 5 ms; of the first model all are made.
+    assert (release.late, p.size) == (400, whole.size - 400)
+    assert (whole.t0[p.size :] >= 0.001).all()
+    for name, found, expected in zip(p._fields, p, whole, strict=True):
+        assert found.tobytes() == expected[: p.size].tobytes(), name
+
+
 def test_the_draw_of_places_does_not_depend_on_the_size_of_its_parts(flow, monkeypatch):
     model = PatchInjection("inlet", 1e5, 0.005)
     whole = models.pending(model.places(flow, np.random.default_rng(1), None))

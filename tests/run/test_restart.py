@@ -124,6 +124,15 @@ def test_a_later_end_time_continues_the_run(case, truth):
     assert results(case) == truth
 
 
+def test_an_earlier_end_time_ends_the_run(stopped):
+    """The checkpoint has bodies that enter after the new end, which a run with this end does not store."""
+    edit(stopped, r"endTime\s+\S+;", "endTime 0.0035;")
+    go_on(stopped)
+    found = results(stopped)
+    assert main(["run", "-case", str(stopped), "-overwrite"]) == 0
+    assert found == results(stopped)
+
+
 def test_a_run_that_ended_within_a_stretch_of_steps_continues_from_its_start(case):
     """Its last steps were shorter than those of the longer run."""
     edit(case, r"shape\s+paper;", "shape stokes;")
