@@ -53,7 +53,6 @@ def execute(arguments: argparse.Namespace) -> int:
     from foamprb.cloud.communicator import Communicator
     from foamprb.run.job import prepare
     from foamprb.run.log import log_description, log_dry_run
-    from foamprb.run.loop import execute_until_signal
 
     if arguments.estimateErrors and (arguments.parallel or arguments.dry_run):
         raise UsageError("-estimateErrors does not go with -parallel or -dry-run.")
@@ -78,6 +77,8 @@ def execute(arguments: argparse.Namespace) -> int:
     if arguments.dry_run:
         log_dry_run(job)
         return 0
+    from foamprb.run.loop import execute_until_signal
+
     execute_until_signal(job, start_from)
     if arguments.estimateErrors:
         from foamprb.run.errors_of_fates import estimate_errors, log_errors

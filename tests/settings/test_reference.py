@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from paths import ROOT
+from paths import PIPE, ROOT
 from settings_reference import SECTIONS, entries_of, tables, texts, with_tables
 
 from foamprb.cloud.forces import FORCES
@@ -30,7 +30,8 @@ def test_the_file_of_help_has_the_texts_of_the_declarations():
     assert FILE.read_text(encoding="utf-8") == texts().to_json()
 
 
-HEAVY = ("numba", "llvmlite", "scipy", "vtkmodules", "pyvista")
+VIEWERS = ("vtkmodules", "pyvista", "matplotlib")
+HEAVY = ("numba", "llvmlite", "scipy", *VIEWERS)
 
 
 @pytest.mark.parametrize(
@@ -38,6 +39,8 @@ HEAVY = ("numba", "llvmlite", "scipy", "vtkmodules", "pyvista")
     [
         ("from foamprb.cli import main; main(['help', 'deltaT'])", ("numpy", *HEAVY)),
         ("import foamprb.settings.settings", HEAVY),
+        (f"from foamprb.cli import main; main(['run', '-case', '{PIPE}', '-dry-run'])", VIEWERS),
+        (f"from foamprb.cli import main; main(['info', '-case', '{PIPE}'])", ("scipy.spatial", *VIEWERS)),
     ],
 )
 def test_texts_and_declarations_need_no_compiler(code, absent):

@@ -9,9 +9,6 @@ from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial.transform import Rotation
 
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
@@ -53,6 +50,9 @@ def moves(case: Path, region: str) -> bool:
 
 def pieces_of(mesh: Mesh) -> NDArray[np.int64]:
     """Return the piece of each cell, (n_cells,): cells that faces join."""
+    from scipy import sparse
+    from scipy.sparse.csgraph import connected_components
+
     n = mesh.n_internal
     graph = sparse.coo_array((np.ones(n), (mesh.owner[:n], mesh.neighbour)), shape=(mesh.n_cells,) * 2)
     return connected_components(graph, directed=False)[1].astype(np.int64)
@@ -141,7 +141,7 @@ def rigid_motion(
         own, rate = np.flatnonzero(piece == p), None
         for k in range(len(ends) - 1):
             step, h = R[ends[k + 1], p] @ R[ends[k], p].T, float(t_ends[k + 1] - t_ends[k])
-            turn = Rotation.from_matrix(step).as_rotvec()
+            turn = _turn_of(step)
             known = _with_whole_turns(turn, h, rate, partial(spin, cells=own), ends[k : k + 2])
             if known is None and np.linalg.norm(turn) > _QUARTER + 1e-6:
                 degrees = np.degrees(np.linalg.norm(turn))
@@ -191,10 +191,17 @@ def _with_rates(motion: Motion, t: Floats, period: float | None) -> Motion:
                 total = total + way * motion.turns[index % len(motion.turns)]
                 for p in range(count):
                     step = motion.Q[level[k + way][0], p] @ motion.Q[at, p].T
-                    turn = Rotation.from_matrix(step).as_rotvec()
-                    since[k + way - near[0], p] = nearest_turn(turn, total[p])
+                    since[k + way - near[0], p] = nearest_turn(_turn_of(step), total[p])
         motion.omega[at] = rates_of([times[k] for k in near], since, here - near[0])
     return motion
+
+
+def _turn_of(R: Floats) -> Floats:
+    """Return the rotation vector of a rotation matrix."""
+    from scipy.spatial.transform import Rotation
+
+    turn: Floats = Rotation.from_matrix(R).as_rotvec()
+    return turn
 
 
 def nearest_turn(turn: Floats, guess: Floats) -> Floats:
