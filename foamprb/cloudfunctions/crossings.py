@@ -76,9 +76,10 @@ class PlaneFunction(PathFunction):
         crossing = steps.take(index.astype(np.intp))
         (x, v, F), (t0, t1) = crossing.between(share), crossing.t
         columns = [crossing.number, (1.0 - share) * t0 + share * t1, x, sense, F]
-        if memory["crossings"].shape[1] > _COLUMNS:
+        more = self.more(crossing, share)
+        if memory["crossings"].shape[1] - sum(array.shape[1] for array in more) > _COLUMNS:
             columns += [crossing.mode_between(share), v]
-        return np.column_stack([*columns, *self.more(crossing, share)])
+        return np.column_stack([*columns, *more])
 
     def more(self, crossing: Steps, share: Floats) -> list[Floats]:  # noqa: ARG002
         """Return further columns of the crossings after a share, (n,), of their steps; by default none."""
