@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TypedDict
+from typing import Any, TypedDict
 
 from foamprb.results.reading import read_json
 
@@ -84,7 +84,7 @@ class Record(TypedDict, total=False):
     models: ModelsRecord
     time: TimeRecord
     mesh: dict[str, int]
-    patches: list[dict[str, str]]
+    patches: list[dict[str, Any]]
     injections: list[InjectionRecord]
     functions: dict[str, str]
     warnings: list[str]

@@ -117,8 +117,8 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         "time": _times(settings, cloud, steps),
         "mesh": _mesh(cloud),
         "patches": [
-            {"name": patch.name, "type": patch.type, "interaction": type(interaction).__name__.lower()}
-            for patch, interaction in zip(flow.patches, cloud.interactions, strict=True)
+            {"name": p.name, "type": p.type, "interaction": type(interaction).__name__.lower(), **place}
+            for p, interaction, place in zip(flow.patches, cloud.interactions, _places(cloud), strict=True)
         ],
         "injections": injections,
         "functions": {name: type(function).__name__ for name, function in settings.functions.items()},
@@ -228,6 +228,19 @@ def _mesh(cloud: Cloud) -> dict[str, int]:
     if mesh is None:
         return {}
     return {"cells": mesh.n_cells, "points": mesh.n_points, "tetrahedra": len(mesh.tets)}
+
+
+def _places(cloud: Cloud) -> list[dict[str, Any]]:
+    """Return the area, m², and its centre, m, of each patch that has faces in the mesh of this process."""
+    mesh, places = getattr(cloud.flow, "mesh", None), []
+    for k in range(len(cloud.flow.patches)):
+        faces = slice(0, 0) if mesh is None else slice(*mesh.patch_start[k : k + 2])
+        sizes = np.empty(0) if mesh is None else np.linalg.norm(mesh.boundary_areas[faces], axis=1)
+        area = float(sizes.sum())
+        places.append(
+            {"area": area, "centre": (sizes @ mesh.boundary_centres[faces] / area).tolist()} if area else {}
+        )
+    return places
 
 
 def _as_json(value: Any) -> Any:

@@ -84,6 +84,7 @@ class Page:
             "policy": _policy([script], [style]),
             "version": self._version,
             "title": html.escape(f"{self.scene.title} – {self.scene.subtitle}"),
+            "made": html.escape(self._header["made"]),
             "style": style,
             "licence": html.escape("\n".join(map(_text, ("LICENSE.three", "LICENSE.uplot"))), quote=False),
             # Only this character could end a script element.

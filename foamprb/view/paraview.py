@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from inspect import getsource
+from textwrap import fill
 
 import numpy as np
 
@@ -20,7 +21,9 @@ from foamprb.view.surfaces import MODE, bulges, unfolded
 _ASPECT = 4 / 3
 """Ratio of width to height for which the camera shows the whole scene."""
 
-_PALETTE = ("paper", "ink", "soft", "glass")
+_PALETTE = ("paper", "ink", "soft", "glass", "deposit")
+_LINE = 60
+"""Most letters of a line of the title."""
 _TEXT = """\
 # State of ParaView 5.11 or newer, by foamprb paraview: File > Load State, or paraview --script=THIS_FILE.
 # Shows the scene of foamprb view: deformed bodies, enlarged, the walls, and the paths of particleTracks.
@@ -36,7 +39,7 @@ COLOURS = {colours!r}
 MAP = {map!r}
 TITLE, CAPTION = {title!r}, {caption!r}
 NAMES = {names!r}
-PAPER, INK, SOFT, GLASS = {palette!r}
+PAPER, INK, SOFT, GLASS, DEPOSIT = {palette!r}
 POSITION, FOCUS, UP = {position!r}, {focus!r}, {up!r}
 # More bodies than this are drawn by the graphics card as copies of one sphere, from semiAxes and orientation.
 # Fewer bodies are made one by one from glyph, so that a point of the surface keeps its place on the body.
@@ -115,12 +118,24 @@ colours.RGBPoints = [number for row in MAP for number in row]
 colours.RescaleTransferFunction(*COLOURS)
 shown.SetScalarBarVisibility(view, True)
 bar = simple.GetScalarBar(colours, view)
-bar.Title, bar.ComponentTitle, bar.Orientation = "Taylor deformation", "", "Horizontal"
-# Beside the axes. Labels at round numbers only: those of the ends are 0.0e+00 and 6.0e-01.
-bar.WindowLocation, bar.Position, bar.ScalarBarLength = "Any Location", [0.17, 0.04], 0.28
+bar.Title, bar.ComponentTitle, bar.Orientation = "Taylor deformation", "", "Vertical"
+# Beside the scene, which leaves the right of a wide picture. Labels at round numbers only: those of the ends
+# are 0.0e+00 and 6.0e-01.
+bar.WindowLocation, bar.Position, bar.ScalarBarLength = "Any Location", [0.9, 0.3], 0.4
 bar.AddRangeLabels = 0
 bar.TitleColor = bar.LabelColor = INK
 bar.TitleFontSize = bar.LabelFontSize = 14
+
+# A cage of wire around each body that is stuck.
+stuck = simple.Threshold(registrationName="stuck", Input=cloud)
+stuck.Scalars, stuck.ThresholdMethod = ["POINTS", "status"], "Between"
+stuck.LowerThreshold = stuck.UpperThreshold = {stuck!r}
+deposits = simple.Glyph(registrationName="deposits", Input=stuck, GlyphType="Sphere", GlyphMode="All Points")
+deposits.OrientationArray, deposits.ScaleArray = ["POINTS", "No orientation array"], ["POINTS", "d"]
+deposits.ScaleFactor = 2 * ENLARGEMENT
+halo = simple.Show(deposits, view)
+halo.Representation, halo.LineWidth, halo.ColorArrayName = "Wireframe", 2.0, [None, ""]
+halo.AmbientColor = halo.DiffuseColor = DEPOSIT
 
 files = [("walls", folder / "walls.vtp"), ("near walls", folder / "walls.vtp")]
 for name, file in [*files, *(("paths", file) for file in sorted(folder.glob("*/tracks.vtp")))]:
@@ -240,15 +255,13 @@ def write_state(folder: ResultsFolder, scene: Scene) -> None:
         "enlargement": float(scene.enlargement),
         "colours": tuple(map(float, scene.limits)),
         "map": _colours(scene),
-        "title": "\n".join(filter(None, (scene.title, in_ascii(scene.groups)))),
+        "title": "\n".join(fill(line, _LINE) for line in (scene.title, in_ascii(scene.groups)) if line),
         "caption": f"bodies drawn {scene.enlargement:.3g}x larger"
         if scene.enlargement != 1.0
         else "to scale",
         # In front of the surfaces, which would hide them.
         "names": [(s.name, (0.9 * anchor(s, camera) + 0.1 * position).tolist()) for s in drawn],
-        "palette": tuple(
-            [c / 255 for c in rgb(name)] for name in (LIGHT.paper, LIGHT.ink, LIGHT.soft, LIGHT.glass)
-        ),
+        "palette": tuple([c / 255 for c in rgb(getattr(LIGHT, name))] for name in _PALETTE),
         "position": position.tolist(),
         "focus": camera.focus.tolist(),
         "up": camera.up.tolist(),
@@ -256,6 +269,7 @@ def write_state(folder: ResultsFolder, scene: Scene) -> None:
         "shapes": _script_of_shapes(),
         "surfaces": _script_of_surfaces(),
         "mode": MODE,
+        "stuck": int(Status.STUCK),
         "shown": (int(Status.ACTIVE), int(Status.STUCK)),
         "file": str(folder.state.resolve()),
     }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from paths import ROOT
 from PIL import Image
 from pvpython import pvpython
 from view_run import clouds, modes, motion, with_orientation, write_run
@@ -18,6 +20,7 @@ from foamprb.cloud.measures import WRITTEN
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.pvd import Series
 from foamprb.results.vtk import PointCloud, Tracks, write_tracks
+from foamprb.view.colours import LIGHT, rgb
 from foamprb.view.paraview import write_state
 from foamprb.view.results import open_run
 from foamprb.view.show import Request, make_scene
@@ -84,6 +87,30 @@ exec xvfb-run -a {shutil.which("paraview")} --dr "$1"
     picture = np.asarray(Image.open(tmp_path / "shot.png").convert("RGB"), dtype=float)
     coloured = np.ptp(picture[:330, :400], axis=2) > 60.0
     assert 0.001 < coloured.mean() < 0.5
+
+
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not on PATH")
+def test_the_picture_of_the_page_has_a_title_a_bar_and_marks(tmp_path: Path) -> None:
+    """The lines of docs/view.md: letters of 14 points, the bar at the right, deposits in their colour."""
+    case = tmp_path / ("a_case_with_a_long_name_" * 6)
+    folder = write_run(case, motion(6, 4))
+    run = open_run(case)
+    write_state(run.results, make_scene(Request(case), run, range(4)))
+    state = folder / "softCloud.py"
+    # Body 1 is stuck at the last time.
+    state.write_text(re.sub(r"(?m)^TIME = .*", f"TIME = {motion(6, 4).times[-1]}", state.read_text()))
+    (lines,) = re.findall(
+        r"```python\n(view\.ViewSize.*?)```", (ROOT / "docs/view.md").read_text(), re.DOTALL
+    )
+    shot = tmp_path / "softCloud.png"
+    run_state(tmp_path, state, f"view = simple.GetActiveView()\n{lines}".replace("softCloud.png", str(shot)))
+    picture = np.asarray(Image.open(shot).convert("RGB"), dtype=float)
+    assert picture.shape == (900, 1600, 3)
+    rows, columns = np.nonzero(picture[:200, :800].sum(axis=2) < 200.0)
+    assert np.ptp(rows) < 80
+    assert columns.max() < 700
+    assert np.ptp(picture[270:630, 1430:1470], axis=2).max() > 60.0
+    assert (np.abs(picture - rgb(LIGHT.deposit)).max(axis=2) < 8.0).sum() > 100
 
 
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not on PATH")

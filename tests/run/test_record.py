@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import shutil
 
@@ -43,6 +44,9 @@ def test_record_describes_a_run_and_its_continuation(case, capsys):
     assert first["time"]["end"] == 0.002
     assert first["fluid"]["rho"] == 1.208
     assert {patch["name"]: patch["interaction"] for patch in first["patches"]}["wall"] == "stick"
+    outlet = next(patch for patch in first["patches"] if patch["name"] == "outlet")
+    assert outlet["area"] == pytest.approx(math.pi * 2.1e-3**2, rel=0.02)
+    assert outlet["centre"] == pytest.approx([0.11, 0.0, 0.0], abs=1e-5)
     assert first["injections"][0]["particles"] > 0
     assert first["injections"][0]["shear_rate"][0] <= first["injections"][0]["shear_rate"][1]
     assert first["mesh"]["cells"] > 1000

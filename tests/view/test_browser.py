@@ -714,6 +714,7 @@ LAYOUTS = [(1440, 860), (1024, 640), (800, 1100), (390, 800), (800, 390)]
 def test_nothing_overlaps_and_nothing_is_cut(browser, address, size, scheme):
     opened = Tab(browser, address, viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
     assert opened.run("document.documentElement.scrollWidth") <= size[0]
+    assert opened.run("document.documentElement.scrollHeight") <= size[1]
     boxes = opened.run("""(() => {
         const sides = ({ left, top, right, bottom }) => [left, top, right, bottom];
         const box = (e) => sides(e.getBoundingClientRect());

@@ -118,6 +118,31 @@ def test_page_of_a_design_has_indices(tmp_path, study):
         assert [text.split()[0] for text in found["share escaped: side", entry]] == ["0", "0"]
 
 
+def test_patches_of_runs_meet_by_place(tmp_path):
+    """The second run has other names; its patches are those of the first where area and centre agree."""
+    y = np.arange(N) / N
+    runs = runs_of([fates(y < 0.3), fates(y < 0.3)], [{"a": 1}, {"a": 2}])
+    runs["002"].fates()["patch"] = np.where(y < 0.3, "port_1", "port_2")
+    places = {"side": (1e-6, [0.0, 0.0, 0.0]), "straight": (1e-6, [0.01, 0.0, 0.0])}
+
+    def record(names, shift):
+        patches = [
+            {"name": name, "area": 1.02 * area, "centre": [c[0] + shift, *c[1:]]}
+            for name, (area, c) in zip(names, places.values(), strict=True)
+        ]
+        return {"patches": patches}
+
+    runs["001"].record.update(record(places, 0.0))
+    runs["002"].record.update(record(("port_1", "port_2"), 1e-5))
+    page = write_comparison(runs, tmp_path / "page.html")
+    assert "The patch port_1 of 002 lies where side of the first run does" in page.read_text()
+    first, second = cells(page, "Share of the particles")
+    assert first[1:] == second[1:]
+    assert first[1].startswith("30 ")
+    runs["002"].record.update(record(("port_1", "port_2"), 1e-3))
+    assert len(cells(write_comparison(runs, page), "Share of the particles")[0]) == 5
+
+
 def test_runs_without_particles_and_without_a_design(tmp_path):
     y = np.arange(0.0)
     runs = runs_of([fates(y < 0.3), fates(y < 0.3)], [{"a": 1}, {"a": 2}])

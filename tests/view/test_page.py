@@ -133,6 +133,7 @@ class TestContents:
     def test_titles_are_text(self, text, page):
         assert page.scene["title"] == "duct <of> glass & steel"
         assert "<title>duct &lt;of&gt; glass &amp; steel – softCloud</title>" in text
+        assert '<meta property="og:title" content="duct &lt;of&gt; glass &amp; steel – softCloud">' in text
         assert "<of>" not in text
 
 

@@ -115,6 +115,11 @@ def test_every_picture_has_a_name_and_every_id_is_there_once(page):
     assert set(inner) <= set(reader.ids)
 
 
+def test_no_header_of_a_table_is_empty(page):
+    assert "Largest values on the paths" in page
+    assert not re.search(r"<th[^>]*></th>", page)
+
+
 def test_no_level_of_headings_is_left_out(case):
     text = write_report(case, case / "warned.html").read_text(encoding="utf-8")
     levels = [1, *map(int, re.findall(r"<h([1-6])", text))]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from math import dist
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.results.atomic import refuse_other_kind, write_text
 from foamprb.results.intervals import Estimate, difference, pair_correlation, quantile, share
+from foamprb.results.record import Record
 from foamprb.view.colours import with_interval
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, page, table
@@ -56,10 +58,12 @@ def write_comparison(runs: Runs, target: Path) -> Path:
         If the file cannot be written.
     """
     refuse_other_kind(target, PAGE_BEGINS)
-    released = {name: fates for name, run in runs.items() if (fates := run.fates()) is not None}
-    if not released:
+    ended = {name: fates for name, run in runs.items() if (fates := run.fates()) is not None}
+    if not ended:
         raise InputError(f"none of the runs {', '.join(runs)} has ended. To continue: foamprb run -resume.")
-    missing = [name for name in runs if name not in released]
+    missing = [name for name in runs if name not in ended]
+    renamed = {name: same_places(runs[name].record, runs[next(iter(ended))].record) for name in ended}
+    released = {name: _renamed(fates, renamed[name]) for name, fates in ended.items()}
     labels = _labels(runs, released)
     sections = [
         PageSection("runs", "Runs", _rows(runs, released)),
@@ -68,15 +72,48 @@ def write_comparison(runs: Runs, target: Path) -> Path:
         PageSection("distributions", "Distributions", _distributions(labels, released)),
     ]
     text = page(
-        "Comparison",
+        f"Comparison: {', '.join([*released][:3])}{', …' * (len(released) > 3)}",
         f"{len(released)} runs that have ended",
         [(f"{sum(len(fates['id']) for fates in released.values())}", "particles in all")],
-        [f"{name} has not ended and is left out." for name in missing],
+        [
+            *(f"{name} has not ended and is left out." for name in missing),
+            *(
+                f"The patch {old} of {name} lies where {new} of the first run does, and has its name here."
+                for name, names in renamed.items()
+                for old, new in names.items()
+            ),
+        ],
         sections,
     )
     target.parent.mkdir(parents=True, exist_ok=True)
     write_text(target, text)
     return target
+
+
+def same_places(record: Record, first: Record) -> dict[str, str]:
+    """Return the names of patches in a first run, by those in another run, where the names differ.
+
+    Two patches meet if their areas agree to 10 %, and their centres to 5 % of the root of the area. None is
+    renamed if two of them would get the same name, or the runs have no places of patches.
+    """
+    known = [p for p in first.get("patches", ()) if p.get("area")]
+    names: dict[str, str] = {}
+    for patch in record.get("patches", ()):
+        size, x = patch.get("area", 0.0), patch.get("centre", ())
+        here = [
+            p["name"]
+            for p in known
+            if abs(p["area"] - size) < 0.1 * size and dist(p["centre"], x) < 0.05 * size**0.5
+        ]
+        names[patch["name"]] = here[0] if len(here) == 1 else patch["name"]
+    if len(set(names.values())) < len(names):
+        return {}
+    return {old: new for old, new in names.items() if old != new}
+
+
+def _renamed(fates: Table, names: Mapping[str, str]) -> Table:
+    """Return fates with other names of patches."""
+    return fates | {"patch": np.array([names.get(name, name) for name in fates["patch"].tolist()], dtype=str)}
 
 
 def _contrasts(runs: Runs, labels: dict[str, str], released: dict[str, Table]) -> Iterator[PageSection]:

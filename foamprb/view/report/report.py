@@ -390,7 +390,7 @@ def _largest(report: _Report) -> str:
         near = f"{share(int(np.count_nonzero(gap < NEAR)), len(gap)).percent()} below {number(NEAR)}"
         ends = np.quantile(gap, (0.5, 0.01, 0.0)).tolist()
         rows.append(("smallest gap/radius", *(number(q, 3) for q in ends), near))
-    return table("Largest values on the paths", ("", "median", "1 in 100 beyond", "extreme", "share"), rows)
+    return table("Largest values on the paths", ("of", "median", "1 in 100 beyond", "extreme", "share"), rows)
 
 
 def _exposure(report: _Report) -> PageSection | None:
