@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from paths import ROOT
 from validation.registry import CASES
 
 from foamprb.body.material import MATERIALS
+from foamprb.cli.main import _parser
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.measures import MEASURES
 
@@ -30,6 +32,20 @@ def test_sections_link_every_page():
     sections += [page for page in PAGES if page.stem == "index"]
     known = {(page.parent / t).resolve() for page in sections for t in targets(page)}
     assert {page for page in PAGES if page not in sections} <= known
+
+
+def test_each_kind_of_file_has_three_commands():
+    text = (ROOT / "docs/which-file.md").read_text()
+    blocks = re.findall(r"```sh\n(.*?)```", text, re.DOTALL)
+    assert len(blocks) == 6
+    for block in blocks:
+        lines = block.splitlines()
+        assert len(lines) == 3
+        for line in lines:
+            if line.startswith("foamprb "):
+                _parser().parse_args(shlex.split(re.sub(r" -(?=[a-z]{2})", " --", line))[1:])
+    for page in ("README.md", "docs/index.md"):
+        assert "which-file.md" in (ROOT / page).read_text().partition("\n## ")[0].partition("::::")[0]
 
 
 def test_pages_of_models_name_the_cases_that_check_them():
