@@ -72,6 +72,7 @@ Models of users:
 
     add_force           add a force by a function of place, time and size
     add_surrounding     add a model that changes the flow around a particle
+    add_cloud_function  add numbers of the cloud that are written at each write time
     Surrounding         base class of such a model
     extend              names for such models, a module
     select              a choice without a branch, for functions that are compiled

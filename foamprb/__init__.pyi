@@ -91,6 +91,7 @@ from .cloud.viscosity import (
     PowerLaw as PowerLaw,
 )
 from .cloudfunctions.deformability_cytometry import outline as outline
+from .cloudfunctions.user import add_cloud_function as add_cloud_function
 from .errors import (
     FailedParticlesWarning as FailedParticlesWarning,
 )
@@ -158,6 +159,7 @@ __all__ = [
     "ValidityWarning",
     "VirtualMass",
     "WallLift",
+    "add_cloud_function",
     "add_force",
     "add_material",
     "add_surrounding",

@@ -1,4 +1,4 @@
-"""User-made solids, forces and surroundings in Python files of the settings: ``libs ("rubber.py");``."""
+"""Models and cloud functions of users in Python files of the settings: ``libs ("rubber.py");``."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from foamprb.body.material import MATERIALS
 from foamprb.cloud.forces import FORCES, SAMPLE, STATE, tried
 from foamprb.cloud.layout import IDENTITY
 from foamprb.cloud.surroundings.registry import SURROUNDINGS, UserSurrounding
+from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 
@@ -26,6 +27,7 @@ _REGISTRIES: dict[str, dict[str, Any]] = {
     "solid": MATERIALS,
     "force": FORCES,
     "surroundings": SURROUNDINGS,
+    "cloud function": FUNCTIONS,
 }
 _loaded: dict[Path, tuple[str, dict[tuple[str, str], Any]]] = {}
 """Checksum of each file, empty if it failed, and the models that it has added, by registry and name."""
@@ -55,11 +57,12 @@ def require_inside(files: Iterable[Path], case: Path) -> None:
 
 
 def load_libs(files: Iterable[Path]) -> list[str]:
-    """Run Python files, which add solids, forces and surroundings, and compile the solids and forces.
+    """Run Python files, which add models, and compile the solids and forces.
 
-    They call :func:`foamprb.add_material`, :func:`foamprb.add_force` and :func:`foamprb.add_surrounding`. An
-    unchanged file is not run again; the earlier models of a changed file are removed. Models of files of
-    other cases stay, but for those that have the name of a model of these files.
+    They call :func:`foamprb.add_material`, :func:`foamprb.add_force`, :func:`foamprb.add_surrounding` and
+    :func:`foamprb.add_cloud_function`. An unchanged file is not run again; the earlier models of a changed
+    file are removed. Models of files of other cases stay, but for those that have the name of a model of
+    these files.
     Returns the SHA-256 of each file.
 
     Raises
@@ -167,6 +170,9 @@ _ADVICE = "Use arithmetic and numpy functions of numbers."
 
 def _check(file: Path, kind: str, name: str) -> None:
     """Try a model as far as it needs no flow; refuse a name that two entries of ``particleForces`` have."""
+    if kind == "cloud function":
+        # It is tried with the cloud.
+        return
     if name == "ellipsoidDrag" or (name in FORCES and name in SURROUNDINGS):
         raise InputError(f"{file}: particleForces has an entry {name} already.")
     if kind == "solid":

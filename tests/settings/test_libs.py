@@ -29,6 +29,7 @@ from foamprb.body.tensor import log_ratio
 from foamprb.cli import main
 from foamprb.cloud.forces import FORCES, add_force
 from foamprb.cloud.surroundings.registry import SURROUNDINGS, add_surrounding
+from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.flow.read.openfoam import Case
 from foamprb.settings.libs import load_libs, loaded_libs
 
@@ -55,7 +56,7 @@ ADD = "foamprb.add_force('push', push)\n"
 def registry(monkeypatch, solids):
     """No file has been loaded, and none is afterwards."""
     monkeypatch.setattr("foamprb.settings.libs._loaded", {})
-    before = [(registry, dict(registry)) for registry in (FORCES, SURROUNDINGS)]
+    before = [(registry, dict(registry)) for registry in (FORCES, SURROUNDINGS, FUNCTIONS)]
     yield
     for registry, names in before:
         registry.clear()
@@ -350,7 +351,7 @@ def test_force_and_surroundings_of_the_page_move_particles(tmp_path, capsys):
     """The slip of a rigid sphere is τ_p f + v, f = −rate² (y − y0) at its place."""
     case = copy_of_pipe(tmp_path)
     page = (ROOT / "docs/own-models.md").read_text()
-    force, *_, model, magnet = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    force, *_, model, magnet, _ = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     (case / "constant/trap.py").write_text(force)
     (case / "constant/field.py").write_text(model)
     (case / "constant/magnet.py").write_text(magnet)
@@ -380,6 +381,33 @@ def test_force_and_surroundings_of_the_page_move_particles(tmp_path, capsys):
     slip = cloud["U"][at] - u
     np.testing.assert_allclose(slip[:, 1], -tau * 300.0**2 * (points[:, 1] - 1e-4), rtol=2e-3)
     np.testing.assert_allclose(slip[:, 2], 0.02, rtol=1e-3)
+
+
+def test_function_of_the_page_is_called_at_write_times(tmp_path, capsys):
+    """Its rows are those of the snapshots, also where the run was stopped between."""
+    case = short_case(tmp_path)
+    page = (ROOT / "docs/own-models.md").read_text()
+    (code,) = (c for c in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "add_cloud_function" in c)
+    (case / "constant/front.py").write_text(code)
+    edit(case, r"^solution", 'libs ("front.py");\nsolution')
+    edit(case, r"cloudFunctions\s*\{\s*\}", "cloudFunctions { halfway { type front; x 0.001; } }")
+    stop_after(case, 0.003)
+    assert main(["run", "-case", str(case), "-resume"]) == 0
+    with (case / "postProcessing/softCloud/halfway/front.csv").open() as file:
+        rows = [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
+    run = foamprb.open_run(case)
+    assert [row["time"] for row in rows] == pytest.approx(run.times[-len(rows) :])
+    assert len(rows) >= 6
+    for row in rows:
+        cloud = run.snapshot(row["time"])
+        beyond = (cloud["status"] == 1) & (np.asarray(cloud.points)[:, 0] > 1e-3)
+        assert row["bodies"] == beyond.sum()
+        if beyond.any():
+            assert row["meanD"] == pytest.approx(cloud["taylorDeformation"][beyond].mean(), rel=1e-5)
+    assert rows[-1]["bodies"] > 0
+    edit(case, r"\(D,\) = .*", "D = p.colour", "constant/front.py")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 1
+    assert "cloudFunctions/halfway: the function front failed: AttributeError" in capsys.readouterr().err
 
 
 GAS = 'libs ("thermophoresis.py");\nsolution'
