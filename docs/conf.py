@@ -218,7 +218,16 @@ def describe(_: Any, name: str, __: str, context: dict[str, Any], doctree: Any) 
     paragraphs = [] if doctree is None else list(doctree.findall(lambda node: node.tagname == "paragraph"))
     if paragraphs:
         text = escape(" ".join(paragraphs[0].astext().split()), quote=True)
-        context["metatags"] += f'<meta name="description" content="{text}" />\n'
+        title = escape(f"{context['title']} – foamprb" if name != "index" else "foamprb", quote=True)
+        context["metatags"] += "".join(
+            f'<meta {kind} content="{content}" />\n'
+            for kind, content in (
+                ('name="description"', text),
+                ('property="og:title"', title),
+                ('property="og:description"', text),
+                ('property="og:type"', "website"),
+            )
+        )
 
 
 def setup(app: Any) -> None:

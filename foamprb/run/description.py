@@ -8,6 +8,7 @@ import platform
 from collections.abc import Mapping, Sequence
 from functools import partial
 from importlib.metadata import version
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from foamprb.cloud.surroundings.base import Surrounding, Survey
 from foamprb.cloud.viscosity import PhaseMixture, VaryingViscosity, medium_at, model_of
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.jumps import medians
+from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.nodes import NodeValues
 from foamprb.results.atomic import atomic_write
 from foamprb.results.record import RECORD_FORMAT
@@ -232,14 +234,15 @@ def _mesh(cloud: Cloud) -> dict[str, int]:
 
 def _places(cloud: Cloud) -> list[dict[str, Any]]:
     """Return the area, m², and its centre, m, of each patch that has faces in the mesh of this process."""
-    mesh, places = getattr(cloud.flow, "mesh", None), []
-    for k in range(len(cloud.flow.patches)):
-        faces = slice(0, 0) if mesh is None else slice(*mesh.patch_start[k : k + 2])
-        sizes = np.empty(0) if mesh is None else np.linalg.norm(mesh.boundary_areas[faces], axis=1)
+    mesh: Mesh | None = getattr(cloud.flow, "mesh", None)
+    if mesh is None:
+        return [{} for _ in cloud.flow.patches]
+    places: list[dict[str, Any]] = []
+    for first, end in pairwise(mesh.patch_start):
+        sizes = np.linalg.norm(mesh.boundary_areas[first:end], axis=1)
         area = float(sizes.sum())
-        places.append(
-            {"area": area, "centre": (sizes @ mesh.boundary_centres[faces] / area).tolist()} if area else {}
-        )
+        centre = sizes @ mesh.boundary_centres[first:end]
+        places.append({"area": area, "centre": (centre / area).tolist()} if area else {})
     return places
 
 

@@ -96,6 +96,7 @@ def test_intervals_by_a_given_error_hold_and_groups_differ(cytometer):
     assert row[4] < -1000.0 / 3.0 < row[5] < 0.0
     page = write_fit_page(fits, fits.folder / "fit.html").read_text()
     for text in (
+        "<title>Fit: ",
         "lines of equal shearModulus, Pa",
         "left out",
         "shearModulus [Pa]",

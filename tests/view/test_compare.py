@@ -135,6 +135,7 @@ def test_patches_of_runs_meet_by_place(tmp_path):
     runs["001"].record.update(record(places, 0.0))
     runs["002"].record.update(record(("port_1", "port_2"), 1e-5))
     page = write_comparison(runs, tmp_path / "page.html")
+    assert "<title>Comparison: 001, 002</title>" in page.read_text()
     assert "The patch port_1 of 002 lies where side of the first run does" in page.read_text()
     first, second = cells(page, "Share of the particles")
     assert first[1:] == second[1:]

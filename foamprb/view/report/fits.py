@@ -27,11 +27,6 @@ _UNITS = {
 }  # fmt: skip
 
 
-def _case_of(folder: Path) -> str:
-    """Return the name of the case of a fit, or that of the folder of ``-output``."""
-    return next((p.parent.name for p in folder.parents if p.name == "postProcessing"), folder.parent.name)
-
-
 def write_fit_page(fits: Fits, target: Path) -> Path:
     """Write the page of a fit, and its plots as files beside it, in the folder ``fitPlots``."""
     refuse_other_kind(target, PAGE_BEGINS)
@@ -116,7 +111,7 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
         PageSection("reasons", "Not fitted", reasons if fits.reasons else "<p>None.</p>"),
     ]
     cards = [(str(int(fitted.sum())), "bodies fitted"), (str(int((~fitted).sum())), "not fitted")]
-    text = page(f"Fit: {_case_of(fits.folder.resolve())}", str(fits.folder), cards, [], sections)
+    text = page(f"Fit: {Path(*fits.folder.resolve().parts[-4:])}", str(fits.folder), cards, [], sections)
     for name, plot in made.items():
         for ending, data in ((".svg", plot.svg_file), (".png", plot.png)):
             with atomic_write(target.parent / f"{target.stem}Plots" / f"{name}{ending}") as temporary:
