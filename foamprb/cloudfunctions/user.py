@@ -43,12 +43,11 @@ class UserFunction(CloudFunction):
     def _row(self, cloud: ObservedCloud) -> list[float]:
         entries = [getattr(self, field.name) for field in fields(self)]
         try:
-            row = [float(number) for number in type(self).evaluate(cloud, *entries)]
+            numbers = [float(number) for number in type(self).evaluate(cloud, *entries)]
+            return [number for number, _ in zip(numbers, self.columns, strict=True)]
         except Exception as error:
-            raise InputError(f"the function {self.name} failed: {type(error).__name__}: {error}.") from error
-        if len(row) != len(self.columns):
-            raise InputError(f"{self.name} returns {len(row)} numbers for {', '.join(self.columns)}.")
-        return row
+            what = f"{self.name} must return {', '.join(self.columns)}"
+            raise InputError(f"{what}: {type(error).__name__}: {error}.") from error
 
 
 def _restored(name: str, values: Mapping[str, float]) -> CloudFunction:
@@ -58,7 +57,7 @@ def _restored(name: str, values: Mapping[str, float]) -> CloudFunction:
 def add_cloud_function(
     name: str, evaluate: Callable[..., Sequence[float]], columns: Sequence[str]
 ) -> type[UserFunction]:
-    """Add a cloud function, for selection by its name as a ``type`` in ``cloudFunctions``.
+    """Add a cloud function, for selection by its name as a ``type`` in ``cloudFunctions``; return its class.
 
     Parameters
     ----------
@@ -70,10 +69,6 @@ def add_cloud_function(
         Its last parameters are the entries of the dictionary, all numbers. It is not compiled.
     columns
         Names of the columns of its table, after ``time``.
-
-    Returns
-    -------
-    The class of the function.
 
     Raises
     ------

@@ -407,7 +407,9 @@ def test_function_of_the_page_is_called_at_write_times(tmp_path, capsys):
     assert rows[-1]["bodies"] > 0
     edit(case, r"\(D,\) = .*", "D = p.colour", "constant/front.py")
     assert main(["run", "-case", str(case), "-dry-run"]) == 1
-    assert "cloudFunctions/halfway: the function front failed: AttributeError" in capsys.readouterr().err
+    assert (
+        "cloudFunctions/halfway: front must return bodies, meanD: AttributeError" in capsys.readouterr().err
+    )
 
 
 GAS = 'libs ("thermophoresis.py");\nsolution'
