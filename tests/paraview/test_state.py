@@ -110,7 +110,8 @@ def test_the_picture_of_the_page_has_a_title_a_bar_and_marks(tmp_path: Path) -> 
     assert np.ptp(rows) < 80
     assert columns.max() < 700
     assert np.ptp(picture[270:630, 1430:1470], axis=2).max() > 60.0
-    assert (np.abs(picture - rgb(LIGHT.deposit)).max(axis=2) < 8.0).sum() > 100
+    # The near wall before it, of an opacity of 0.1, changes the colour by up to 21 of 255.
+    assert (np.abs(picture - rgb(LIGHT.deposit)).max(axis=2) < 25.0).sum() > 100
 
 
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not on PATH")
