@@ -39,7 +39,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.wall import hindered_resistance
 from foamprb.cloud.block import at, load3, load9, load_integrals, store3, store9, store_integrals
-from foamprb.cloud.elastic import present_hindrance, resistances, volume_at_rest
+from foamprb.cloud.elastic import hindrance_by_walls, resistances, volume_at_rest
 from foamprb.cloud.layout import LANES, Block
 from foamprb.compile.link import separate, slot
 
@@ -63,6 +63,10 @@ class Push(NamedTuple):
 def push_of(block: Block, i: int, n: Vector, h: Scalar) -> Push:
     """Return the response of lane i to a reaction along n at its point of contact, for h, s."""
     F, R = load9(block, at.F, i), block[at.R * LANES + i]
+    # Those in the block are of the last evaluation, which may be one that other lanes needed.
+    stretches, _ = stretches_in_frame(F, load9(block, at.frame, i))
+    store3(block, at.stretch, i, stretches)
+    store_integrals(block, i, integrals(stretches))
     return _push_at(
         block, i, n, scale_vector(-R * R / reach(R, F, n), dot_vector(dot(F, transpose(F)), n)), h
     )
@@ -74,7 +78,7 @@ def _push_at(block: Block, i: int, n: Vector, r: Vector, h: Scalar) -> Push:
     Over a time h elasticity is as stiff as a viscosity μ h.
     """
     Q = load9(block, at.frame, i)
-    K = hindered_resistance(resistances(block, i), present_hindrance(block, i))
+    K = hindered_resistance(resistances(block, i), hindrance_by_walls(block, i))
     v = vector_dot(dot_vector(inverse(K), dot_vector(Q, n)), Q)
     eta = (block[at.eta * LANES + i] + block[at.mu * LANES + i] * h) / block[at.fluid * LANES + i]
     resistance = shape_resistance(load3(block, at.stretch, i), load_integrals(block, i), eta)

@@ -205,7 +205,8 @@ def test_nothing_flows_through_walls_that_slide(kind):
         fluxes = outward(MeshFlow(mesh, u, l, fluxes=Conservation(mesh, sliding)(u, l))).mean(axis=2)
         through, size = np.abs(fluxes[mesh.triangle_tet, 0]).max(), np.abs(fluxes).max()
         assert through < 1e-6 * size if sliding else through > 0.1 * size
-    assert np.abs(fluxes.sum(axis=1)).max() < 1e-5 * size
+    # The iteration ends at a root mean square of BALANCED.
+    assert np.abs(fluxes.sum(axis=1)).max() < 10.0 * BALANCED * size
 
 
 def test_where_the_density_is_unknown_cells_keep_their_divergence():
