@@ -32,7 +32,7 @@ from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow import balance
-from foamprb.flow.balance import Mass
+from foamprb.flow.balance import BALANCED, Mass
 from foamprb.flow.fluxes import Conservation, UnbalancedFlowError, free_nodes
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
