@@ -33,6 +33,7 @@ from benchmarks import pipe
 
 from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, read_case, spheres
 from foamprb.cloud.patches import Interaction, Mirror
+from foamprb.flow.read.openfoam import Case
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -134,7 +135,7 @@ def tutorial(case: Path) -> Plane:
     for file in case.rglob("*.gz"):
         file.with_suffix("").write_bytes(gzip.decompress(file.read_bytes()))
     sh(case, "fluentMeshToFoam", str(case / "elbow.msh"))
-    mesh = read_case(case, "0").mesh
+    mesh = Case(case).mesh("0").mesh
     low = mesh.points[:, 2] < mesh.points[:, 2].mean()
     numbers = np.cumsum(low) - 1
     cells = mesh.cell_points.reshape(-1, 6)
