@@ -80,6 +80,8 @@ _MAX_PATCHES = 1000
 _STALL = 1e-9
 """Share of a way below which a particle that goes back and forth between two patches makes no progress."""
 _HALVINGS = 40
+_CAME = 1e-3
+"""Way towards a wall in a step, in radii, below which a body that touches it rests: it would bounce for ever."""
 _OFF_WALL = 1e-6
 """Share of the way into a wall at which a walk away from it begins."""
 _NO_NORMAL = (0.0, 0.0, 0.0)
@@ -652,7 +654,7 @@ def meet_wall(
     rests = before <= _TOUCH * R
     # A step that ended on the wall, by chance, was no contact: a body at rest has no speed towards the wall.
     towards = inner(minus(load3(block, at.v, i), W), n)
-    came = inner(minus(load3(block, at.new_v, i), W), n) < 0.5 * min(towards, 0.0)
+    came = inner(minus(load3(block, at.new_v, i), W), n) < 0.5 * min(towards, 0.0) and fall < -_CAME * R
     if bouncing > 0 and not turned and (came or not rests):
         return bounce(flow, patches, s, i, way, met, n, before, after, t, h)
     f = before / (before - after) if before > 0.0 else 0.0
