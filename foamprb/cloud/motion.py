@@ -81,7 +81,7 @@ _STALL = 1e-9
 """Share of a way below which a particle that goes back and forth between two patches makes no progress."""
 _HALVINGS = 40
 _CAME = 1e-3
-"""Way towards a wall in a step, in radii, up to which a body that touches it rests: else it bounces for ever."""
+"""Way towards a wall in a step, in radii, up to which a body that touches it rests: else it bounces on."""
 _OFF_WALL = 1e-6
 """Share of the way into a wall at which a walk away from it begins."""
 _NO_NORMAL = (0.0, 0.0, 0.0)

@@ -38,5 +38,7 @@ def test_programs_converge_to_the_same_places(runs):
 def test_fates_are_alike(runs):
     n = runs[0][0].places.shape[1]
     assert n == 60
-    for pair in runs:
-        assert elbow.fates(*pair) >= n - 2
+    (ours, _), (our_best, their_best) = runs
+    # On the coarse mesh OpenFOAM's differ from its own on the fine one for 3.
+    for run in (ours, our_best):
+        assert elbow.fates(run, their_best) >= n - 2
