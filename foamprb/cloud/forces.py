@@ -406,6 +406,8 @@ def class_of_entries(
     ValueError
         If the function is not plain, or has too few parameters or other entries than numbers.
     """
+    if not model.split(" ", 1)[1].isidentifier():
+        raise ValueError(f"{model}: the name is no word of letters, digits and _")
     if not isinstance(evaluate, FunctionType) or evaluate.__closure__:
         raise ValueError(f"{model}: {evaluate!r} is not a plain function of module level")
     hints = get_type_hints(evaluate, include_extras=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import permutations
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -16,8 +17,11 @@ from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import FURTHER, LANES, Row, end, offsets
 from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.base import Stage, Surrounding
-from foamprb.cloud.surroundings.registry import with_rows
+from foamprb.cloud.surroundings.registry import _in_order, compose, with_rows
+from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
+from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
 from foamprb.cloud.tracker import Models
+from foamprb.errors import InputError
 from foamprb.flow import analytic
 
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
@@ -184,3 +188,63 @@ def test_no_axis_is_unlike_the_others(integrator):
     # It has been somewhere, and is no sphere any more.
     assert np.linalg.norm(p.x[0] - start) > 1e-5
     assert np.abs(p.F[0].reshape(3, 3) - np.eye(3)).max() > 1e-3
+
+
+class PoolRows(NamedTuple):
+    depth: Annotated[int, Row(1, "m", "how deep it is")]
+    swell: Annotated[int, Row(3, "m/s", "what moves on it")]
+
+
+pool = offsets(PoolRows)
+
+
+def model_of(name, *stages):
+    """A model with stages at the place ``fluid`` whose functions have names of their own."""
+
+    def run_of(stage_name):
+        def run(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
+            for i in range(LANES):
+                block[at.u * LANES + i] += 0.0
+
+        run.__qualname__ = stage_name
+        return run
+
+    made = tuple(Stage("fluid", run_of(f"{name}{k}"), **rows) for k, rows in enumerate(stages))
+    return dataclass(frozen=True, kw_only=True)(
+        type(name, (Surrounding,), {"rows": (PoolRows,), "stages": made, "__annotations__": {}})
+    )()
+
+
+def order_of(*models):
+    stages = [(n, stage) for n, model in enumerate(models) for stage in model.stages]
+    return [stage.run.__qualname__ for _, stage in _in_order(stages, models)]
+
+
+DIG = model_of("Dig", {"writes": (pool.depth,)})
+SWIM = model_of("Swim", {"reads": (pool.depth, pool.swell), "adds": (at.u,)})
+BLOW = model_of("Blow", {"adds": (pool.swell,)})
+LOOK = model_of("Look", {"before": (at.u, pool.swell)})
+
+
+def test_the_order_of_models_follows_from_their_rows():
+    """Written before it is read, added before that, and looked at before it is changed."""
+    for models in permutations((DIG, SWIM, BLOW, LOOK)):
+        found = order_of(*models)
+        assert found.index("Dig0") < found.index("Swim0")
+        assert found.index("Look0") < found.index("Blow0") < found.index("Swim0")
+    # Where rows leave it open, it is that of the models.
+    assert order_of(BLOW, DIG) == ["Blow0", "Dig0"]
+    assert order_of(DIG, BLOW) == ["Dig0", "Blow0"]
+
+
+def test_models_that_exclude_each_other_are_an_error():
+    with pytest.raises(InputError, match="Drain excludes Dig: both determine depth"):
+        order_of(DIG, model_of("Drain", {"writes": (pool.depth,)}))
+    each = ({"reads": (pool.depth,), "adds": (pool.swell,)}, {"reads": (pool.swell,), "adds": (pool.depth,)})
+    with pytest.raises(InputError, match="Hen and Egg each read what another one changes"):
+        order_of(model_of("Hen", each[0]), model_of("Egg", each[1]))
+    lift, frames = SaffmanMeiLift(), RotatingFrames()
+    with pytest.raises(
+        InputError, match="RotatingFrames excludes SaffmanMeiLift: both determine slip_of_body"
+    ):
+        compose((lift, frames), (), inertia=False)

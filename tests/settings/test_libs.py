@@ -331,12 +331,24 @@ def test_function_of_surroundings_is_checked():
         (("still", still, ("x",), ("v",)), r"v is unknown\. Allowed: u, grad\(u\)"),
         (("still", still, ("x", "t")), "it has 1 parameters for x, t"),
         (("still", max), "is not a plain function"),
+        (("my-drift", still, ("x",)), "model my-drift: the name is no word"),
         (("still", still, ("R",)), "TypeError: 'float' object is not subscriptable"),
         (("still", still, ("x",), ("grad(u)",)), r"it returns \(0.0, 0.0, 0.0\), not 9 numbers"),
     ):
         with pytest.raises(ValueError, match=fault):
             add_surrounding(*arguments)
     assert "still" not in SURROUNDINGS
+
+
+def calm(vx=0.0, vy=1.0):
+    return vx, vy, 0.0
+
+
+def test_a_users_surrounding_is_sent_to_other_processes():
+    model = add_surrounding("calm", calm)(vx=2.0)
+    sent = pickle.loads(pickle.dumps(model))
+    assert sent == model
+    assert sent.coefficients(()) == (2.0, 1.0)
 
 
 def gradient_by(model):

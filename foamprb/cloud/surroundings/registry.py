@@ -66,6 +66,7 @@ _ACCESS = {"load3": load3, "load9": load9, "add3": add3, "add9": add9, "choose3"
 class UserSurrounding(Surrounding):
     """A model that :func:`add_surrounding` has made of a function."""
 
+    name: ClassVar[str]
     each_step: ClassVar = False
     evaluate: ClassVar[Function]
     samples: ClassVar[tuple[Any, ...]]
@@ -73,7 +74,18 @@ class UserSurrounding(Surrounding):
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """Return the entries."""
-        return tuple(float(getattr(self, entry.name)) for entry in fields(self))
+        return tuple(self._entries().values())
+
+    def _entries(self) -> dict[str, float]:
+        return {entry.name: float(getattr(self, entry.name)) for entry in fields(self)}
+
+    def __reduce__(self) -> Any:
+        """Return how another process, which has run the same file, restores it."""
+        return _restored, (self.name, self._entries())
+
+
+def _restored(name: str, entries: dict[str, float]) -> Surrounding:
+    return SURROUNDINGS[name](**entries)
 
 
 def add_surrounding(
@@ -115,7 +127,7 @@ def add_surrounding(
             if one not in allowed:
                 raise ValueError(f"model {name}: {one} is unknown. Allowed: {', '.join(allowed)}")
     kind = class_of_entries(
-        f"model {name}", evaluate, needs, UserSurrounding, {"evaluate": staticmethod(evaluate)}
+        f"model {name}", evaluate, needs, UserSurrounding, {"evaluate": staticmethod(evaluate), "name": name}
     )
     read = "".join(f"{_load(need)}, " for need in needs)
     call = f"evaluate({read}*coefficients)"
