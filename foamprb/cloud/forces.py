@@ -399,14 +399,14 @@ def class_of_entries(
     evaluate
         The function; its first parameters are what it is ``given``.
     base, namespace
-        As of :func:`dataclasses.make_dataclass`.
+        As of :func:`dataclasses.make_dataclass`; the latter has the ``name``.
 
     Raises
     ------
     ValueError
         If the function is not plain, or has too few parameters or other entries than numbers.
     """
-    if not model.split(" ", 1)[1].isidentifier():
+    if not namespace["name"].isidentifier():
         raise ValueError(f"{model}: the name is no word of letters, digits and _")
     if not isinstance(evaluate, FunctionType) or evaluate.__closure__:
         raise ValueError(f"{model}: {evaluate!r} is not a plain function of module level")
@@ -422,7 +422,7 @@ def class_of_entries(
         default: Any = field() if p.default is p.empty else field(default=float(p.default))
         entries.append((p.name, hint, default))
     return make_dataclass(
-        model.split()[-1], entries, bases=(base,), frozen=True, kw_only=True, namespace=namespace
+        namespace["name"], entries, bases=(base,), frozen=True, kw_only=True, namespace=namespace
     )
 
 
