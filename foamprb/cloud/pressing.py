@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from foamprb.body.brownian import response, shape_resistance
 from foamprb.body.ellipsoid import integrals, reach
+from foamprb.body.error_control import largest
 from foamprb.body.exponential_runge_kutta import group_exponential
 from foamprb.body.stokes import isochoric
 from foamprb.body.tensor import (
@@ -32,6 +33,7 @@ from foamprb.body.tensor import (
     refined_frame,
     scale,
     scale_vector,
+    skew,
     stretches_in_frame,
     to_frame,
     transpose,
@@ -109,7 +111,8 @@ def push_along_mobility(
     """Move, turn and strain the body in lane i by a reaction along n so that its gap grows by the width, m.
 
     Friction of up to mu times the reaction undoes the slip of its point of contact on a wall of velocity W,
-    m/s, in the step. A body that does not slip rolls.
+    m/s, in the step. A body that does not slip rolls. Where a wall hinders the body, the stages of the step
+    have strained it by its load, and the reaction does not: it would relax, and be strained, at each step.
 
     Returns
     -------
@@ -117,6 +120,9 @@ def push_along_mobility(
     """
     F, h = load9(block, at.F, i), block[at.dt * LANES + i]
     v, l, r, rate = push_of(block, i, n, h)
+    if largest(hindrance_by_walls(block, i)) > 0.0:
+        l = skew(l)
+        rate = inner(n, v) + inner(n, dot_vector(l, r))
     N = width / rate
     N *= min(1.0, _MOST_TURN / (abs(N) * max(norm(l[:3]), norm(l[3:6]), norm(l[6:])) + 1e-300))
     way, turn = scale_vector(N, v), scale(N, l)

@@ -186,7 +186,7 @@ def test_page_shows_the_examples():
     page = (ROOT / "docs/own-models.md").read_text()
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     files = sorted(FOLDER.glob("*.py"))
-    assert len(files) == 3
+    assert len(files) == 4
     assert all(file.read_text() in blocks for file in files)
 
 

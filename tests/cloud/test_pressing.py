@@ -189,3 +189,16 @@ def test_stiff_bodies_do_not_hover_by_the_stress_of_molecules():
     ]
     assert np.array_equal(found[0][0].x, found[1][0].x)
     assert found[0][1].mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
+
+
+@pytest.mark.parametrize("mu", [1e4, 10.0])
+def test_a_body_at_rest_on_a_floor_with_wall_lift_takes_long_steps(mu):
+    """Of many relaxation times; its load has strained it, and the reaction does not do so again."""
+    p = spheres([[0.0, 0.0, 5e-6]], d=1e-5, rho=1100.0, mu=mu, poissons_ratio=0.4999)
+    water = Medium(1e-3, 1000.0, (0.0, 0.0, -9.81))
+    cloud = Cloud(p, STILL, water, [Rebound()], 1e-2, Models(surroundings=(WallLift(),), stride=1))
+    cloud.advance(4)
+    strain = p.F[0, 8] - 1.0
+    cloud.advance(4)
+    assert p.substeps[0] <= 1.0
+    assert p.F[0, 8] - 1.0 == pytest.approx(strain, rel=1e-6)

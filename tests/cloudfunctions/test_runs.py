@@ -53,7 +53,7 @@ def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch
         edit(case, r"endTime\s+\S+;", "endTime 0.012;")
         edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
         if name == "parts":
-            monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 1000)
+            monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 100)
             job = prepare(case, threads=1)
             with pytest.raises(RunStopped):
                 execute(job, stop=lambda job=job: job.cloud.step > 261)

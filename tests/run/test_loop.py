@@ -17,9 +17,10 @@ from foamprb.run.loop import _Schedule
 
 
 def calls(wanted: float, target: int, most: float = 1e9, stretch: int = 1, step: int = 0) -> list[int]:
-    """Lengths of the calls to a target, of four particles."""
+    """Lengths of the calls to a target, of four particles and two that are never made."""
     tracker = SimpleNamespace(stretch_steps=stretch, movable=(Status.PENDING, Status.ACTIVE))
-    cloud = SimpleNamespace(step=step, tracker=tracker, counts=lambda: {Status.PENDING: 1, Status.ACTIVE: 3})
+    counts = {Status.PENDING: 3, Status.ACTIVE: 3}
+    cloud = SimpleNamespace(step=step, tracker=tracker, counts=lambda: counts, late=2)
     stepper = SimpleNamespace(cloud=cloud)
     schedule, found = _Schedule(cast("Any", stepper), Compilation(), lambda *_: None), []
     schedule._steps = wanted
@@ -58,7 +59,7 @@ def test_compilation_with_the_first_steps_is_logged(monkeypatch, caplog) -> None
 
     monkeypatch.setattr("foamprb.run.compilation._TICK", 1e-3)
     tracker = SimpleNamespace(compiled=False, stretch_steps=1, movable=(Status.ACTIVE,))
-    cloud = SimpleNamespace(step=0, tracker=tracker, counts=lambda: {Status.ACTIVE: 1})
+    cloud = SimpleNamespace(step=0, tracker=tracker, counts=lambda: {Status.ACTIVE: 1}, late=0)
     stepper = SimpleNamespace(cloud=cloud, advance=advance)
     with caplog.at_level(logging.INFO, "foamprb"):
         _Schedule(cast("Any", stepper), Compilation(), lambda *_: None).advance(1, lambda: False)

@@ -278,7 +278,7 @@ def run_with(pipe: Path, name: str, value: str) -> str:
             return str(error) or "no message"
     assert job.cloud.time <= job.settings.solution.endTime * (1.0 + 1e-9)
     p = job.cloud.particles
-    assert sum(counts.values()) == p.size
+    assert sum(counts.values()) == p.size + job.cloud.late
     sound = (p.status != Status.PENDING) & (p.status != Status.FAILED)
     for key, array in zip(Particles._fields, p, strict=True):
         if array.dtype.kind == "f" and key not in ("k", "largest", "curved"):
