@@ -70,6 +70,7 @@ Particles in a flow:
 
 Models of users:
 
+    add_drag            add a law of drag by the resistances of an ellipsoid
     add_force           add a force by a function of place, time and size
     add_surrounding     add a model that changes the flow around a particle
     add_cloud_function  add numbers of the cloud that are written at each write time

@@ -1,6 +1,7 @@
 """Public names and their modules; ``__init__.py`` imports each when it is first used."""
 
 from . import extend as extend
+from .body.drag import add_drag as add_drag
 from .body.material import Material as Material
 from .body.material import Parameter as Parameter
 from .body.material import add_material as add_material
@@ -160,6 +161,7 @@ __all__ = [
     "VirtualMass",
     "WallLift",
     "add_cloud_function",
+    "add_drag",
     "add_force",
     "add_material",
     "add_surrounding",

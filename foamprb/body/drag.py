@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import pi
+from types import FunctionType
 
 import numpy as np
 
@@ -99,3 +100,37 @@ def implicit_euler(v: Vector, u: Vector, Q: Tensor, rate: Vector, acceleration: 
 Drag = Callable[[Vector, Integrals], Vector]
 
 DRAGS: dict[str, Drag] = {"oberbeck": oberbeck, "brennerProlate": brenner_prolate}
+
+
+def add_drag(name: str, law: Drag) -> Drag:
+    """Add a law of drag to :data:`DRAGS`, for ``ellipsoidDrag { type name; }`` and :class:`Models`.
+
+    Parameters
+    ----------
+    name
+        A word.
+    law
+        ``law(semi_axes, g)`` returns the three principal resistances K_a, in the unit of the semi-axes, as
+        :func:`oberbeck` does, which it may call; ``g`` are the integrals of the ellipsoid. It is compiled: a
+        plain function of module level, of arithmetic and numpy functions.
+
+    Raises
+    ------
+    ValueError
+        If the name is taken, or the function is not plain, fails, or its resistances are not three positive
+        numbers that grow with the size and follow the axes.
+    """
+    if name in DRAGS:
+        raise ValueError(f"the drag {name} exists already")
+    if not name.isidentifier() or not isinstance(law, FunctionType) or law.__closure__:
+        raise ValueError(f"drag {name}: a word and a plain function of module level are needed")
+    tried = {axes: law(axes, integrals(axes)) for axes in ((3.0, 2.0, 1.0), (6.0, 4.0, 2.0), (1.0, 3.0, 2.0))}
+    k, larger, turned = (np.array(values, dtype=float) for values in tried.values())
+    if k.shape != (3,) or not (k > 0.0).all():
+        raise ValueError(f"drag {name}: at the semi-axes 3, 2, 1 it is {k}, not three positive numbers")
+    if not np.allclose(larger, 2.0 * k, rtol=1e-9):
+        raise ValueError(f"drag {name}: a body of twice the size has {larger}, not twice {k}")
+    if not np.allclose(turned, k[[2, 0, 1]], rtol=1e-9):
+        raise ValueError(f"drag {name}: at the semi-axes 1, 3, 2 it is {turned}, not {k[[2, 0, 1]]}")
+    DRAGS[name] = law
+    return law

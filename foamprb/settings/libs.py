@@ -13,6 +13,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from foamprb.body.drag import DRAGS
+from foamprb.body.ellipsoid import integrals
 from foamprb.body.material import MATERIALS
 from foamprb.cloud.forces import FORCES, SAMPLE, STATE, tried
 from foamprb.cloud.layout import IDENTITY
@@ -25,6 +27,7 @@ log = logging.getLogger("foamprb")
 
 _REGISTRIES: dict[str, dict[str, Any]] = {
     "solid": MATERIALS,
+    "drag": DRAGS,
     "force": FORCES,
     "surroundings": SURROUNDINGS,
     "cloud function": FUNCTIONS,
@@ -57,12 +60,12 @@ def require_inside(files: Iterable[Path], case: Path) -> None:
 
 
 def load_libs(files: Iterable[Path]) -> list[str]:
-    """Run Python files, which add models, and compile the solids and forces.
+    """Run Python files, which add models, and compile them.
 
-    They call :func:`foamprb.add_material`, :func:`foamprb.add_force`, :func:`foamprb.add_surrounding` and
-    :func:`foamprb.add_cloud_function`. An unchanged file is not run again; the earlier models of a changed
-    file are removed. Models of files of other cases stay, but for those that have the name of a model of
-    these files.
+    They call :func:`foamprb.add_material`, :func:`foamprb.add_drag`, :func:`foamprb.add_force`,
+    :func:`foamprb.add_surrounding` and :func:`foamprb.add_cloud_function`. An unchanged file is not run
+    again; the earlier models of a changed file are removed. Models of files of other cases stay, but for
+    those that have the name of a model of these files.
     Returns the SHA-256 of each file.
 
     Raises
@@ -173,9 +176,12 @@ def _check(file: Path, kind: str, name: str) -> None:
     if kind == "cloud function":
         # It is tried with the cloud.
         return
-    if name == "ellipsoidDrag" or (name in FORCES and name in SURROUNDINGS):
+    if kind == "drag":
+        axes = (3.0, 2.0, 1.0)
+        _compile(file, DRAGS[name], axes, integrals(axes))
+    elif name == "ellipsoidDrag" or (name in FORCES and name in SURROUNDINGS):
         raise InputError(f"{file}: particleForces has an entry {name} already.")
-    if kind == "solid":
+    elif kind == "solid":
         material = MATERIALS[name]
         k = 1.0 if material.parameter is None else material.parameter.lower + 1.0
         if material.stress is None:

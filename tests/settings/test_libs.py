@@ -24,6 +24,7 @@ from pipe_case import END, copy_of_pipe, edit, fates, message, results, short_ca
 import foamprb
 from foamprb import Cloud, InputError, Medium, Models, analytic, spheres
 from foamprb.body import material
+from foamprb.body.drag import DRAGS, add_drag
 from foamprb.body.material import MATERIALS, Parameter, add_material
 from foamprb.body.tensor import log_ratio
 from foamprb.cli import main
@@ -56,7 +57,7 @@ ADD = "foamprb.add_force('push', push)\n"
 def registry(monkeypatch, solids):
     """No file has been loaded, and none is afterwards."""
     monkeypatch.setattr("foamprb.settings.libs._loaded", {})
-    before = [(registry, dict(registry)) for registry in (FORCES, SURROUNDINGS, FUNCTIONS)]
+    before = [(registry, dict(registry)) for registry in (DRAGS, FORCES, SURROUNDINGS, FUNCTIONS)]
     yield
     for registry, names in before:
         registry.clear()
@@ -303,6 +304,43 @@ def test_compiled_solid_is_found_again_by_the_next_process(tmp_path):
         for _ in range(2)
     ]
     assert hits == ["0", "1"]
+
+
+POROUS = """
+import foamprb
+from foamprb.body.drag import oberbeck
+
+
+def porous(semi_axes, g):
+    a, b, c = oberbeck(semi_axes, g)
+    return 0.8 * a, 0.8 * b, 0.8 * c
+
+
+foamprb.add_drag("porous", porous)
+"""
+
+
+def test_a_users_law_of_drag_sets_how_fast_a_body_settles(tmp_path):
+    """By 2/9 (ρ_s − ρ_f) g R²/μ_f over .8, within the strain of the stiff sphere."""
+    (tmp_path / "drag.py").write_text(POROUS)
+    load_libs([tmp_path / "drag.py"])
+    p = spheres([[0.0, 0.0, 0.0]], d=2e-5, rho=1100.0, mu=1e5, poissons_ratio=0.4999)
+    water = Medium(1e-3, 1000.0, (0.0, 0.0, -9.81))
+    Cloud(p, analytic.linear(np.zeros((3, 3))), water, (), 1e-3, Models(drag="porous")).advance(2)
+    assert p.v[0, 2] == pytest.approx(-2.0 / 9.0 * 100.0 * 9.81 * 1e-10 / 1e-3 / 0.8, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("law", "fault"),
+    [
+        (lambda r, _: (r[0] / r[0], 1.0, 1.0), "twice the size"),
+        (lambda r, _: (r[0], -r[1], r[2]), "not three positive numbers"),
+        (lambda r, _: (r[0], r[0], r[0]), "at the semi-axes 1, 3, 2"),
+    ],
+)
+def test_a_law_of_drag_is_one_of_an_ellipsoid(law, fault):
+    with pytest.raises(ValueError, match=f"drag own: .*{fault}"):
+        add_drag("own", law)
 
 
 def swirl(inputs, rate, scale=0.5):
