@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -30,6 +31,56 @@ MODELS = {
     "slip": Models(integrator="rosenbrock", surroundings=(SaffmanMeiLift(),)),
 }
 PLACES = np.array([(0.0, 0.0, h * R) for h in (1.5, 4.0, 9.0, 20.0)])
+
+
+IN_SPACE = [name for name, models in MODELS.items() if not models.surroundings]
+GRADIENT = RATE * np.array([[0.2, 0.9, 0.0], [0.1, -0.5, 0.3], [0.4, 0.0, 0.3]])
+
+
+STREAM = 0.01
+"""Speed along y, m/s, with which the moving flow covers many radii."""
+
+
+def moving_flow(x, y, z, t):
+    """The linear flow, seen by someone who moves against the stream; numbers, since it is compiled."""
+    y = y - 0.01 * t
+    return 20.0 * x + 90.0 * y, 0.01 + 10.0 * x - 50.0 * y + 30.0 * z, 40.0 * x + 30.0 * z
+
+
+def in_space(models, Q, stream=False):
+    """Bodies in a linear flow that is turned by Q or moves, seen from the frame turned or moved so."""
+    p = (
+        drops(PLACES @ Q.T, gamma=4e-6, eta=MU, d=2.0 * R, rho=1500.0)
+        if models.material == "drop"
+        else spheres(PLACES @ Q.T, mu=1.0, bulk_modulus=1e3, d=2.0 * R, rho=1500.0)
+    )
+    dt = 2e-7 if models.integrator == "paper" else 2e-4
+    U = np.array([0.0, STREAM if stream else 0.0, 0.0])
+    p.v[:] = U
+    moving = analytic.function(moving_flow, length=1e-5, time=1e-2)
+    flow = moving if stream else analytic.linear(Q @ GRADIENT @ Q.T)
+    medium = Medium(MU, RHO, tuple(Q @ (0.0, 0.0, -9.81)))
+    cloud = Cloud(p, flow, medium, (), dt, replace(models, forces=(*DEFAULT, Gravity())), threads=1)
+    cloud.advance(STEPS)
+    F = p.F.reshape(-1, 3, 3)
+    return (p.x - STEPS * dt * U) @ Q, (p.v - U) @ Q, Q.T @ F @ F.transpose(0, 2, 1) @ Q
+
+
+@pytest.mark.parametrize("name", IN_SPACE)
+def test_a_turned_flow_gives_the_turned_result(name):
+    """By a cyclic exchange of axes to round-off, and by an angle to the tolerance of the steps."""
+    as_it_is = in_space(MODELS[name], np.eye(3))
+    angle = Rotation.from_rotvec([0.3, -1.0, 0.5]).as_matrix()
+    for Q, tolerance in ((np.roll(np.eye(3), 1, axis=0), 1e-9), (angle, 1e-3)):
+        for one, other in zip(as_it_is, in_space(MODELS[name], Q), strict=True):
+            np.testing.assert_allclose(other, one, rtol=0.0, atol=tolerance * np.abs(one).max())
+
+
+@pytest.mark.parametrize("name", IN_SPACE)
+def test_a_uniform_stream_carries_along_and_changes_nothing_else(name):
+    at_rest = in_space(MODELS[name], np.eye(3))
+    for one, other in zip(at_rest, in_space(MODELS[name], np.eye(3), stream=True), strict=True):
+        np.testing.assert_allclose(other, one, rtol=0.0, atol=1e-3 * np.abs(one).max())
 
 
 def advanced(models, length=1.0, time=1.0, mass=1.0, start=0.0, shift=0.0, order=slice(None), parts=1):
