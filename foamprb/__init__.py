@@ -34,6 +34,7 @@ Particles in a flow:
     Particles           the arrays of all particles
     Status              what a particle is doing, or its fate: active, stuck, escaped, failed, ...
     Cloud               particles, the flow that carries them, and the models that act on them
+    along_history       the shapes of bodies along given velocity gradients, without a mesh
     Medium              viscosity and density of the fluid, and gravity
     PowerLaw            a viscosity by the shear rate, for a medium: OpenFOAM's powerLaw
     CrossPowerLaw       OpenFOAM's model of that name

@@ -31,6 +31,7 @@ from .cloud.forces import (
 from .cloud.forces import (
     add_force as add_force,
 )
+from .cloud.histories import along_history as along_history
 from .cloud.limits import Limits as Limits
 from .cloud.measures import context as context
 from .cloud.measures import measure as measure
@@ -165,6 +166,7 @@ __all__ = [
     "add_force",
     "add_material",
     "add_surrounding",
+    "along_history",
     "analytic",
     "context",
     "drops",
