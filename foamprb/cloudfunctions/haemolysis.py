@@ -77,9 +77,25 @@ POWER_LAWS: dict[str, PowerLaw] = {
 """Published constants: of Giersiepen et al. (1990), for human blood; Song et al. (2003), porcine; Zhang et
 al. (2011), ovine; and Ding et al. (2015), human, porcine and bovine."""
 
-PORE_RATE, PORE_EXPONENT = 2.187e-6, 0.9289
-"""h and k of dIH/dt = h (μ G_f)^k A_p(G), IH as a share, μ G_f in Pa: human blood (Dirkes & Behr 2026)."""
-_PORES = (-13.41, 37.31, -48.91, 32.39, 0.63, -0.16)
+
+class Pores(NamedTuple):
+    """Constants of dIH/dt = h (μ G_f)^k A_p(G), IH as a share, μ G_f in Pa."""
+
+    of_strain: tuple[float, float]
+    """h and k for cells that remember the flow."""
+    of_stress: tuple[float, float]
+    """h and k for G = G_f."""
+
+
+SPECIES: dict[str, Pores] = {
+    "human": Pores((2.187e-6, 0.9271), (1.157e-6, 1.0309)),
+    "ovine": Pores((3.292e-7, 1.4424), (1.816e-7, 1.5399)),
+    "porcine": Pores((1.556e-6, 1.0268), (8.941e-7, 1.1165)),
+    "bovine": Pores((4.386e-6, 0.8411), (2.552e-6, 0.9289)),
+}
+"""Fits by Dirkes & Behr (2026) to the experiments of Ding et al. (2015), with μ of 3.5 mPa s for human blood
+and 3 mPa s for the others, as their repositories HemTracer and bpc_hemolysis have them."""
+_PORES = (-13.4134, 37.3125, -48.9149, 32.3921, 0.6332, -0.1593)
 """Coefficients of A_p, a polynomial of G/42 000, the highest power first."""
 FIRST_PORES, MOST_PORES = 3750.0, 42_000.0
 """Shear rates, 1/s: below the first there are no pores, beyond the second no further ones."""
@@ -161,6 +177,9 @@ class Haemolysis(PathFunction):
         Literal["fluid", "KelvinVoigt", "morphology"],
         Meaning("`fluid`: μ γ̇; else of a [cell](models/haemolysis.md) that remembers the flow"),
     ] = "fluid"
+    species: Annotated[
+        str | None, Choice(SPECIES), Meaning("blood of the `pores`", default="human", values={})
+    ] = None
     A: Annotated[
         float | None, Positive, Meaning("factor of `own` constants", "% Pa^−α s^−β", "with `own` required")
     ] = None
@@ -193,8 +212,8 @@ class Haemolysis(PathFunction):
             raise InputError(
                 f"has the constants of {self.constants} and {entries[0]}; constants own takes it"
             )
-        if self.constants == "pores" and self.stress == "fluid":
-            raise InputError("has constants pores, which need stress KelvinVoigt or morphology, not fluid")
+        if self.species is not None and self.constants != "pores":
+            raise InputError(f"has the constants of {self.constants} and species; constants pores takes it")
 
     @property
     def law(self) -> PowerLaw:
@@ -236,10 +255,12 @@ class Haemolysis(PathFunction):
             mu[end] = mu_f if self.mu is None else self.mu
         # A step that a coupled patch divides has a host at one of its ends only.
         mu = np.where(np.isnan(mu), mu[::-1], mu)
-        law = self.law.alpha / self.law.beta, self.f1, self.f2
-        kind, pores = _KINDS.index(self.stress), int(self.constants == "pores")
+        kind, h, exponent = _KINDS.index(self.stress), 0.0, self.law.alpha / self.law.beta
+        if self.constants == "pores":
+            pores = SPECIES[self.species or "human"]
+            h, exponent = pores.of_stress if self.stress == "fluid" else pores.of_strain
         sums = memory["dose"], memory["peak"], memory["cell"]
-        compiled(_harm)(steps.tables, fresh, mu, kind, pores, *law, *sums)
+        compiled(_harm)(steps.tables, fresh, mu, kind, h, exponent, self.f1, self.f2, *sums)
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the damage of all particles that were released, and the means by injection model."""
@@ -320,7 +341,7 @@ def _harm(
     fresh: NDArray[np.bool_],
     mu: Floats,
     kind: int,
-    pores: int,
+    pores: float,
     exponent: float,
     f1: float,
     f2: float,
@@ -330,6 +351,7 @@ def _harm(
 ) -> None:
     """Add steps to the doses of their particles, Pa^exponent s, and to the largest stresses, Pa.
 
+    ``pores`` is the h of pores, for which the dose is the share released; 0 for a power law.
     Cells with a memory are advanced in sub-steps of two halves each: Simpson's rule. ``mu`` is the viscosity
     at starts and ends, (2, n).
     """
@@ -348,7 +370,7 @@ def _add_step(
     k: int,
     viscosity: tuple[float, float],
     kind: int,
-    pores: int,
+    pores: float,
     exponent: float,
     f1: float,
     f2: float,
@@ -367,7 +389,7 @@ def _add_step(
     m1 = m0 if math.isnan(m1) else m1
     G0, G1 = shear_rate(l0), shear_rate(l1)
     if kind == _FLUID:
-        dose[row] += 0.5 * h * ((m0 * G0) ** exponent + (m1 * G1) ** exponent)
+        dose[row] += 0.5 * h * (_rate(G0, m0, G0, pores, exponent) + _rate(G1, m1, G1, pores, exponent))
         peak[row] = max(peak[row], m0 * G0, m1 * G1)
         return
     if kind == _MORPHOLOGY and steps[step.passed, k] > 0.0:
@@ -388,10 +410,10 @@ def _add_step(
         peak[row] = max(peak[row], mu * g)
 
 
-def _rate(G: float, mu: float, G_f: float, pores: int, exponent: float) -> float:
+def _rate(G: float, mu: float, G_f: float, pores: float, exponent: float) -> float:
     """Return the rate of the dose at the effective shear rate G in the fluid of shear rate G_f, 1/s."""
-    if pores:
-        return PORE_RATE * (mu * G_f) ** PORE_EXPONENT * pore_area(G)  # type: ignore[no-any-return]
+    if pores > 0.0:
+        return pores * (mu * G_f) ** exponent * pore_area(G)  # type: ignore[no-any-return]
     return float((mu * G) ** exponent)
 
 

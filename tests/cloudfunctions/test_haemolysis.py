@@ -33,6 +33,7 @@ from foamprb.cloud.viscosity import FieldViscosity
 from foamprb.cloud.viscosity import PowerLaw as PowerLawFluid
 from foamprb.cloudfunctions.haemolysis import (
     POWER_LAWS,
+    SPECIES,
     Haemolysis,
     PowerLaw,
     effective_shear_rate,
@@ -197,7 +198,24 @@ def test_pores_are_of_the_order_of_the_power_law_of_the_same_experiments():
     pores = exposed(Haemolysis(constants="pores", stress="KelvinVoigt", mu=BLOOD), [(100.0 / BLOOD, 1.5)])
     law = POWER_LAWS["Ding"]
     assert 1.0 < pores / (law.A * 100.0**law.alpha * 1.5**law.beta) < 3.0
-    assert pore_area(np.array([3749.0, 42_000.0, 1e6])) == pytest.approx([0.0, 7.85, 7.85])
+    assert pore_area(np.array([3749.0, 42_000.0, 1e6])) == pytest.approx([0.0, 7.8502, 7.8502])
+
+
+@pytest.mark.parametrize("stress", ["fluid", "KelvinVoigt"])
+def test_pores_of_species_differ_by_their_constants(stress):
+    """h τ^k, and without a memory h τ^k A_p(γ̇) t."""
+    share = {
+        species: exposed(Haemolysis("pores", stress, species, mu=BLOOD), [(100.0 / BLOOD, 1.5)])
+        for species in ("human", "porcine")
+    }
+    (h, k), (h1, k1) = (
+        SPECIES[species].of_stress if stress == "fluid" else SPECIES[species].of_strain
+        for species in ("human", "porcine")
+    )
+    assert share["porcine"] / share["human"] == pytest.approx(h1 / h * 100.0 ** (k1 - k), rel=1e-12)
+    if stress == "fluid":
+        area = float(pore_area(np.array(100.0 / BLOOD)))
+        assert share["human"] == pytest.approx(100.0 * h * 100.0**k * area * 1.5, rel=1e-12)
 
 
 def test_a_cell_turns_with_the_particle_at_a_coupled_patch():
@@ -278,8 +296,8 @@ def test_own_constants():
         Haemolysis(constants="own", A=1.0)
     with pytest.raises(InputError, match="constants own takes it"):
         Haemolysis(constants="Song", A=1.0)
-    with pytest.raises(InputError, match="pores, which need stress KelvinVoigt or morphology"):
-        Haemolysis(constants="pores")
+    with pytest.raises(InputError, match="constants of Song and species; constants pores takes it"):
+        Haemolysis(constants="Song", species="porcine")
 
 
 def test_no_more_is_set_free_than_there_is(tmp_path):
