@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-Kind = Literal["equations", "others", "measured"]
-"""Of a reference: the same equations by another method, theory or a computation that others printed, or a
-measurement."""
+Kind = Literal["equations", "own", "others", "measured"]
+"""Of a reference: the same equations by another method, a result of ours by other means, theory or a
+computation that others printed, or a measurement."""
 
 
 class Row(NamedTuple):
@@ -32,6 +32,8 @@ class Row(NamedTuple):
     """Of the reference."""
     reference_error: float | None = None
     """Half of the width of the reference's error bar, in its unit."""
+    quartiles: tuple[float, float] | None = None
+    """Of the population of which the reference is the median."""
     our_error: float | None = None
     """Largest numerical error of ours, in its unit."""
 
@@ -41,6 +43,11 @@ class Row(NamedTuple):
         if self.ours is None or self.reference is None:
             return None
         return abs(self.ours - self.reference) / (abs(self.reference) if self.relative else 1.0)
+
+    @property
+    def verifies(self) -> bool:
+        """Return whether the row must pass: a model may miss what others found, the code may not."""
+        return self.kind in ("equations", "own")
 
     @property
     def passed(self) -> bool | None:

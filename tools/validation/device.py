@@ -34,6 +34,7 @@ TRACKED = {1300.0: 0.00937, 1450.0: 0.04863, 1500.0: 0.07144, 1525.0: 0.07659, 1
 ODE = "inertialess equations along the axis by solve_ivp"
 SMALL = "theory of small deformation along the axis by solve_ivp"
 QUASISTATIC = "quasi-static small deformation, D = 15/8 (μ_f/μ_s) ∂u₁/∂x₁"
+LIMIT = "extrapolated to no mesh width"
 WHOLE = "cases/extension/check.py: the whole flow, fine mesh"
 
 
@@ -205,7 +206,7 @@ def beads(quick: bool) -> Outcome:
     soft_bead = CubicSpline(path.x[:, 0], path.D[:, 0])
     rows += [
         # Off the axis the whole flow is not quite free of divergence.
-        Row(f"soft: D at x₁ = {x:g} µm", float(soft_bead(1e-6 * x)), D, WHOLE, 3e-4)
+        Row(f"soft: D at x₁ = {x:g} µm", float(soft_bead(1e-6 * x)), D, WHOLE, 3e-4, kind="own")
         for x, D in TRACKED.items()
     ]
     levels = [track(read_axis(mesh), "stokes") for mesh in MESHES[:-1]] + [path]
@@ -219,9 +220,10 @@ def beads(quick: bool) -> Outcome:
             2.0,
             "three meshes, each refined by 3/2",
             0.5,
+            kind="own",
         ),
         *[
-            Row(f"soft: largest D on the mesh {mesh}", D, limit, "extrapolated to no mesh width", 0.02, True)
+            Row(f"soft: largest D on the mesh {mesh}", D, limit, LIMIT, 0.02, True, kind="own")
             for mesh, D in zip(MESHES, largest, strict=True)
         ],
     ]

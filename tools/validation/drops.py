@@ -143,7 +143,7 @@ def _breakup() -> list[Row]:
         measured = 10.0 ** (-0.506 - 0.0994 * log + 0.124 * log**2 - 0.115 / (log - np.log10(4.08)))
         title = f"λ = {ratio:g}: critical Ca in simple shear"
         ours = float(brentq(excess, 1e-3, 50.0))
-        rows.append(Row(title, ours, float(measured), GRACE, 0.3, relative=True, kind="measured"))
+        rows.append(Row(title, ours, float(measured), GRACE, 0.2, relative=True, kind="measured"))
     return rows
 
 

@@ -100,7 +100,11 @@ def focusing(quick: bool) -> Outcome:
     for Ca in (0.01, 0.1, 0.3):
         end = _paths(Ca, rate, True, np.array([5.0]))[0]
         rows.append(Row(f"Ca = {Ca:g} at the wall, both lifts: the same", float(end.mean()), None, "–"))
-        rows.append(Row(f"Ca = {Ca:g}: spread over the starts", float(np.ptp(end)), 0.0, "one place", 1e-4))
+        rows.append(
+            Row(
+                f"Ca = {Ca:g}: spread over the starts", float(np.ptp(end)), 0.0, "one place", 1e-4, kind="own"
+            )
+        )
     late = np.linspace(0.0, 20.0, 41)
     alone = _paths(0.2, 1e3, False, late[1:])
     rising = float(np.diff(np.vstack([STARTS, alone]), axis=0).min())

@@ -92,7 +92,7 @@ def displacement(quick: bool) -> Outcome:
                     ours,
                     parabola,
                     INGLIS,
-                    0.05 if slope > 0.15 else None,
+                    0.05,
                     True,
                     kind="others",
                     our_error=half,
@@ -107,7 +107,7 @@ def displacement(quick: bool) -> Outcome:
             )
             name = f"square, ε = {slope:.3g}, with lag and hindrance: the same"
             if not np.isnan(ours):
-                rows.append(Row(name, ours, davis, DAVIS, None, True, kind="measured", our_error=half))
+                rows.append(Row(name, ours, davis, DAVIS, 0.1, True, kind="measured", our_error=half))
             hindered.append(ours)
     if quick:
         return Outcome(rows, [], [])

@@ -134,7 +134,7 @@ def mode(quick: bool) -> Outcome:  # noqa: ARG001
     for table, source, allowed, speed, mu_f in (
         (ELEMENTS, OF_ELEMENTS, 0.05, in_tube, MU_F),
         (ANALYTICAL, OF_FORMULA, 0.01, 2.0963 * FLOW / WIDTH**2, MU_F),
-        (SQUARE, OF_SQUARE, None, in_tube, THINNED),
+        (SQUARE, OF_SQUARE, 0.05, in_tube, THINNED),
     ):
         areas, deformations, moduli = np.array(table).T
         ours = _cells(1e-12 * areas, 1e3 * moduli, speed, mu_f)

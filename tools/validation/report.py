@@ -80,7 +80,7 @@ def validate(cases: Mapping[str, Case], folder: Path, quick: bool, order: Sequen
 
     Returns
     -------
-    Whether every row that has an allowed difference passed.
+    Whether every row passed that has an allowed difference, and a reference that the code must meet.
     """
     plt = pyplot()
     sections = []
@@ -92,7 +92,8 @@ def validate(cases: Mapping[str, Case], folder: Path, quick: bool, order: Sequen
         print(table(outcome.rows))
         print(f"\n{name} ran in {time.perf_counter() - start:.1f} s")
     write(sections, folder, quick, plt, order)
-    failed = [f"{s.name}: {row.quantity}" for s in sections for row in s.outcome.rows if row.passed is False]
+    rows = [(section.name, row) for section in sections for row in section.outcome.rows]
+    failed = [f"{name}: {row.quantity}" for name, row in rows if row.verifies and row.passed is False]
     print(f"\n{summary(sections)}")
     for line in failed:
         print(f"    failed: {line}")
@@ -106,12 +107,12 @@ def cells(row: Row) -> tuple[str, ...]:
     return (
         row.quantity,
         _number(row.ours, row.our_error),
-        _number(row.reference, row.reference_error),
+        _number(row.reference, row.reference_error) + _spread(row.quartiles),
         row.source,
         row.kind,
         _difference(row.difference, percent),
         _difference(row.allowed, percent),
-        {True: "yes", False: "NO", None: "–"}[row.passed],
+        {True: "yes", False: "no", None: "–"}[row.passed],
         row.note,
     )
 
@@ -119,6 +120,10 @@ def cells(row: Row) -> tuple[str, ...]:
 def _number(value: float | None, error: float | None) -> str:
     bar = "" if error is None else f" ± {error:.2g}"
     return "–" if value is None else f"{value:.7g}{bar}"
+
+
+def _spread(quartiles: tuple[float, float] | None) -> str:
+    return "" if quartiles is None else " [{:.3g}, {:.3g}]".format(*quartiles)
 
 
 def _difference(value: float | None, relative: bool) -> str:
@@ -187,21 +192,24 @@ def _count(texts: Iterable[str], column: str) -> Counter[str]:
 
 
 def _passed_by_kind(texts: Iterable[str]) -> str:
-    """Return how many rows of each kind of reference pass: ``10 equations, 2 others, 1 measured``."""
+    """Return how many rows pass, of each kind of reference: ``12 of 13 rows pass: 10 of 10 equations, …``."""
     kind, passed = COLUMNS.index("kind"), COLUMNS.index("pass")
-    counts = Counter(row[kind] for text in texts for row in _lines_of_rows(text) if row[passed] == "yes")
-    return ", ".join(f"{counts[name]} {name}" for name in ("equations", "others", "measured"))
+    counts = Counter((row[kind], row[passed]) for text in texts for row in _lines_of_rows(text))
+    kinds = ("equations", "others", "measured")
+    yes, no = ([counts[name, word] for name in kinds] for word in ("yes", "no"))
+    parts = ", ".join(f"{y} of {y + n} {name}" for name, y, n in zip(kinds, yes, no, strict=True))
+    return f"{sum(yes)} of {sum(yes) + sum(no)} rows pass: {parts}"
 
 
 def _introduction(texts: Iterable[str], quick: bool) -> str:
     form = "the quick form of `tools/validate`" if quick else "`tools/validate`"
     passed, kinds = _count(texts, "pass"), _count(texts, "kind")
     return (
-        f"{passed['yes']} of {passed['yes'] + passed['NO']} rows pass: {_passed_by_kind(texts)}; "
-        f"{passed['–']} more are for information only. "
+        f"{_passed_by_kind(texts)}; {passed['–']} more are for information only. "
         f"Made by {form}, version {version('foamprb').partition('+')[0]}.\n\n"
         "The kind of a reference: `equations`, the same equations solved by another method, or their closed "
-        f"form ({kinds['equations']} rows, verification); `others`, theory or a computation of more than the "
+        f"form ({kinds['equations']} rows, verification); `own`, ours by other meshes, frames or steps "
+        f"({kinds['own']} rows, not counted above); `others`, theory or a computation of more than the "
         f"model that others printed ({kinds['others']} rows); `measured`, an experiment "
         f"({kinds['measured']} rows). The last two are validation, and have [their own page](others.md). "
         "A difference in per cent is relative to the reference. Rows without an allowed difference are for "
@@ -215,15 +223,16 @@ def _introduction_of_others(texts: Iterable[str]) -> str:
         "The rows of the [validation report](report.md) whose reference is theory or a computation that "
         f"others printed (`others`, {kinds['others']} rows), or an experiment (`measured`, "
         f"{kinds['measured']} rows). An error bar of a reference is its scatter, or the accuracy of reading "
-        "it; one of ours is numerical. The allowed difference is the model's, as its page states. "
-        "Rows without one are for information: they show where the model ends."
+        "it; one of ours is numerical. Brackets are the quartiles of a population, whose median has a much "
+        "smaller error. The allowed difference is one for each quantity, chosen from what the reference is "
+        "worth and not from the outcome: a row that exceeds it says no. Rows without one are for information."
     )
 
 
 def _rows_of_others(text: str) -> str:
     """Return a section with the rows of others alone, without its figures; empty if it has none."""
     kind = COLUMNS.index("kind")
-    rows = [row for row in _lines_of_rows(text) if row[kind] != "equations"]
+    rows = [row for row in _lines_of_rows(text) if row[kind] in ("others", "measured")]
     if not rows:
         return ""
     head, name = text.splitlines()[0], text.split("`")[1]

@@ -85,8 +85,8 @@ def frames(quick: bool) -> Outcome:
     for rho in (1000.0, 3000.0):
         place, shape = differences(rho, 200 if quick else 400)
         title = f"rho_s = {rho:g} kg/m3"
-        rows.append(Row(f"{title}: places, m", place, 0.0, "the frame at rest", 2e-5))
-        rows.append(Row(f"{title}: F", shape, 0.0, "the frame at rest", 1e-4))
+        rows.append(Row(f"{title}: places, m", place, 0.0, "the frame at rest", 2e-5, kind="own"))
+        rows.append(Row(f"{title}: F", shape, 0.0, "the frame at rest", 1e-4, kind="own"))
     out = float(np.linalg.norm(carried(0.0, 3000.0).x, axis=1).min())
     remark = (
         "Drag alone balances the centrifugal force, so both drift outwards: the heavier from 1.04 m to "
