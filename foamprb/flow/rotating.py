@@ -20,7 +20,7 @@ from foamprb.flow.mesh.arrays import MeshArrays, no_mesh, point
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with, with_velocity
-from foamprb.flow.series import SeriesFlow, ahead_by
+from foamprb.flow.series import SeriesFlow, host_ahead
 from foamprb.flow.viscosity import viscosity as viscosity_mesh
 from foamprb.flow.walk import STEADY, parts
 from foamprb.flow.walk import curvature as curvature_mesh
@@ -85,6 +85,15 @@ def curvature(flow: RotatingArrays, host: int, x: Vector, t: float) -> Curvature
     return curvature_mesh(flow.mesh, host, x, t)
 
 
+def sample_ahead(
+    flow: RotatingArrays, host: int, x0: Vector, x1: Vector, t1: float
+) -> tuple[int, float, int, Vector, Tensor, Vector]:
+    """See :func:`foamprb.flow.kernels.sample_ahead`."""
+    last, entered = host_ahead(flow, host, x0, x1)
+    u, l, u_t = sample(flow, last, x1, t1)
+    return last, 0.0, entered, u, l, u_t
+
+
 class RotatingFlow(MeshFlow):
     """:class:`MeshFlow` with absolute velocities at the nodes and rotating zones of cells.
 
@@ -99,7 +108,7 @@ class RotatingFlow(MeshFlow):
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         **SeriesFlow.kernels,
         "sample": sample,
-        "sample_ahead": ahead_by(sample),
+        "sample_ahead": sample_ahead,
         "curvature": curvature,
         "turbulence": turbulence,
         "viscosity": viscosity,

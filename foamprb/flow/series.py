@@ -173,18 +173,19 @@ def walk_on(flow: SeriesArrays, host: int, ahead: int, x0: Vector, x1: Vector) -
     return walk_on_mesh(flow.mesh, host, ahead, x0, x1)
 
 
-def ahead_by(sample: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the kernel ``sample_ahead`` of a flow with this kernel ``sample``, whose arrays have a mesh."""
+def host_ahead(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, int]:
+    """Return the host at the end of a segment, that at its start if the walk fails, and the cells entered."""
+    last, _, patch, _, entered = follow(flow.mesh, host, x0, x1)
+    return host if patch == FAILED else last, entered
 
-    def sample_ahead(
-        flow: Any, host: int, x0: Vector, x1: Vector, t1: float
-    ) -> tuple[int, float, int, Vector, Tensor, Vector]:
-        last, _, patch, _, entered = follow(flow.mesh, host, x0, x1)
-        last = host if patch == FAILED else last
-        u, l, u_t = sample(flow, last, x1, t1)
-        return last, 0.0, entered, u, l, u_t
 
-    return sample_ahead
+def sample_ahead(
+    flow: SeriesArrays, host: int, x0: Vector, x1: Vector, t1: float
+) -> tuple[int, float, int, Vector, Tensor, Vector]:
+    """See :func:`foamprb.flow.kernels.sample_ahead`."""
+    last, entered = host_ahead(flow, host, x0, x1)
+    u, l, u_t = sample(flow, last, x1, t1)
+    return last, 0.0, entered, u, l, u_t
 
 
 def gap(
@@ -256,7 +257,7 @@ class SeriesFlow(Timeline, MeshFlow):
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         "sample": sample,
-        "sample_ahead": ahead_by(sample),
+        "sample_ahead": sample_ahead,
         "curvature": curvature,
         "walk": walk,
         "walk_on": walk_on,

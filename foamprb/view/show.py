@@ -61,6 +61,8 @@ LATEST = "latestTime"
 DEFAULT_COLOUR = "taylorDeformation"
 _BYTES_PER_STATE = 8
 """Least size of a body at one time in a page."""
+_SAMPLE = 1000
+"""Bodies of the pages that tell the size of a larger one."""
 MOST_DRAWN = 100_000
 """Largest number of bodies in a page or a picture, unless -bodies requests more."""
 MOST_CELLS = 250_000
@@ -129,15 +131,23 @@ def _packed(request: Request, megabytes: float, version: str) -> tuple[Page, Run
     written, released = len(run.entries), len(run.cloud(-1, ("origId",)).points)
     n_bodies = min(released, request.bodies or MOST_DRAWN)
 
-    def pack(m: int) -> Page:
-        scene = background.scene(gather(run, spread(written, m), n_bodies))
+    def pack(m: int, n: int) -> Page:
+        scene = background.scene(gather(run, spread(written, m), n))
         notes = [f"{len(scene.bodies.ids)} of {released} bodies are shown."] if n_bodies < released else []
         notes += [f"{m} of {written} times are shown."] if m < written else []
         return Page(scene, version, notes)
 
     m = max(1, min(written, most // max(1, n_bodies * _BYTES_PER_STATE)))
-    while (page := pack(m)).size > most and m > 1:
-        m = max(1, min(m - 1, int(0.98 * m * most / page.size)))
+    for _ in range(2 if n_bodies > 4 * _SAMPLE and m > 1 else 0):
+        # Pages of few bodies tell what a body takes at times so far apart, and what all take together.
+        few, more = (pack(m, n).size for n in (_SAMPLE, 2 * _SAMPLE))
+        m = max(1, min(m, int(0.98 * m * (most - 2 * few + more) / (n_bodies * (more - few) / _SAMPLE))))
+    size = (page := pack(m, n_bodies)).size
+    while size > most and m > 1:
+        m = max(1, min(m - 1, int(0.98 * m * most / size)))
+        # Memory for one page, not for two.
+        del page
+        size = (page := pack(m, n_bodies)).size
     if n_bodies < released and request.bodies is None:
         log.warning("%d of %d bodies, evenly spread. -bodies N takes another number.", n_bodies, released)
     if page.size > most:
