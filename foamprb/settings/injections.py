@@ -12,7 +12,7 @@ from foamprb.body.memory import MOST
 from foamprb.cloud.injection.distribution import Distribution, scaled
 from foamprb.cloud.injection.models import INJECTIONS, Injection
 from foamprb.cloud.injection.shapes import Shape, Sphere
-from foamprb.cloud.viscosity import viscosity_at_rate
+from foamprb.cloud.viscosity import VaryingViscosity, viscosity_at_rate
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
@@ -123,11 +123,16 @@ class Solid:
         float | Distribution,
         NonNegative,
         Meaning(
-            "[of the solid](models/viscosity.md) (Kelvin–Voigt), or of the liquid of a `drop`",
+            "[of the solid](models/viscosity.md) (Kelvin–Voigt), or of the liquid of a `drop` or `capsule`",
             "Pa s",
-            "0, with `drop` required",
+            "0, with `drop` required, with `capsule` by `viscosityRatio`",
         ),
     ] = 0.0
+    viscosityRatio: Annotated[
+        float | Distribution,
+        NonNegative,
+        Meaning("viscosity of the liquid in a `capsule` over that of the fluid, in place of `viscosity`", "1"),
+    ] = 1.0
     surfaceTension: Annotated[
         float | Distribution,
         NonNegative,
@@ -167,6 +172,8 @@ STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
 """Entries of a solid of which exactly one is given."""
 COMPRESSIBILITY = ("poissonsRatio", "bulkModulus")
 """Entries of a solid of which at most one is given."""
+INNER = ("viscosity", "viscosityRatio")
+"""Entries of a capsule of which at most one is given."""
 LIQUID = ("surfaceTension", "viscosity")
 """Entries of a drop, in place of both."""
 MEMBRANE = ("surfaceShearModulus", "surfacePoissonsRatio")
@@ -329,7 +336,7 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     for place in places:
         with mistakes:
             entries = _solid_entries(place.entries["solid"].dictionary())
-            for one_of in (STIFFNESS, COMPRESSIBILITY):
+            for one_of in (STIFFNESS, COMPRESSIBILITY, INNER):
                 if entries.keys() & set(one_of):
                     combined = {key: value for key, value in combined.items() if key not in one_of}
             combined |= entries
@@ -355,13 +362,18 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
             mistakes.add(where.missing(key, allowed(hints[key])))
     others = {*parameters(), *MEMBRANE, *POWER_LAW, *(() if fading else ("referenceFrequency",))}
     others |= {*STIFFNESS, "relaxation"} if liquid or membrane or fading else set()
-    others |= set(COMPRESSIBILITY if liquid else ())
+    others |= set(COMPRESSIBILITY if liquid else ()) | set(() if membrane else ("viscosityRatio",))
     for name in sorted(others) if material else ():
         if name in combined and name not in needed:
             mistakes.add(where.mistake(f"gives {name}, which the solid {combined['type']} does not have."))
+    by_ratio = membrane and "viscosity" not in combined
+    if by_ratio and isinstance(fluid.mu, VaryingViscosity):
+        mistakes.add(where.mistake("gives no viscosity, and the fluid's varies. Allowed: viscosity, Pa s."))
     mistakes.raise_any()
     third = combined[parameter.entry] if parameter else 0.0
     solid = Solid(**{name: value for name, value in combined.items() if name in names_of(Solid)})
+    if by_ratio:
+        solid = replace(solid, viscosity=scaled(solid.viscosityRatio, viscosity_at_rate(fluid.mu, None)))
     return _with_shear_modulus(solid, fluid), third
 
 
@@ -376,7 +388,7 @@ def _solid_entries(dictionary: Dictionary) -> dict[str, Any]:
         with mistakes:
             if name in dictionary.entries:
                 values[name] = read_entry(dictionary, name, hint)
-    for one_of in (STIFFNESS, COMPRESSIBILITY):
+    for one_of in (STIFFNESS, COMPRESSIBILITY, INNER):
         present = [key for key in one_of if key in dictionary.entries]
         if len(present) > 1:
             mistakes.add(

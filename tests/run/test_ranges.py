@@ -52,6 +52,7 @@ SOLIDS: dict[str, dict[str, Any]] = {
     "surfaceTension": SHEAR,
     "youngsModulus": {"type": "neoHooke", "youngsModulus": 1, "poissonsRatio": 0.4},
     "surfaceShearModulus": CAPSULE, "surfacePoissonsRatio": CAPSULE,
+    "viscosityRatio": CAPSULE,
     "mooneyRatio": {"type": "mooneyRivlin", "shearModulus": 1, "mooneyRatio": 0.5},
     "stretchLimit": {"type": "gent", "shearModulus": 1, "stretchLimit": 50},
 }  # fmt: skip

@@ -231,6 +231,12 @@ def test_a_capsule_has_a_membrane_in_place_of_a_stiffness(read: Reader) -> None:
     both = "surfaceShearModulus 1e-3; surfacePoissonsRatio 0.5;"
     solid = read(capsule(both)).injections[0].solid
     assert (solid.surfaceShearModulus, solid.surfacePoissonsRatio) == (1e-3, 0.5)
+    mu = read(capsule(both)).fluid.mu
+    assert solid.viscosity == pytest.approx(mu)
+    assert read(capsule(f"{both} viscosityRatio 5;")).injections[0].solid.viscosity == pytest.approx(5.0 * mu)
+    assert read(capsule(f"{both} viscosity 0;")).injections[0].solid.viscosity == 0.0
+    with pytest.raises(InputError, match="gives viscosity and viscosityRatio"):
+        read(capsule(f"{both} viscosity 1e-3; viscosityRatio 5;"))
     with pytest.raises(InputError, match="solid/surfacePoissonsRatio is missing"):
         read(capsule("surfaceShearModulus 1e-3;"))
     with pytest.raises(InputError, match="gives shearModulus, which the solid capsule does not have"):
