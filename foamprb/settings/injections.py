@@ -131,7 +131,7 @@ class Solid:
     viscosityRatio: Annotated[
         float | Distribution,
         NonNegative,
-        Meaning("viscosity of the liquid in a `capsule` over that of the fluid, in place of `viscosity`", "1"),
+        Meaning("viscosity of the liquid in a `capsule` over the fluid's, in place of `viscosity`", "1"),
     ] = 1.0
     surfaceTension: Annotated[
         float | Distribution,
