@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from foamprb.body.choice import choice
+from foamprb.body.membrane import law_of, stress_of
 from foamprb.body.morphology import drop_derivatives, drop_energy
 from foamprb.body.tensor import (
     Scalar,
@@ -76,6 +77,11 @@ class Material(NamedTuple):
     stress: Stress | None = None
     """Kirchhoff stress τ(b, J, μ, λ, k), Pa, in place of the energy: nine numbers row by row, from the
     elastic b and J = det F. An incompressible form has the same stress up to a pressure, at J = 1."""
+
+    @property
+    def slides(self) -> bool:
+        """Whether it is a capsule whose stress is that of :mod:`foamprb.body.membrane`."""
+        return self.membrane and self.stress is not None
 
 
 def neo_hooke_energy(I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar) -> Scalar:
@@ -161,29 +167,39 @@ def dilation(J: Scalar, mu: Scalar, lame: Scalar) -> Scalar:
     return neo_hooke_dilation(J, mu, lame)
 
 
-MATERIALS: dict[str, Material] = {
-    "neoHooke": Material(neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation),
-    "mooneyRivlin": Material(
-        mooney_rivlin_energy, mooney_rivlin_derivatives, Parameter("mooneyRatio", 0.0, 1.0)
-    ),
-    "saintVenantKirchhoff": Material(
-        saint_venant_kirchhoff_energy, saint_venant_kirchhoff_derivatives, isochoric=False
-    ),
-    "gent": Material(gent_energy, gent_derivatives, Parameter("stretchLimit", 0.0, inf)),
-    "drop": Material(drop_energy, drop_derivatives, liquid=True, compared=0.34),
-    "capsule": Material(
-        neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, membrane=True, compared=0.3
-    ),
-    "powerLaw": Material(
-        neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, power_law=True
-    ),
-}
-"""Solids by their names in the settings."""
-
-
 def unknown(*_: Scalar) -> Any:
     """Return NaN in place of the energy and its derivatives, if a solid is given by its stress."""
     return nan
+
+
+class Materials(dict[str, Material]):
+    """Solids by name. Membranes have names of :func:`foamprb.body.membrane.name_of`, and are not listed."""
+
+    def __missing__(self, name: str) -> Material:
+        """Return the capsule with the law of the membrane in its name; raise KeyError for another name."""
+        return Material(unknown, unknown, membrane=True, compared=0.5, stress=stress_of(*law_of(name)))
+
+
+MATERIALS = Materials(
+    {
+        "neoHooke": Material(neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation),
+        "mooneyRivlin": Material(
+            mooney_rivlin_energy, mooney_rivlin_derivatives, Parameter("mooneyRatio", 0.0, 1.0)
+        ),
+        "saintVenantKirchhoff": Material(
+            saint_venant_kirchhoff_energy, saint_venant_kirchhoff_derivatives, isochoric=False
+        ),
+        "gent": Material(gent_energy, gent_derivatives, Parameter("stretchLimit", 0.0, inf)),
+        "drop": Material(drop_energy, drop_derivatives, liquid=True, compared=0.34),
+        "capsule": Material(
+            neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, membrane=True, compared=0.3
+        ),
+        "powerLaw": Material(
+            neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, power_law=True
+        ),
+    }
+)
+"""Solids by their names in the settings."""
 
 
 STEADY_CAPILLARY = 0.3

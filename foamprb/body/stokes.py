@@ -93,12 +93,16 @@ def _off_diagonal(
 
 
 def isochoric(F: Tensor, J: Scalar) -> Tensor:
-    """Return F J^(−1/3), F with its volume restored, for J near 1 (Newton's iteration for the cube root)."""
+    """Return F J^(−1/3), F with its volume restored, for J near 1."""
+    return scale(inverse_cube_root(J), F)
+
+
+def inverse_cube_root(J: Scalar) -> Scalar:
+    """Return J^(−1/3) for J near 1, by Newton's iteration."""
     s = 0.0 * J + 1.0
     s = s * (4.0 - J * s * s * s) * (1.0 / 3.0)
     s = s * (4.0 - J * s * s * s) * (1.0 / 3.0)
     s = s * (4.0 - J * s * s * s) * (1.0 / 3.0)
     s = s * (4.0 - J * s * s * s) * (1.0 / 3.0)
     s = s * (4.0 - J * s * s * s) * (1.0 / 3.0)
-    s = s * (4.0 - J * s * s * s) * (1.0 / 3.0)
-    return scale(s, F)
+    return s * (4.0 - J * s * s * s) * (1.0 / 3.0)

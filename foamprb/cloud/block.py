@@ -458,6 +458,12 @@ def judge(_block: Block, _i: int, verdict: Scalar) -> Scalar:
     return verdict
 
 
+@choice
+def judge_law(_F: Tensor, verdict: Scalar) -> Scalar:
+    """Return the verdict on a shape as it is; a solid whose law ends may replace this."""
+    return verdict
+
+
 @traced
 def accept_stage(block: Block, tolerance: float) -> None:
     """Judge the new shapes and velocities of the moving lanes, and accept the sound ones."""
@@ -474,6 +480,7 @@ def accept_stage(block: Block, tolerance: float) -> None:
         length = block[at.R * LANES + i] * stretch
         verdict = select(length <= block[at.maxLength * LANES + i], verdict, float(TOO_LARGE))
         verdict = select(stretch <= block[at.maxStretch * LANES + i], verdict, float(STRETCHED))
+        verdict = judge_law(F, verdict)
         verdict = select((J >= _MIN_J) & (J <= _MAX_J), verdict, float(VOLUME_RATIO))
         verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
         verdict = judge(block, i, verdict)

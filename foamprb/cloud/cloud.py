@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.compressibility import limited_lame
 from foamprb.body.material import MATERIALS
+from foamprb.body.membrane import LARGEST_STRETCH
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
 from foamprb.cloud.communicator import (
@@ -617,8 +618,11 @@ def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
     scheme = INTEGRATORS[models.integrator]
     hint = ""
     if reason == Reason.STRETCHED:
-        end = " and breaks up" if MATERIALS[models.material].liquid else ""
+        kind = MATERIALS[models.material]
+        end = " and breaks up" if kind.liquid else ""
         hint = f"maxStretch is {limits.maxStretch:g}; it has no steady shape there{end}"
+        if kind.slides:
+            hint = f"the law of its membrane is known up to a stretch of {LARGEST_STRETCH:g}"
     elif reason == Reason.TOO_LARGE:
         hint = f"maxSize is {limits.maxSize:g}; no gradient is uniform over such a body"
     elif reason == Reason.CELLS_TOO_MANY:
@@ -651,8 +655,11 @@ def _refuse_mixture(p: Particles, material: str) -> None:
             f"the material is {material}, but {np.count_nonzero(p.drop != liquid)} of {p.size} particles are "
             f"{'solids: use foamprb.drops' if liquid else 'drops: use the material drop'}"
         )
-    if liquid and ((p.gamma != 0.0).any() or (np.eye(3).ravel() != p.F0).any()):
-        raise InputError("a drop is a sphere at rest with the tension mu R. Allowed: neither F0 nor gamma")
+    slides = MATERIALS[material].slides
+    if (liquid or slides) and ((p.gamma != 0.0).any() or (np.eye(3).ravel() != p.F0).any()):
+        # A tension at rest changes how a membrane slides.
+        what = "a membrane is a sphere without tension" if slides else "a drop is a sphere with tension mu R"
+        raise InputError(f"{what} at rest. Allowed: neither F0 nor gamma")
 
 
 def _is_tense(p: Particles) -> bool:

@@ -18,6 +18,7 @@ from foamprb.body.material import (
     finger_of_body,
     finger_of_body_in_frame,
 )
+from foamprb.body.membrane import WITHIN, product_of_invariants
 from foamprb.body.rosenbrock import (
     Elasticity,
     elasticity,
@@ -31,8 +32,8 @@ from foamprb.body.rosenbrock import (
 )
 from foamprb.body.stokes import Mobility, mobility
 from foamprb.body.surface_tension import laplace_stress, no_stress
-from foamprb.body.tensor import Scalar, Tensor, Vector, diagonal, scale_vector
-from foamprb.cloud.block import Medium, at, load3, load_integrals, viscosity_at
+from foamprb.body.tensor import Scalar, Tensor, Vector, diagonal, scale_vector, select
+from foamprb.cloud.block import STRETCHED, Medium, at, judge_law, load3, load_integrals, viscosity_at
 from foamprb.cloud.layout import LANES, Block
 from foamprb.compile.link import Function
 
@@ -83,7 +84,14 @@ def functions_of_solid(material: Material, general: bool, tense: bool) -> dict[F
         slots |= dict.fromkeys(
             (kirchhoff, extra_stress, rosenbrock.extra_stress, solid_stress), material.stress
         )
+    if material.slides:
+        slots[judge_law] = judge_membrane
     return slots | ({interface: laplace_stress} if tense else {})
+
+
+def judge_membrane(F: Tensor, verdict: Scalar) -> Scalar:
+    """Return the verdict on a shape; one outside of the tabled stretches of a membrane fails."""
+    return select(product_of_invariants(F) <= WITHIN, verdict, float(STRETCHED))
 
 
 def conservative_stress(block: Block, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:

@@ -536,6 +536,9 @@ def check(models: Models, tense: bool) -> None:
             f"the shape of a {models.material} has no inertia: it needs the integrator stokes, not "
             f"{integrator.name}"
         )
+    if MATERIALS[models.material].slides and (models.has_memory or models.has_quadratic):
+        what = "relaxation" if models.has_memory else "shape model quadratic"
+        raise InputError(f"the {what} is not known of a membrane. Allowed: {models.material} without it")
     if models.has_memory and models.has_quadratic:
         raise InputError("the shape model quadratic has no relaxation: its mode is that of a solid without")
     for model in models.surroundings:

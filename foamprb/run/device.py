@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.material import MATERIALS
+from foamprb.body.material import MATERIALS, modulus_of_capsule
 from foamprb.body.memory import series_of_power_law
 from foamprb.body.quadratic import parts, square, tube_deformation
 from foamprb.cloud.cloud import Stepper
@@ -41,7 +41,9 @@ log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
 
-UNKNOWNS = ("shearModulus", "youngsModulus", "viscosity", "surfaceTension", "k", "alpha")
+UNKNOWNS = (
+    "shearModulus", "youngsModulus", "viscosity", "surfaceTension", "k", "alpha", "surfaceShearModulus"
+)  # fmt: skip
 """Properties that can be fitted, as far as a solid has them."""
 _LARGEST_EXPONENT = 0.99
 _MOST_GUIDES = 2000
@@ -206,7 +208,7 @@ class Device:
     Raises
     ------
     InputError
-        If the case is no device: its flow changes in time, its bodies are drops or capsules, or move at
+        If the case is no device: its flow changes in time, its bodies are drops, or move at
         random; if no particle passes the plane.
     """
 
@@ -218,7 +220,7 @@ class Device:
         fault = ""
         if settings.solution.transient:
             fault = "solution/transient is yes. Allowed: a steady flow"
-        elif kind.liquid or kind.membrane:
+        elif kind.liquid:
             fault = f"the solid is {cloud.models.material}. Allowed: elastic solids"
         elif random:
             fault = f"{random[0]} moves bodies at random. Allowed: models without random numbers"
@@ -231,6 +233,12 @@ class Device:
         solids = [injection.solid for injection in settings.injections]
         self._frequencies = np.array([solid.referenceFrequency for solid in solids])
         self._youngs = np.array([youngs_factor(solid) for solid in solids])
+        # Shear moduli of capsules for G_s = 1 N/m and R = 1 m.
+        self._membranes = (
+            np.array([modulus_of_capsule(1.0, solid.surfacePoissonsRatio, 1.0) for solid in solids])
+            if kind.membrane
+            else None
+        )
         # Of a power law.
         self._times = 1.0 / self._guides.memoryRates[0] if kind.power_law else None
         self._steps, self._call = job.steps, max(1, job.steps // _CALLS)
@@ -354,8 +362,10 @@ class Device:
         p.x[:] = p.x0[:] = bodies.x
         p.host[:] = cloud.flow.locate(p.x)
         p.number[:] = np.arange(n)
+        stress, before = p.Ca * p.mu, p.R.copy()
         p.R[:] = 0.5 * bodies.d
-        stress = p.Ca * p.mu
+        if self._membranes is not None:
+            p.mu *= before / p.R
         p = self.with_properties(p, bodies.properties)
         p.Ca[:] = stress / p.mu
         for k, injection in enumerate(self.job.settings.injections):
@@ -368,6 +378,8 @@ class Device:
 
     def properties(self, p: Particles) -> dict[str, Floats]:
         """Return the properties of particles that can be fitted, (n,) each, by their entries."""
+        if self._membranes is not None:
+            return {"surfaceShearModulus": p.mu * p.R / self._membranes[p.injector], "viscosity": p.eta}
         values = {"viscosity": p.eta, "surfaceTension": p.gamma}
         if self._times is None:
             G = p.steady_modulus
@@ -391,6 +403,10 @@ class Device:
         values = {**self.properties(p), **changed}
         if "youngsModulus" in changed:
             values["shearModulus"] = changed["youngsModulus"] / self._youngs[p.injector]
+        if self._membranes is not None:
+            p.mu[:] = values["surfaceShearModulus"] * self._membranes[p.injector] / p.R
+            p.eta[:] = values["viscosity"]
+            return p
         p.gamma[:], p.eta[:] = values["surfaceTension"], values["viscosity"]
         if self._times is None:
             relaxing = p.memoryShares * p.mu[:, None]

@@ -137,7 +137,7 @@ def fit(
         Table of the bodies, see :func:`foamprb.run.measured.read_measured`.
     unknown
         ``shearModulus`` or ``youngsModulus``, ``viscosity``, ``surfaceTension``, or ``k`` and ``alpha`` of a
-        power law, of each body.
+        power law, or ``surfaceShearModulus`` of a capsule, of each body.
     plane
         Where the bodies were seen, ``"x=0.01"`` or ``"(0.01 0 0) (1 0 0)"``; by default the plane of a cloud
         function.

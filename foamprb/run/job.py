@@ -276,7 +276,7 @@ def _medium(settings: Settings) -> Medium:
 
 
 def _material(settings: Settings) -> str:
-    return settings.injections[0].solid.type if settings.injections else Models.material
+    return settings.injections[0].solid.material if settings.injections else Models.material
 
 
 def _models(settings: Settings, integrator: str, rotating: bool = False) -> Models:
@@ -342,7 +342,7 @@ def assemble(
     steps, end = _last_step(settings.solution, start)
     last = max(settings.solution.endTime, start + steps * settings.solution.deltaT)
     release = Release(settings.injections, flow, medium, _span(settings, start, flow), last)
-    solids = sorted({injection.solid.type for injection in settings.injections})
+    solids = sorted({injection.solid.material for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     comm = comm or Communicator()

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 from foamprb.body.material import MATERIALS
+from foamprb.body.membrane import MOST_C, name_of, poissons_ratio_of
 from foamprb.body.memory import MOST
 from foamprb.cloud.injection.distribution import Distribution, scaled
 from foamprb.cloud.injection.models import INJECTIONS, Injection
@@ -78,8 +79,7 @@ class Solid:
                 "gent": "solid that stiffens towards a largest stretch, as chains of a gel do",
                 "saintVenantKirchhoff": "linear law of large rotations, for small strains",
                 "drop": "[drop](models/drops.md) of a liquid of this viscosity and surface tension",
-                "capsule": "liquid in a thin elastic membrane, the [solid](models/capsules.md) that is "
-                "equivalent for small deformation",
+                "capsule": "[liquid in a thin elastic membrane](models/capsules.md)",
                 "powerLaw": "solid whose modulus falls with time as a power, as that of cells and gels does",
             },
         ),
@@ -147,10 +147,28 @@ class Solid:
         Positive,
         Meaning("of the membrane of a [`capsule`](models/capsules.md)", "N/m", "with `capsule` required"),
     ] = None
+    law: Annotated[
+        Literal["neoHookean", "Skalak", "small"] | None,
+        Meaning(
+            "of that membrane",
+            "",
+            "with `capsule` required; `small` with `surfacePoissonsRatio`",
+            {
+                "neoHookean": "rubber-like; softens where it is stretched",
+                "Skalak": "stiffens, and resists changes of its area; as of red blood cells",
+                "small": "the solid that is equivalent for small deformation, in place of the membrane",
+            },
+        ),
+    ] = None
+    C: Annotated[
+        float,
+        Bounds(0.0, MOST_C, False, False, f"a number >= 0 and <= {MOST_C:g}"),
+        Meaning("resistance to changes of the area over that to shear", "1", "with `Skalak` required"),
+    ] = 0.0
     surfacePoissonsRatio: Annotated[
         float | None,
         Bounds(-1.0, 1.0, True, False, "a number > -1 and <= 1"),
-        Meaning("of that membrane; 1 where it keeps its area", "1", "with `capsule` required"),
+        Meaning("of that membrane; 1 where it keeps its area", "1", "with `law small` required"),
     ] = None
     relaxation: Annotated[
         Prony | None, Meaning("[memory](models/memory.md) of the solid: moduli that relax", "", "none")
@@ -167,6 +185,11 @@ class Solid:
     ] = None
     referenceFrequency: Annotated[float, Positive, Meaning("ω₀/2π of a `powerLaw`", "Hz")] = 1.0
 
+    @property
+    def material(self) -> str:
+        """Name in :data:`MATERIALS`, with the law of a membrane."""
+        return name_of(self.law or "", self.C) if MATERIALS[self.type].membrane else self.type
+
 
 STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
 """Entries of a solid of which exactly one is given."""
@@ -176,8 +199,10 @@ INNER = ("viscosity", "viscosityRatio")
 """Entries of a capsule of which at most one is given."""
 LIQUID = ("surfaceTension", "viscosity")
 """Entries of a drop, in place of both."""
-MEMBRANE = ("surfaceShearModulus", "surfacePoissonsRatio")
-"""Entries of a capsule, in place of a stiffness."""
+MEMBRANE = {None: ("law",), "small": ("surfacePoissonsRatio",), "neoHookean": (), "Skalak": ("C",)}
+"""Entries of a capsule by its law, in place of a stiffness, beside ``surfaceShearModulus``."""
+OF_CAPSULES = ("surfaceShearModulus", "law", "surfacePoissonsRatio", "C", "viscosityRatio")
+"""Entries of capsules alone."""
 POWER_LAW = ("k", "alpha")
 """Entries of a power law, in place of a stiffness."""
 
@@ -353,16 +378,21 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     required = {"Ca": "referenceShearRate", "youngsModulus": "poissonsRatio"}
     needed = ["type", *(required[key] for key in stiffness if key in required)]
     if liquid or membrane or fading:
-        needed = ["type", *(LIQUID if liquid else MEMBRANE if membrane else POWER_LAW)]
+        needed = ["type", *(LIQUID if liquid else POWER_LAW)]
+    if membrane:
+        law = combined.get("law", "small" if "surfacePoissonsRatio" in combined else None)
+        combined |= {"law": law} if law else {}
+        needed = ["type", "surfaceShearModulus", *MEMBRANE[law]]
     parameter = material.parameter if material else None
     if parameter:
         needed.append(parameter.entry)
     for key in needed:
         if key not in combined:
             mistakes.add(where.missing(key, allowed(hints[key])))
-    others = {*parameters(), *MEMBRANE, *POWER_LAW, *(() if fading else ("referenceFrequency",))}
+    others = {*parameters(), *OF_CAPSULES, *POWER_LAW, *(() if fading else ("referenceFrequency",))}
     others |= {*STIFFNESS, "relaxation"} if liquid or membrane or fading else set()
-    others |= set(COMPRESSIBILITY if liquid else ()) | set(() if membrane else ("viscosityRatio",))
+    others |= set(COMPRESSIBILITY if liquid else ())
+    others -= {"law", "viscosityRatio"} if membrane else set()
     for name in sorted(others) if material else ():
         if name in combined and name not in needed:
             mistakes.add(where.mistake(f"gives {name}, which the solid {combined['type']} does not have."))
@@ -372,6 +402,8 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     mistakes.raise_any()
     third = combined[parameter.entry] if parameter else 0.0
     solid = Solid(**{name: value for name, value in combined.items() if name in names_of(Solid)})
+    if membrane and solid.law and solid.law != "small":
+        solid = replace(solid, surfacePoissonsRatio=poissons_ratio_of(solid.law, solid.C))
     if by_ratio:
         solid = replace(solid, viscosity=scaled(solid.viscosityRatio, viscosity_at_rate(fluid.mu, None)))
     return _with_shear_modulus(solid, fluid), third

@@ -73,11 +73,12 @@ def cloud_of(names: frozenset[str], before: Cloud | None = None) -> Cloud:
     else:
         # More than two blocks.
         x = [(0.0, 0.0, h * R) for h in (1.0001, 1.003, 1.5, 4.0, *np.linspace(5.0, 20.0, 36))]
-        mu = modulus_of_capsule(4e-6, 0.5, R) if chosen["body"] == "capsule" else 1.0
+        capsule = chosen["body"] == "capsule"
+        mu, eta = (modulus_of_capsule(4e-6, 0.5, R), MU) if capsule else (1.0, 0.0)
         particles = (
             drops(x, d=2.0 * R, rho=1500.0, gamma=4e-6, eta=MU)
             if liquid
-            else spheres(x, d=2.0 * R, rho=1500.0, mu=mu, bulk_modulus=1e3)
+            else spheres(x, d=2.0 * R, rho=1500.0, mu=mu, bulk_modulus=1e3, eta=eta)
         )
         if chosen["solid"] == "relaxation":
             particles = with_relaxation(particles, [0.5, 0.5], [2e-4, 2e-3])
@@ -87,7 +88,7 @@ def cloud_of(names: frozenset[str], before: Cloud | None = None) -> Cloud:
     viscosity = MU if chosen["fluid"] == "water" else PowerLaw(k=2e-3, n=0.8)
     models = Models(
         integrator=chosen["integrator"],
-        material="drop" if liquid else "capsule" if chosen["body"] == "capsule" else "neoHooke",
+        material="drop" if liquid else "capsule neoHookean" if chosen["body"] == "capsule" else "neoHooke",
         shape="quadratic" if "quadratic" in chosen["body"] else "affine",
         forces=(*DEFAULT, CHANNEL) if chosen["force"] == "ductLift" else DEFAULT,
         surroundings=tuple(model for name, model in AROUND.items() if name in names),

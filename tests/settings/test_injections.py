@@ -237,8 +237,15 @@ def test_a_capsule_has_a_membrane_in_place_of_a_stiffness(read: Reader) -> None:
     assert read(capsule(f"{both} viscosity 0;")).injections[0].solid.viscosity == 0.0
     with pytest.raises(InputError, match="gives viscosity and viscosityRatio"):
         read(capsule(f"{both} viscosity 1e-3; viscosityRatio 5;"))
-    with pytest.raises(InputError, match="solid/surfacePoissonsRatio is missing"):
+    with pytest.raises(InputError, match="solid/law is missing"):
         read(capsule("surfaceShearModulus 1e-3;"))
+    assert solid.material == "capsule"
+    solid = read(capsule("surfaceShearModulus 1e-3; law Skalak; C 2;")).injections[0].solid
+    assert (solid.material, solid.surfacePoissonsRatio) == ("capsule Skalak 2", pytest.approx(2.0 / 3.0))
+    with pytest.raises(InputError, match="gives surfacePoissonsRatio"):
+        read(capsule(f"{both} law neoHookean;"))
+    with pytest.raises(InputError, match="solid/C is missing"):
+        read(capsule("surfaceShearModulus 1e-3; law Skalak;"))
     with pytest.raises(InputError, match="gives shearModulus, which the solid capsule does not have"):
         read(capsule(f"{both} shearModulus 100;"))
     with pytest.raises(InputError, match="which the solid neoHooke does not have"):
