@@ -39,6 +39,8 @@ _MANY_STEPS = 1e7
 _SMALL_BODY, _LAMINAR = 1e-3, 1e4
 """Least size of a body over its cell, and largest Reynolds number of a steady laminar flow, without a
 warning."""
+_VISCOUS = 5.0
+"""Viscosity ratio of capsules above which their membranes are compressed in steady shear."""
 _LIGHT = 20.0
 """Density below which a fluid is a gas, and a solid is unlikely, kg/m³."""
 _OF_GASES = (4e-6, 2e-4)
@@ -67,6 +69,8 @@ class Groups(NamedTuple):
     """Stokes number of the path, the largest; see :func:`foamprb.cloud.measures.path_stokes_number`."""
     stiffness: tuple[float, float]
     """μ_s Δt/μ_f."""
+    ratio: tuple[float, float] = (0.0, 0.0)
+    """Viscosity of the body over that of the fluid."""
     extending: float = 0.0
     """Share of the flow in which the softest particle has no steady shape; see :func:`_extending`."""
 
@@ -97,13 +101,13 @@ def dimensionless_groups(cloud: Cloud, injector: int, extension: NDArray[np.floa
         :func:`extension_rates` of the flow.
     """
     parts = [(p.size, _ranges(cloud, p)) for p in cloud.map_by_id(_released_by, injector) if p.size]
-    ranges = np.array([limits for _, limits in parts]) if parts else np.full((1, 8, 2), np.nan)
+    ranges = np.array([limits for _, limits in parts]) if parts else np.full((1, 9, 2), np.nan)
     lowest, largest = ranges[:, :, 0].min(axis=0), ranges[:, :, 1].max(axis=0)
-    rate, capillary, reynolds, stokes, step, size, path, stiffness = (
+    rate, capillary, reynolds, stokes, step, size, path, stiffness, ratio = (
         (float(low), float(high)) for low, high in zip(lowest, largest, strict=True)
     )
     n, extending = sum(size for size, _ in parts), _extending(cloud, injector, extension)
-    return Groups(n, rate, capillary, reynolds, stokes, step, size, path, stiffness, extending)
+    return Groups(n, rate, capillary, reynolds, stokes, step, size, path, stiffness, ratio, extending)
 
 
 def _ranges(cloud: Cloud, p: Particles) -> list[tuple[float, float]]:
@@ -120,6 +124,7 @@ def _ranges(cloud: Cloud, p: Particles) -> list[tuple[float, float]]:
         2.0 * p.R / cloud.flow.cell_size(p.host),
         np.array([path_stokes_number(p, cloud.flow, medium, cloud.time)]),
         p.mu * cloud.dt / medium.mu,
+        p.eta / medium.mu,
     )
     return [_range(values) for values in groups]
 
@@ -146,10 +151,10 @@ def _extending(cloud: Cloud, injector: int, extension: NDArray[np.float64]) -> f
     """Return the share of the nodes where the softest particle has no steady shape.
 
     A solid has none beyond a capillary number of extension. A drop breaks up where it grows faster than its
-    surface tension restores it.
+    surface tension restores it. Membranes have no such limit.
     """
     softest = [softness for of_rank in cloud.map_ranks(_softest_of, injector) for softness in of_rank]
-    if len(extension) == 0 or not softest:
+    if len(extension) == 0 or not softest or MATERIALS[cloud.models.material].slides:
         return 0.0
     values = _at_few_nodes(cloud.flow)
     mu = np.asarray(viscosity_at_nodes(cloud.medium.mu, values))
@@ -290,7 +295,9 @@ def costly_settings(solution: Solution, cloud: Cloud, steps: int) -> list[str]:
     return sentences
 
 
-def validity_warnings(g: Groups, integrator: str, where: str, liquid: bool = False) -> list[str]:
+def validity_warnings(
+    g: Groups, integrator: str, where: str, liquid: bool = False, membrane: bool = False
+) -> list[str]:
     """Return a sentence, with its number, for each group that is out of the model's range.
 
     Parameters
@@ -299,8 +306,9 @@ def validity_warnings(g: Groups, integrator: str, where: str, liquid: bool = Fal
         The groups, and the integrator of the shape.
     where
         Beginning of the sentences, e.g. ``injection model inlet``.
-    liquid
-        Whether the particles are drops.
+    liquid, membrane
+        Whether the particles are drops; whether they are capsules whose membrane resists changes of its area
+        little.
     """
     sentences = []
     scheme = INTEGRATORS[integrator]
@@ -328,6 +336,11 @@ def validity_warnings(g: Groups, integrator: str, where: str, liquid: bool = Fal
         sentences.append(
             f"{where}: the particle Reynolds number is {g.reynolds[1]:.3g}; the traction and the drag are "
             f"those of Stokes flow, which needs it small (below {SMALL_REYNOLDS:g})."
+        )
+    if membrane and g.ratio[1] > _VISCOUS:
+        sentences.append(
+            f"{where}: the liquid of the capsules is {g.ratio[1]:.3g} times as viscous as the fluid; above "
+            f"about {_VISCOUS:g} their membrane is compressed at any shear rate, and wrinkles."
         )
     if g.extending > _SMALL_SHARE:
         share = f"{where}: in {100 * g.extending:.3g} % of the flow"

@@ -40,6 +40,8 @@ from foamprb.run.checks import (
 )
 from foamprb.settings.settings import Settings
 
+_INCOMPRESSIBLE = 10.0
+"""C of Skalak's law from which membranes keep their area nearly."""
 _PACKAGES = ("foamprb", "numpy", "numba", "vtk")
 
 
@@ -71,8 +73,9 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             {"name": injection.name, "type": type(injection.model).__name__, "particles": n, **ranges}
         )
         if g.n:
-            liquid = MATERIALS[models.material].liquid
-            warnings += validity_warnings(g, models.integrator, f"injection model {injection.name}", liquid)
+            kind, where = MATERIALS[models.material], f"injection model {injection.name}"
+            soft = kind.slides and injection.solid.C < _INCOMPRESSIBLE
+            warnings += validity_warnings(g, models.integrator, where, kind.liquid, soft)
             warnings += late_releases(settings, cloud, index, g.n, n - g.n)
     sizes = [i["size"][1] for i in injections if "size" in i]
     warnings += doubtful_lengths(settings, cloud, max(sizes, default=math.nan))

@@ -29,7 +29,7 @@ from foamprb.results.intervals import share
 from foamprb.run.checks import SMALL_REYNOLDS
 from foamprb.run.job import Job
 from foamprb.run.slip import Slip, drag_excess, slip_of
-from foamprb.run.validity import PathRecord, warnings_of
+from foamprb.run.validity import PathRecord
 
 log = logging.getLogger("foamprb")
 
@@ -181,7 +181,7 @@ class RunLog:
         """Return the warnings of a run that its particles show at its end, for its record."""
         models, counts = self._job.cloud.models, self._job.cloud.counts()
         record = self._paths
-        warnings = warnings_of(record.n, record.beyond, models.material) if record else []
+        warnings = record.warnings(models.material) if record else []
         if counts[Status.PENDING]:
             warnings.append(f"{counts[Status.PENDING]} particles were not yet injected at the end time.")
         if counts[Status.FAILED]:
@@ -290,7 +290,7 @@ class RunLog:
         log.info("Largest values on the paths")
         for line in record.lines(affine=not models.has_quadratic):
             log.info("    %s", line)
-        for warning in warnings_of(record.n, record.beyond, models.material):
+        for warning in record.warnings(models.material):
             log.warning("%s", warning)
         if not models.has_quadratic and (advice := record.advice()):
             log.info("%s", advice)

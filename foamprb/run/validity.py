@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.material import MATERIALS
+from foamprb.body.membrane import law_of, least_tensions
 from foamprb.body.quadratic import steady_amplitude, steady_amplitude_of_drop
 from foamprb.cloud.measures import shapes
 from foamprb.cloud.state import Particles, Status
@@ -25,6 +26,8 @@ CURVED, _AT_AXIS = 0.1, 1.0
 """Curvature numbers from which the second mode of a shape counts, and of bodies that contain an axis."""
 _MANY_CURVED, _MANY_AT_AXIS = 0.05, 0.01
 """Shares of such bodies from which the quadratic mode is proposed."""
+_COMPRESSED = 0.01
+"""Compression of a membrane over G_s above which it is reported."""
 _EDGES = np.hstack([0.0, np.logspace(-12.0, 12.0, 2401), np.inf])
 """Bounds of the classes from which quantiles are taken."""
 _MOST_LISTED = 10
@@ -54,7 +57,11 @@ def _need_mode(n: int, curved: int, at_axis: int) -> bool:
 
 def limits_of(material: str) -> dict[str, float]:
     """Return the limits of the model for bodies of a material, by the columns of ``fates``."""
-    compared = MATERIALS[material].compared if material in MATERIALS else np.inf
+    try:
+        compared = MATERIALS[material].compared
+    except KeyError:
+        # Of a record: a solid of a user.
+        compared = np.inf
     return {
         "maxD": compared,
         "maxReynolds": SMALL_REYNOLDS,
@@ -151,6 +158,15 @@ def warnings_of(n: int, beyond: Mapping[str, Excess], material: str) -> list[str
     ]
 
 
+def _wrinkled(p: Particles, material: str) -> tuple[int, float]:
+    """Return how many membranes are compressed, and their least tension over G_s."""
+    if not MATERIALS[material].slides:
+        return 0, 0.0
+    tensions = least_tensions(p.F, *law_of(material))
+    compressed = tensions[tensions < -_COMPRESSED]
+    return len(compressed), float(compressed.min(initial=0.0))
+
+
 class PathRecord(NamedTuple):
     """Distributions of the largest values on the paths of released particles."""
 
@@ -162,6 +178,8 @@ class PathRecord(NamedTuple):
     """Particles beyond the limit of a column."""
     at_axis: int
     """Number of particles that stay within a radius of an axis, or of other places without strain."""
+    wrinkled: tuple[int, float] = (0, 0.0)
+    """Number of capsules with a compressed membrane at the end, and the least principal tension over G_s."""
 
     @classmethod
     def of(cls, p: Particles, rho: float, models: Models) -> PathRecord:
@@ -177,6 +195,7 @@ class PathRecord(NamedTuple):
             {name: float(np.fmax.reduce(values[name], initial=0.0)) for name in _LINES},
             excesses(p.number, values, models.material),
             int(np.count_nonzero(values["curvatureNumber"] > _AT_AXIS)),
+            _wrinkled(p, models.material),
         )
 
     @classmethod
@@ -193,7 +212,20 @@ class PathRecord(NamedTuple):
             {name: max(record.largest[name] for record in records) for name in _LINES},
             beyond,
             sum(record.at_axis for record in records),
+            (
+                sum(record.wrinkled[0] for record in records),
+                min(record.wrinkled[1] for record in records),
+            ),
         )
+
+    def warnings(self, material: str) -> list[str]:
+        """Return :func:`warnings_of`, and a sentence about membranes that wrinkle."""
+        n, least = self.wrinkled
+        wrinkled = (
+            f"{n} of {self.n} capsules have a membrane that is compressed at the end, by up to {-least:.2g} "
+            "G_s: it wrinkles there, which the model leaves out."
+        )
+        return [*warnings_of(self.n, self.beyond, material), *([wrinkled] if n else [])]
 
     def lines(self, affine: bool) -> list[str]:
         """Return lines with median, 99 % quantile and largest value; ``affine`` without a quadratic mode."""

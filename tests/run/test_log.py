@@ -69,6 +69,17 @@ def warnings_about(cloud, liquid=False):
     )
 
 
+def test_a_viscous_liquid_wrinkles_membranes():
+    flow = flow_of(np.zeros((3, 3)))
+    p = spheres(np.full((2, 3), 0.5), d=1e-4, rho=1000.0, mu=1.0, eta=[4.0, 8.0])
+    g = dimensionless_groups(
+        Cloud(p, flow, OIL, [Stick()] * len(flow.patches), 1e-3, Models(integrator="stokes")), 0, np.empty(0)
+    )
+    (text,) = validity_warnings(g, "stokes", "it", membrane=True)
+    assert "8 times as viscous" in text
+    assert validity_warnings(g, "stokes", "it") == []
+
+
 def test_progress_lines_give_the_time_left(caplog, monkeypatch):
     now = [0.0]
     monkeypatch.setattr(log.clock, "perf_counter", lambda: now[0])

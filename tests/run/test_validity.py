@@ -45,6 +45,15 @@ def test_particles_beyond_the_largest_compared_deformation_are_named():
     assert warnings(record(bodies(0.2), Models())) == []
 
 
+def test_compressed_membranes_are_counted():
+    """In shear neo-Hookean ones are, those that keep their area are not."""
+    p = bodies()
+    p.F[:3, [0, 4]] = 1.4, 1.0 / 1.4
+    (text,) = record(p, Models(material="capsule neoHookean"), 3).warnings("capsule neoHookean")
+    assert text.startswith("3 of 100 capsules have a membrane that is compressed at the end, by up to 0.2")
+    assert record(p, Models(material="capsule Skalak 10")).warnings("capsule Skalak 10") == []
+
+
 def test_a_record_is_the_same_for_any_distribution_of_the_particles():
     p = bodies(np.linspace(0.0, 0.99, N), np.linspace(0.0, 0.3, N))
     whole, parts = (record(p, Models(), n) for n in (1, 7))
