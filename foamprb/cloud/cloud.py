@@ -657,9 +657,12 @@ def _refuse_mixture(p: Particles, material: str) -> None:
         )
     slides = MATERIALS[material].slides
     if (liquid or slides) and ((p.gamma != 0.0).any() or (np.eye(3).ravel() != p.F0).any()):
-        # A tension at rest changes how a membrane slides.
-        what = "a membrane is a sphere without tension" if slides else "a drop is a sphere with tension mu R"
-        raise InputError(f"{what} at rest. Allowed: neither F0 nor gamma")
+        raise InputError(
+            "a membrane with a law is a sphere without tension at rest. Allowed: neither shape (F0) nor "
+            "surfaceTension (gamma)"
+            if slides
+            else "a drop is a sphere at rest with the tension mu R. Allowed: neither F0 nor gamma"
+        )
 
 
 def _is_tense(p: Particles) -> bool:

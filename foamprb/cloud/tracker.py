@@ -537,8 +537,8 @@ def check(models: Models, tense: bool) -> None:
             f"{integrator.name}"
         )
     if MATERIALS[models.material].slides and (models.has_memory or models.has_quadratic):
-        what = "relaxation" if models.has_memory else "shape model quadratic"
-        raise InputError(f"the {what} is not known of a membrane. Allowed: {models.material} without it")
+        what = "relaxation" if models.has_memory else "stiffness in the shape model quadratic"
+        raise InputError(f"the {what} is unknown for the membrane of a {models.material}")
     if models.has_memory and models.has_quadratic:
         raise InputError("the shape model quadratic has no relaxation: its mode is that of a solid without")
     for model in models.surroundings:

@@ -365,7 +365,7 @@ class Device:
         stress, before = p.Ca * p.mu, p.R.copy()
         p.R[:] = 0.5 * bodies.d
         if self._membranes is not None:
-            p.mu *= before / p.R
+            p.mu[:] *= before / p.R
         p = self.with_properties(p, bodies.properties)
         p.Ca[:] = stress / p.mu
         for k, injection in enumerate(self.job.settings.injections):

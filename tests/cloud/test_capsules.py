@@ -83,8 +83,8 @@ def shaped(p):
     [
         ("sphere without tension at rest", {"change": tense}),
         ("sphere without tension at rest", {"change": shaped}),
-        ("relaxation is not known of a membrane", {"change": lambda p: with_relaxation(p, [1.0], [1.0])}),
-        ("quadratic is not known of a membrane", {"shape": "quadratic"}),
+        ("relaxation is unknown for the membrane", {"change": lambda p: with_relaxation(p, [1.0], [1.0])}),
+        ("quadratic is unknown for the membrane", {"shape": "quadratic"}),
         ("integrator paper takes no capsule", {"integrator": "paper"}),
     ],
 )

@@ -36,6 +36,23 @@ def test_properties_of_cells_are_recovered(job):
     np.testing.assert_allclose(fits.table["y"], measured.of("y"), atol=1e-9)
 
 
+def test_membranes_of_capsules_are_recovered(tmp_path):
+    """Each with its own size, on which the modulus of the body depends beside that of the surface."""
+    solid = "type capsule; law neoHookean; surfaceShearModulus 3e-3;"
+    job = pipe_job(tmp_path, SETTINGS.replace("type neoHooke; shearModulus 300; viscosity 1;", solid))
+    G, d, y = np.array([[2e-3, 3e-3, 4e-3], [14e-6, 15e-6, 17e-6], [4e-5, 6e-5, 7e-5]])
+    device = Device(job, plane := plane_of("x=1e-3", job), view_of("z", job, plane))
+    device.pass_guides(1e-3)
+    guide, start, _ = device.lead_to(np.stack([np.full(3, np.nan), y, np.full(3, np.nan)], axis=1))
+    seen = device.follow(Bodies(guide, start, d, {"surfaceShearModulus": G}), np.full(3, 1e-3))
+    measured = read_measured({"y": y, "d": d, **device.image(seen, d, ("strain", "angle"))})
+    fits = fit_job(job, measured, ("surfaceShearModulus", "viscosity"), "x=1e-3")
+    np.testing.assert_allclose(fits.table["surfaceShearModulus"], G, rtol=1e-4)
+    np.testing.assert_allclose(fits.table["viscosity"], 1.0, rtol=1e-3)
+    with pytest.raises(InputError, match="Allowed: surfaceShearModulus, viscosity"):
+        fit_job(job, measured, ("shearModulus",), "x=1e-3")
+
+
 def test_the_interval_of_a_population_holds_its_median(job):
     """`tools/validation/fits.py` has the intervals of single cells, and the bias."""
     measured, *properties = seen_cells(job, 60)
