@@ -29,6 +29,7 @@ Particles in a flow:
 
     spheres             particles at rest, as many as there are positions
     drops               drops at rest, for the material ``drop``
+    set_excess_area     make vesicles of them
     set_rest_shape      make ellipsoids at rest of them
     with_relaxation     solids with memory of them
     Particles           the arrays of all particles

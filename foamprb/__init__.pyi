@@ -49,6 +49,9 @@ from .cloud.state import (
     drops as drops,
 )
 from .cloud.state import (
+    set_excess_area as set_excess_area,
+)
+from .cloud.state import (
     set_rest_shape as set_rest_shape,
 )
 from .cloud.state import (
@@ -187,6 +190,7 @@ __all__ = [
     "read_series",
     "select",
     "select_times",
+    "set_excess_area",
     "set_rest_shape",
     "spheres",
     "with_relaxation",

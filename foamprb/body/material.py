@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from foamprb.body.choice import choice
-from foamprb.body.membrane import law_of, stress_of
+from foamprb.body.membrane import FLUID, law_of, name_of, stress_of
 from foamprb.body.morphology import drop_derivatives, drop_energy
 from foamprb.body.tensor import (
     Scalar,
@@ -39,6 +39,7 @@ from foamprb.body.tensor import (
     to_frame,
     transpose,
 )
+from foamprb.body.vesicle import no_elastic_stress
 
 Derivatives = Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], tuple[Scalar, Scalar, Scalar]]
 
@@ -69,6 +70,8 @@ class Material(NamedTuple):
     """Whether it is a drop, whose shape follows :mod:`foamprb.body.morphology`; μ is then σ/R."""
     membrane: bool = False
     """Whether it is a capsule, whose μ is that of :func:`modulus_of_capsule`."""
+    fluid: bool = False
+    """Whether that membrane is fluid and keeps its area (:mod:`foamprb.body.vesicle`); k is the excess."""
     power_law: bool = False
     """Whether its moduli are the Prony series of a power law (:mod:`foamprb.body.memory`); k is then its
     exponent."""
@@ -80,7 +83,7 @@ class Material(NamedTuple):
 
     @property
     def slides(self) -> bool:
-        """Whether it is a capsule whose stress is that of :mod:`foamprb.body.membrane`."""
+        """Whether it is a capsule whose membrane slides: not the solid in its place."""
         return self.membrane and self.stress is not None
 
 
@@ -177,6 +180,8 @@ class Materials(dict[str, Material]):
 
     def __missing__(self, name: str) -> Material:
         """Return the capsule with the law of the membrane in its name; raise KeyError for another name."""
+        if name == name_of(FLUID):
+            return Material(unknown, unknown, membrane=True, fluid=True, stress=no_elastic_stress)
         return Material(unknown, unknown, membrane=True, compared=0.5, stress=stress_of(*law_of(name)))
 
 

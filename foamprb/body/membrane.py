@@ -29,14 +29,16 @@ WITHIN = 26.5
 MOST_C = 50.0
 """Largest tabled C of Skalak's law."""
 _NAME, _NEO_HOOKEAN, _SKALAK = "capsule", "neoHookean", "Skalak"
-LAWS = (_NEO_HOOKEAN, _SKALAK)
+FLUID = "fluid"
+"""Law of a membrane without elasticity (:mod:`foamprb.body.vesicle`)."""
+_LAWS = (_NEO_HOOKEAN, _SKALAK, FLUID)
 
 Coefficients: TypeAlias = tuple[float, ...]
 
 
 def name_of(law: str, C: float = 0.0) -> str:
     """Return the name of the material: ``capsule neoHookean``, ``capsule Skalak 1``; else ``capsule``."""
-    return f"{_NAME} {law} {C:.12g}" if law == _SKALAK else f"{_NAME} {law}" if law in LAWS else _NAME
+    return f"{_NAME} {law} {C:.12g}" if law == _SKALAK else f"{_NAME} {law}" if law in _LAWS else _NAME
 
 
 def law_of(name: str) -> tuple[str, float]:

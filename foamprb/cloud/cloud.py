@@ -621,7 +621,7 @@ def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
         kind = MATERIALS[models.material]
         end = " and breaks up" if kind.liquid else ""
         hint = f"maxStretch is {limits.maxStretch:g}; it has no steady shape there{end}"
-        if kind.slides:
+        if kind.slides and not kind.fluid:
             hint = f"the law of its membrane is known up to a stretch of {LARGEST_STRETCH:g}"
     elif reason == Reason.TOO_LARGE:
         hint = f"maxSize is {limits.maxSize:g}; no gradient is uniform over such a body"

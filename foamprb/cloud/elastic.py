@@ -33,6 +33,7 @@ from foamprb.body.rosenbrock import (
 from foamprb.body.stokes import Mobility, mobility
 from foamprb.body.surface_tension import laplace_stress, no_stress
 from foamprb.body.tensor import Scalar, Tensor, Vector, diagonal, scale_vector, select
+from foamprb.body.vesicle import stress_of_area
 from foamprb.cloud.block import STRETCHED, Medium, at, judge_law, load3, load_integrals, viscosity_at
 from foamprb.cloud.layout import LANES, Block
 from foamprb.compile.link import Function
@@ -84,7 +85,9 @@ def functions_of_solid(material: Material, general: bool, tense: bool) -> dict[F
         slots |= dict.fromkeys(
             (kirchhoff, extra_stress, rosenbrock.extra_stress, solid_stress), material.stress
         )
-    if material.slides:
+    if material.fluid:
+        slots[with_tension] = with_area_tension
+    elif material.slides:
         slots[judge_law] = judge_membrane
     return slots | ({interface: laplace_stress} if tense else {})
 
@@ -92,6 +95,22 @@ def functions_of_solid(material: Material, general: bool, tense: bool) -> dict[F
 def judge_membrane(F: Tensor, verdict: Scalar) -> Scalar:
     """Return the verdict on a shape; one outside of the tabled stretches of a membrane fails."""
     return select(product_of_invariants(F) <= WITHIN, verdict, float(STRETCHED))
+
+
+@choice
+def with_tension(
+    _block: Block, _i: int, _m: Mobility, _stretches: Vector, sigma: Tensor, _l_f: Tensor
+) -> Tensor:
+    """Return the elastic stress over μ_f, 1/s, as it is: no surface keeps its area."""
+    return sigma
+
+
+def with_area_tension(
+    block: Block, i: int, m: Mobility, stretches: Vector, _sigma: Tensor, l_f: Tensor
+) -> Tensor:
+    """Return the stress of the tension that keeps the area of a vesicle."""
+    x, y, z = stress_of_area(m, stretches, l_f, block[at.k * LANES + i])
+    return (x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z)
 
 
 def conservative_stress(block: Block, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:

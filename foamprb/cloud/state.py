@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.compressibility import lame_from_bulk_modulus
 from foamprb.body.material import lame_parameter
+from foamprb.body.vesicle import spheroid_of_area
 from foamprb.compile.record import record
 
 Array: TypeAlias = NDArray[Any]
@@ -367,6 +368,23 @@ def set_rest_shape(
     E = np.broadcast_to(np.asarray(axes, dtype=float), (p.size, 3, 3))
     stretches = a / np.cbrt(a.prod(axis=1, keepdims=True))
     p.F[:] = p.F0[:] = np.einsum("nai,na,naj->nij", E, stretches, E).reshape(-1, 9)
+
+
+def set_excess_area(p: Particles, excess_area: float, bending_modulus: float = 1e-19) -> None:
+    """Make prolate vesicles along x of spheres, for the material ``capsule fluid``.
+
+    Parameters
+    ----------
+    p
+        Spheres at rest.
+    excess_area
+        Area of the membrane over R², less 4π.
+    bending_modulus
+        κ of the membrane, J. It is no part of the model; κ/R³ is the modulus of capillary numbers.
+    """
+    x = spheroid_of_area(excess_area)
+    p.mu[:], p.k[:] = bending_modulus / p.R**3, excess_area
+    p.F[:] = np.diag([x, x**-0.5, x**-0.5]).ravel()
 
 
 def with_relaxation(p: Particles, moduli: Any, times: Any, n_times: int | None = None) -> Particles:

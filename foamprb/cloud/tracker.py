@@ -35,6 +35,7 @@ from foamprb.cloud.pressing import push_out
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.surroundings.largest import LargestValues
 from foamprb.cloud.surroundings.memory import FadingMemory
@@ -197,7 +198,13 @@ class Tracker:
             **functions_of_solid(material, general, tense), **(DROP if material.liquid else {}),
             sum_of_forces: compose(models.forces, reader), **integrator.slots, **composed.slots,
         }  # fmt: skip
-        if material.liquid or models.has_memory or models.has_quadratic or models.touching == "centre":
+        if (
+            material.liquid
+            or material.fluid
+            or models.has_memory
+            or models.has_quadratic
+            or models.touching == "centre"
+        ):
             # Contact moves the centre alone.
             self.slots.pop(push_out, None)
         self.kernels = kernels
@@ -530,13 +537,16 @@ def check(models: Models, tense: bool) -> None:
     reason = integrator.refuses(models.traction, models.material, tense)
     if reason:
         raise InputError(f"the integrator {integrator.name} {reason}")
-    liquid = MATERIALS[models.material].liquid
-    if liquid and integrator.inertia:
+    kind = MATERIALS[models.material]
+    liquid = kind.liquid
+    if (liquid or kind.fluid) and integrator.inertia:
         raise InputError(
             f"the shape of a {models.material} has no inertia: it needs the integrator stokes, not "
             f"{integrator.name}"
         )
-    if MATERIALS[models.material].slides and (models.has_memory or models.has_quadratic):
+    if kind.fluid and any(isinstance(model, BrownianMotion) for model in models.surroundings):
+        raise InputError("BrownianMotion holds for bodies with elasticity, not for vesicles")
+    if kind.slides and (models.has_memory or models.has_quadratic):
         what = "relaxation" if models.has_memory else "stiffness in the shape model quadratic"
         raise InputError(f"the {what} is unknown for the membrane of a {models.material}")
     if models.has_memory and models.has_quadratic:

@@ -296,7 +296,12 @@ def costly_settings(solution: Solution, cloud: Cloud, steps: int) -> list[str]:
 
 
 def validity_warnings(
-    g: Groups, integrator: str, where: str, liquid: bool = False, membrane: bool = False
+    g: Groups,
+    integrator: str,
+    where: str,
+    liquid: bool = False,
+    membrane: bool = False,
+    vesicle: bool = False,
 ) -> list[str]:
     """Return a sentence, with its number, for each group that is out of the model's range.
 
@@ -306,9 +311,8 @@ def validity_warnings(
         The groups, and the integrator of the shape.
     where
         Beginning of the sentences, e.g. ``injection model inlet``.
-    liquid, membrane
-        Whether the particles are drops; whether they are capsules whose membrane resists changes of its area
-        little.
+    liquid, membrane, vesicle
+        Whether the particles are drops; capsules whose membrane resists changes of its area little; vesicles.
     """
     sentences = []
     scheme = INTEGRATORS[integrator]
@@ -341,6 +345,11 @@ def validity_warnings(
         sentences.append(
             f"{where}: the liquid of the capsules is {g.ratio[1]:.3g} times as viscous as the fluid; above "
             f"about {_VISCOUS:g} their membrane is compressed at any shear rate, and wrinkles."
+        )
+    if vesicle and g.capillary[1] < 1.0:
+        sentences.append(
+            f"{where}: the capillary number by bendingModulus is {g.capillary[1]:.3g} at most; below about 1 "
+            "bending, which is left out, determines the shape."
         )
     if g.extending > _SMALL_SHARE:
         share = f"{where}: in {100 * g.extending:.3g} % of the flow"

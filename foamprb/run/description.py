@@ -74,8 +74,8 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         )
         if g.n:
             kind, where = MATERIALS[models.material], f"injection model {injection.name}"
-            soft = kind.slides and injection.solid.C < _INCOMPRESSIBLE
-            warnings += validity_warnings(g, models.integrator, where, kind.liquid, soft)
+            soft = kind.slides and not kind.fluid and injection.solid.C < _INCOMPRESSIBLE
+            warnings += validity_warnings(g, models.integrator, where, kind.liquid, soft, kind.fluid)
             warnings += late_releases(settings, cloud, index, g.n, n - g.n)
     sizes = [i["size"][1] for i in injections if "size" in i]
     warnings += doubtful_lengths(settings, cloud, max(sizes, default=math.nan))

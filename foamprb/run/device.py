@@ -208,7 +208,7 @@ class Device:
     Raises
     ------
     InputError
-        If the case is no device: its flow changes in time, its bodies are drops, or move at
+        If the case is no device: its flow changes in time, its bodies are drops or vesicles, or move at
         random; if no particle passes the plane.
     """
 
@@ -220,7 +220,7 @@ class Device:
         fault = ""
         if settings.solution.transient:
             fault = "solution/transient is yes. Allowed: a steady flow"
-        elif kind.liquid:
+        elif kind.liquid or kind.fluid:
             fault = f"the solid is {cloud.models.material}. Allowed: elastic solids"
         elif random:
             fault = f"{random[0]} moves bodies at random. Allowed: models without random numbers"

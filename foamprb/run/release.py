@@ -21,7 +21,7 @@ from foamprb.cloud.communicator import parts_of
 from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import given_shear_modulus, pending, start_of_injection
 from foamprb.cloud.measures import shear_rate_at
-from foamprb.cloud.state import Particles, with_relaxation
+from foamprb.cloud.state import Particles, set_excess_area, with_relaxation
 from foamprb.cloud.viscosity import medium_at, viscosity_at_rate
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
@@ -193,7 +193,9 @@ class _Source:
             p.eta[:] = values("viscosity", solid.viscosity, "viscosity")
             p.gamma[:] = values("surfaceTension", solid.surfaceTension, "surfaceTension")
             p.k[:] = self._injection.parameter
-            if MATERIALS[solid.type].membrane:
+            if MATERIALS[solid.material].fluid:
+                set_excess_area(p, solid.excessArea, solid.bendingModulus)
+            elif MATERIALS[solid.type].membrane:
                 G_s = draw(solid.surfaceShearModulus or 0.0, p.size, membrane)
                 p.mu[:] = modulus_of_capsule(G_s, solid.surfacePoissonsRatio, p.R)
             if MATERIALS[solid.type].liquid:

@@ -160,7 +160,8 @@ def warnings_of(n: int, beyond: Mapping[str, Excess], material: str) -> list[str
 
 def _wrinkled(p: Particles, material: str) -> tuple[int, float]:
     """Return how many membranes are compressed, and their least tension over G_s."""
-    if not MATERIALS[material].slides:
+    kind = MATERIALS[material]
+    if kind.fluid or not kind.slides:
         return 0, 0.0
     tensions = least_tensions(p.F, *law_of(material))
     compressed = tensions[tensions < -_COMPRESSED]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 from foamprb.body.material import MATERIALS
-from foamprb.body.membrane import MOST_C, name_of, poissons_ratio_of
+from foamprb.body.membrane import FLUID, MOST_C, name_of, poissons_ratio_of
 from foamprb.body.memory import MOST
 from foamprb.cloud.injection.distribution import Distribution, scaled
 from foamprb.cloud.injection.models import INJECTIONS, Injection
@@ -148,7 +148,7 @@ class Solid:
         Meaning("of the membrane of a [`capsule`](models/capsules.md)", "N/m", "with `capsule` required"),
     ] = None
     law: Annotated[
-        Literal["neoHookean", "Skalak", "small"] | None,
+        Literal["neoHookean", "Skalak", "small", "fluid"] | None,
         Meaning(
             "of that membrane",
             "",
@@ -156,6 +156,7 @@ class Solid:
             {
                 "neoHookean": "rubber-like; softens where it is stretched",
                 "Skalak": "stiffens, and resists changes of its area; as of red blood cells",
+                "fluid": "a [vesicle](models/capsules.md#vesicles): without elasticity, of constant area",
                 "small": "the solid that is equivalent for small deformation, in place of the membrane",
             },
         ),
@@ -165,6 +166,14 @@ class Solid:
         Bounds(0.0, MOST_C, False, False, f"a number >= 0 and <= {MOST_C:g}"),
         Meaning("resistance to changes of the area over that to shear", "1", "with `Skalak` required"),
     ] = 0.0
+    excessArea: Annotated[
+        float,
+        Bounds(0.01, 20.0, False, False, "a number >= 0.01 and <= 20"),
+        Meaning("area of a vesicle over R², less 4π", "1", "with `law fluid` required"),
+    ] = 0.0
+    bendingModulus: Annotated[
+        float, Positive, Meaning("of the membrane of a vesicle, for its capillary number alone", "J")
+    ] = 1e-19
     surfacePoissonsRatio: Annotated[
         float | None,
         Bounds(-1.0, 1.0, True, False, "a number > -1 and <= 1"),
@@ -199,9 +208,18 @@ INNER = ("viscosity", "viscosityRatio")
 """Entries of a capsule of which at most one is given."""
 LIQUID = ("surfaceTension", "viscosity")
 """Entries of a drop, in place of both."""
-MEMBRANE = {None: ("law",), "small": ("surfacePoissonsRatio",), "neoHookean": (), "Skalak": ("C",)}
-"""Entries of a capsule by its law, in place of a stiffness, beside ``surfaceShearModulus``."""
-OF_CAPSULES = ("surfaceShearModulus", "law", "surfacePoissonsRatio", "C", "viscosityRatio")
+MEMBRANE = {
+    None: ("surfaceShearModulus", "law"),
+    "small": ("surfaceShearModulus", "surfacePoissonsRatio"),
+    "neoHookean": ("surfaceShearModulus",),
+    "Skalak": ("surfaceShearModulus", "C"),
+    "fluid": ("excessArea",),
+}
+"""Entries of a capsule by its law, in place of a stiffness."""
+OF_CAPSULES = (
+    *("surfaceShearModulus", "law", "surfacePoissonsRatio", "C", "viscosityRatio"),
+    *("excessArea", "bendingModulus"),
+)
 """Entries of capsules alone."""
 POWER_LAW = ("k", "alpha")
 """Entries of a power law, in place of a stiffness."""
@@ -382,7 +400,7 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     if membrane:
         law = combined.get("law", "small" if "surfacePoissonsRatio" in combined else None)
         combined |= {"law": law} if law else {}
-        needed = ["type", "surfaceShearModulus", *MEMBRANE[law]]
+        needed = ["type", *MEMBRANE[law]]
     parameter = material.parameter if material else None
     if parameter:
         needed.append(parameter.entry)
@@ -392,7 +410,8 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     others = {*parameters(), *OF_CAPSULES, *POWER_LAW, *(() if fading else ("referenceFrequency",))}
     others |= {*STIFFNESS, "relaxation"} if liquid or membrane or fading else set()
     others |= set(COMPRESSIBILITY if liquid else ())
-    others -= {"law", "viscosityRatio"} if membrane else set()
+    if membrane:
+        others -= {"law", "viscosityRatio", *(("bendingModulus",) if law == FLUID else ())}
     for name in sorted(others) if material else ():
         if name in combined and name not in needed:
             mistakes.add(where.mistake(f"gives {name}, which the solid {combined['type']} does not have."))
@@ -402,7 +421,7 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     mistakes.raise_any()
     third = combined[parameter.entry] if parameter else 0.0
     solid = Solid(**{name: value for name, value in combined.items() if name in names_of(Solid)})
-    if membrane and solid.law and solid.law != "small":
+    if solid.law in ("neoHookean", "Skalak"):
         solid = replace(solid, surfacePoissonsRatio=poissons_ratio_of(solid.law, solid.C))
     if by_ratio:
         solid = replace(solid, viscosity=scaled(solid.viscosityRatio, viscosity_at_rate(fluid.mu, None)))

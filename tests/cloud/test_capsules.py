@@ -6,8 +6,19 @@ import numpy as np
 import pytest
 from validation.references.shear import shear_shape
 
-from foamprb import Cloud, InputError, Medium, Models, analytic, spheres, with_relaxation
+from foamprb import (
+    BrownianMotion,
+    Cloud,
+    InputError,
+    Medium,
+    Models,
+    analytic,
+    set_excess_area,
+    spheres,
+    with_relaxation,
+)
 from foamprb.body.material import modulus_of_capsule
+from foamprb.body.surface_tension import laplace_stress
 from foamprb.cloud.state import Reason, Status, set_rest_shape
 
 NAME, REST = "capsule neoHookean", (0.0, 0.0, 0.0)
@@ -66,6 +77,40 @@ def test_a_capsule_fails_where_its_table_ends():
     c.advance(150)
     assert c.particles.status.tolist() == [Status.ACTIVE, Status.FAILED]
     assert c.particles.reason[1] == Reason.STRETCHED
+
+
+def test_vesicles_keep_their_area_and_tread_as_keller_and_skalak_found():
+    """Semi-axes, inclination, °, and frequency by Newton's method; from a ratio of 5.846 on they swing."""
+    p = spheres(np.zeros((4, 3)), d=2.0, rho=1e-6, mu=1.0, eta=[1.0, 3.0, 5.0, 15.0], poissons_ratio=0.4999)
+    set_excess_area(p, 0.5)
+    models = Models(material="capsule fluid", integrator="stokes", tolerance=1e-6)
+    c = Cloud(p, analytic.shear(1.0), Medium(1.0, 1e-6, REST), (), 0.02, models, threads=1)
+    c.advance(2000)
+    F, stretches = p.F.reshape(-1, 3, 3), np.linalg.svd(p.F.reshape(-1, 3, 3))[1]
+    areas = [4.0 * np.pi * (1.0 + sum(laplace_stress(tuple(s), 1.0)) / 6.0) for s in stretches]
+    np.testing.assert_allclose(np.array(areas) - 4.0 * np.pi, 0.5, atol=1e-4)
+    np.testing.assert_allclose(stretches[:3], [(1.3621, 0.9287, 0.7905)] * 3, atol=2e-4)
+    found = []
+    for deformed, A in zip(F, p.A.reshape(-1, 3, 3), strict=True):
+        l_s = A @ np.linalg.inv(deformed)
+        found.append((shear_shape(deformed, l_s)[3], np.sqrt(max(np.linalg.det(l_s[:2, :2]), 0.0))))
+    np.testing.assert_allclose(found[:3], [(30.127, 0.4341), (20.515, 0.3603), (10.176, 0.3080)], rtol=1e-3)
+    assert abs(found[3][0] - found[2][0]) > 20.0
+
+
+@pytest.mark.parametrize(
+    ("message", "options"),
+    [
+        ("integrator stokes, not rosenbrock", {"integrator": "rosenbrock"}),
+        ("not for vesicles", {"surroundings": (BrownianMotion(T=300.0),)}),
+    ],
+)
+def test_models_that_need_elasticity_refuse_vesicles(message, options):
+    p = spheres(np.zeros((1, 3)), d=2.0, rho=1e-6, mu=1.0)
+    set_excess_area(p, 0.5)
+    models = Models(material="capsule fluid", **{"integrator": "stokes", **options})
+    with pytest.raises(InputError, match=message):
+        Cloud(p, analytic.shear(1.0), Medium(1.0, 1e-6, REST), (), 0.05, models, threads=1)
 
 
 def tense(p):

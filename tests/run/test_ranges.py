@@ -47,6 +47,7 @@ POSITIONS = "((0 -0.00165 0) (0 -0.0020968 0))"
 
 SHEAR, OIL = {"type": "neoHooke", "shearModulus": 1.0}, {"surfaceTension": 1e-3, "viscosity": 1e-3}
 CAPSULE = {"type": "capsule", "surfaceShearModulus": 1e-5, "surfacePoissonsRatio": 0.5}
+VESICLE = {"type": "capsule", "law": "fluid", "excessArea": 0.5}
 SKALAK = {"type": "capsule", "surfaceShearModulus": 1e-5, "law": "Skalak", "C": 1}
 SOLIDS: dict[str, dict[str, Any]] = {
     "poissonsRatio": SHEAR, "bulkModulus": SHEAR, "shearModulus": SHEAR, "viscosity": SHEAR,
@@ -54,6 +55,7 @@ SOLIDS: dict[str, dict[str, Any]] = {
     "youngsModulus": {"type": "neoHooke", "youngsModulus": 1, "poissonsRatio": 0.4},
     "surfaceShearModulus": CAPSULE, "surfacePoissonsRatio": CAPSULE,
     "viscosityRatio": CAPSULE, "C": SKALAK,
+    "excessArea": VESICLE, "bendingModulus": VESICLE,
     "mooneyRatio": {"type": "mooneyRivlin", "shearModulus": 1, "mooneyRatio": 0.5},
     "stretchLimit": {"type": "gent", "shearModulus": 1, "stretchLimit": 50},
 }  # fmt: skip

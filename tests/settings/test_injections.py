@@ -244,6 +244,10 @@ def test_a_capsule_has_a_membrane_in_place_of_a_stiffness(read: Reader) -> None:
     assert (solid.material, solid.surfacePoissonsRatio) == ("capsule Skalak 2", pytest.approx(2.0 / 3.0))
     with pytest.raises(InputError, match="gives surfacePoissonsRatio"):
         read(capsule(f"{both} law neoHookean;"))
+    solid = read(capsule("law fluid; excessArea 0.5; bendingModulus 2e-19;")).injections[0].solid
+    assert (solid.material, solid.excessArea, solid.viscosity) == ("capsule fluid", 0.5, pytest.approx(mu))
+    with pytest.raises(InputError, match="gives surfaceShearModulus, which the solid capsule does not have"):
+        read(capsule("law fluid; excessArea 0.5; surfaceShearModulus 1e-3;"))
     with pytest.raises(InputError, match="solid/C is missing"):
         read(capsule("surfaceShearModulus 1e-3; law Skalak;"))
     with pytest.raises(InputError, match="gives shearModulus, which the solid capsule does not have"):

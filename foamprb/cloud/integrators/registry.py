@@ -18,5 +18,6 @@ SMALL_STOKES = 0.01
 
 
 def automatic(stokes_number: float, material: str) -> str:
-    """Return the name of the integrator for a Stokes number: ``stokes`` where it is small, and for drops."""
-    return (STOKES if stokes_number < SMALL_STOKES or MATERIALS[material].liquid else ROSENBROCK).name
+    """Return the integrator for a Stokes number: ``stokes`` where it is small, for drops and vesicles."""
+    kind = MATERIALS[material]
+    return (STOKES if stokes_number < SMALL_STOKES or kind.liquid or kind.fluid else ROSENBROCK).name

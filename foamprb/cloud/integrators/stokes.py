@@ -61,6 +61,7 @@ from foamprb.cloud.elastic import (
     incompressible_elasticity,
     incompressible_stress,
     mobility_deficit,
+    with_tension,
 )
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import (
@@ -169,8 +170,8 @@ def first_inertialess(block: Block, medium: Medium) -> None:
         block[at.fluid * LANES + i] = viscosity_at(block, i, medium)
         G = dot(Q, F)
         b_e = finger_of_body_in_frame(stretches, G, load9(block, at.M, i))
-        m, sigma = _response(block, i, medium, stretches, b_e)
         l_f = to_frame(Q, felt)
+        m, sigma = _response(block, i, medium, stretches, b_e, l_f)
         l_s = velocity_gradient(m, sigma, l_f)
         e = incompressible_elasticity(block, i, b_e)
         n = relaxation(m, e, viscosity_at(block, i, medium))
@@ -308,12 +309,13 @@ def end_inertialess(block: Block, medium: Medium) -> None:
 
 
 def _response(
-    block: Block, i: int, medium: Medium, stretches: Vector, b_e: Tensor
+    block: Block, i: int, medium: Medium, stretches: Vector, b_e: Tensor, l_f: Tensor
 ) -> tuple[Mobility, Tensor]:
     """Return the mobility, and the elastic stress over μ_f, 1/s, in the particle frame."""
     m = body_mobility(block, i, medium, stretches)
     tau = incompressible_stress(block, i, stretches, b_e)
-    return m, scale(1.0 / viscosity_at(block, i, medium), tau)
+    sigma = scale(1.0 / viscosity_at(block, i, medium), tau)
+    return m, with_tension(block, i, m, stretches, sigma, l_f)
 
 
 def _gradient(block: Block, i: int, medium: Medium) -> Tensor:
@@ -325,8 +327,9 @@ def _gradient_in_frame(block: Block, i: int, medium: Medium) -> Tensor:
     """Return the same in that frame."""
     Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
     b_e = finger_of_body_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
-    m, sigma = _response(block, i, medium, stretches, b_e)
-    return velocity_gradient(m, sigma, to_frame(Q, load9(block, at.l, i)))
+    l_f = to_frame(Q, load9(block, at.l, i))
+    m, sigma = _response(block, i, medium, stretches, b_e, l_f)
+    return velocity_gradient(m, sigma, l_f)
 
 
 def _fluid_at_node(block: Block, i: int) -> Vector:

@@ -75,6 +75,7 @@ from foamprb.cloud.elastic import (
     present_hindrance,
     resistances,
     volume_at_rest,
+    with_tension,
 )
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.base import Integrator
@@ -462,7 +463,8 @@ def body_gradient(block: Block, i: int, medium: Medium, share: float) -> Tensor:
     b_e = finger_of_body_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = incompressible_stress(block, i, stretches, b_e)
     l = add(add(load9(block, at.l, i), load9(block, near.load_gradient, i)), thermal_gradient(block, i))
-    return velocity_gradient(m, scale(1.0 / viscosity_at(block, i, medium), tau), to_frame(Q, l))
+    l_f, sigma = to_frame(Q, l), scale(1.0 / viscosity_at(block, i, medium), tau)
+    return velocity_gradient(m, with_tension(block, i, m, stretches, sigma, l_f), l_f)
 
 
 @choice
