@@ -544,15 +544,15 @@ def check(models: Models, tense: bool) -> None:
             f"the shape of a {models.material} has no inertia: it needs the integrator stokes, not "
             f"{integrator.name}"
         )
-    if kind.fluid and any(isinstance(model, BrownianMotion) for model in models.surroundings):
-        raise InputError("BrownianMotion holds for bodies with elasticity, not for vesicles")
     if kind.slides and (models.has_memory or models.has_quadratic):
         what = "relaxation" if models.has_memory else "stiffness in the shape model quadratic"
         raise InputError(f"the {what} is unknown for the membrane of a {models.material}")
     if models.has_memory and models.has_quadratic:
         raise InputError("the shape model quadratic has no relaxation: its mode is that of a solid without")
     for model in models.surroundings:
-        if reason := model.refuses(integrator, liquid):
+        # Those that need elasticity refuse vesicles as drops.
+        elastic = isinstance(model, BrownianMotion | Fates)
+        if reason := model.refuses(integrator, liquid or (kind.fluid and elastic)):
             raise InputError(reason)
 
 

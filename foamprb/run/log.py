@@ -29,7 +29,7 @@ from foamprb.results.intervals import share
 from foamprb.run.checks import SMALL_REYNOLDS
 from foamprb.run.job import Job
 from foamprb.run.slip import Slip, drag_excess, slip_of
-from foamprb.run.validity import PathRecord
+from foamprb.run.validity import PathRecord, mode_of
 
 log = logging.getLogger("foamprb")
 
@@ -292,7 +292,7 @@ class RunLog:
             log.info("    %s", line)
         for warning in record.warnings(models.material):
             log.warning("%s", warning)
-        if not models.has_quadratic and (advice := record.advice()):
+        if mode_of(models) is False and (advice := record.advice()):
             log.info("%s", advice)
 
 

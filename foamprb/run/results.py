@@ -59,7 +59,7 @@ from foamprb.run.restart import (
     sums_around,
     with_other_end,
 )  # fmt: skip
-from foamprb.run.validity import path_values
+from foamprb.run.validity import mode_of, path_values
 from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
@@ -224,7 +224,7 @@ class Results:
             if failed:
                 write_rows(self._failures, cloud.map_by_id(_failures_of, cloud.models, cloud.limits))
 
-        rho, quadratic = self._job.settings.fluid.rho, cloud.models.has_quadratic
+        rho, quadratic = self._job.settings.fluid.rho, mode_of(cloud.models)
         rows = self._job.functions.with_fates(_fates_of, self._job.patch_names, rho, quadratic)
         write_rows(self._fates, rows, finish)
 
@@ -448,7 +448,11 @@ def _due_at(p: Particles, time: float) -> Particles:
 
 
 def _fates_of(
-    p: Particles, further: Mapping[str, Column], patch_names: Sequence[str], rho: float, quadratic: bool
+    p: Particles,
+    further: Mapping[str, Column],
+    patch_names: Sequence[str],
+    rho: float,
+    quadratic: bool | None,
 ) -> Rows:
     """Return rows of ``fates`` for the particles that were injected; ``further`` are columns of functions.
 

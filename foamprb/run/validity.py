@@ -70,7 +70,14 @@ def limits_of(material: str) -> dict[str, float]:
     }
 
 
-def path_values(p: Particles, rho: float, quadratic: bool, D: Floats | None = None) -> dict[str, Floats]:
+def mode_of(models: Models) -> bool | None:
+    """Return whether bodies have the quadratic mode; None for membranes, of which none is known."""
+    return None if MATERIALS[models.material].slides else models.has_quadratic
+
+
+def path_values(
+    p: Particles, rho: float, quadratic: bool | None, D: Floats | None = None
+) -> dict[str, Floats]:
     """Return the largest values on the paths of particles by the names of their columns; NaN before release.
 
     Parameters
@@ -78,7 +85,7 @@ def path_values(p: Particles, rho: float, quadratic: bool, D: Floats | None = No
     rho
         Density of the fluid, kg/m³.
     quadratic
-        Whether bodies have the quadratic mode.
+        See :func:`mode_of`.
     D
         Taylor's deformation at the ends of the paths.
     """
@@ -89,6 +96,7 @@ def path_values(p: Particles, rho: float, quadratic: bool, D: Floats | None = No
         # That where the stress is largest.
         mu = stress / rate
         gap = 1.0 / columns[LARGEST.closeness] - 1.0
+    steady = np.full(p.size, np.nan) if quadratic is None else steady_amplitudes(p, mu)
     gap[(p.status == Status.STUCK) & (columns[LARGEST.closeness] > 0.0)] = 0.0
     return {
         "maxD": np.where(p.status == Status.PENDING, np.nan, np.fmax(columns[LARGEST.D], D)),
@@ -97,7 +105,7 @@ def path_values(p: Particles, rho: float, quadratic: bool, D: Floats | None = No
         "maxReynolds": np.where(rate == 0.0, 0.0, rho * 4.0 * p.R**2 * rate / mu),
         "minGap": gap,
         "curvatureNumber": curvature_numbers(p),
-        "maxBulletAmplitude": columns[LARGEST.bullet] if quadratic else steady_amplitudes(p, mu),
+        "maxBulletAmplitude": columns[LARGEST.bullet] if quadratic else steady,
     }
 
 
@@ -186,7 +194,7 @@ class PathRecord(NamedTuple):
     def of(cls, p: Particles, rho: float, models: Models) -> PathRecord:
         """Return the record of some particles in a fluid of density ``rho``, kg/m³."""
         p = p.take(np.flatnonzero(p.status != Status.PENDING))
-        values = path_values(p, rho, models.has_quadratic)
+        values = path_values(p, rho, mode_of(models))
         values[_CLOSENESS] = 1.0 / (1.0 + values["minGap"])
         # Sums, unlike quantiles, are the same for any distribution of the particles.
         counts = {name: np.histogram(values[name], _EDGES)[0] for name in _LINES}

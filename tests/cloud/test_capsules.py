@@ -9,6 +9,8 @@ from validation.references.shear import shear_shape
 from foamprb import (
     BrownianMotion,
     Cloud,
+    FateLimits,
+    Fates,
     InputError,
     Medium,
     Models,
@@ -102,7 +104,8 @@ def test_vesicles_keep_their_area_and_tread_as_keller_and_skalak_found():
     ("message", "options"),
     [
         ("integrator stokes, not rosenbrock", {"integrator": "rosenbrock"}),
-        ("not for vesicles", {"surroundings": (BrownianMotion(T=300.0),)}),
+        ("not for drops or vesicles", {"surroundings": (BrownianMotion(T=300.0),)}),
+        ("not for drops or vesicles", {"surroundings": (Fates(ruptured=FateLimits(stress=1.0)),)}),
     ],
 )
 def test_models_that_need_elasticity_refuse_vesicles(message, options):

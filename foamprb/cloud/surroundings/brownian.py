@@ -274,7 +274,7 @@ class BrownianMotion(Surrounding):
         """
         if integrator.name == "paper":
             return "BrownianMotion needs the integrator stokes or rosenbrock, not paper"
-        return "BrownianMotion holds for solids, not for drops" if liquid else ""
+        return "BrownianMotion holds for solids, not for drops or vesicles" if liquid else ""
 
     def remarks(self, survey: Survey) -> Remarks:
         """Note the range of the thermal strain; warn if it is too large, and of steps too long for walls."""

@@ -182,5 +182,5 @@ class Fates(Surrounding):
             return "fates need the integrator stokes or rosenbrock, not paper"
         limits = [fate for fate in (self.ruptured, self.released) if fate is not None]
         if liquid and any(fate.stress is not None for fate in limits):
-            return "the limit stress of a fate holds for solids, not for drops"
+            return "the limit stress of a fate holds for solids, not for drops or vesicles"
         return ""
