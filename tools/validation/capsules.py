@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 
 import numpy as np
 
 from foamprb.body.material import modulus_of_capsule
-from foamprb.body.membrane import name_of, poissons_ratio_of
+from foamprb.body.membrane import least_tensions, name_of, poissons_ratio_of
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Models
+from foamprb.errors import FailedParticlesWarning
 from foamprb.flow import analytic
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row
 from validation.runs import advance_to, follow, gradients, shear_shapes, unit_cloud
@@ -75,15 +78,31 @@ def _cloud(Ca_s: Floats, law: tuple[str, float], ratio: float = 1.0) -> Cloud:
 
 
 def _shapes(cloud: Cloud) -> Floats:
-    """Return D, inclination, °, and tank-treading frequency over γ̇, (n, 3)."""
+    """Return D, inclination, °, and tank-treading frequency over γ̇, (n, 3), of capsules in shear."""
     _, l_s = gradients(cloud.particles)
     return np.column_stack([shear_shapes(cloud)[:, [0, 3]], np.sqrt(np.linalg.det(l_s[:, :2, :2]))])
 
 
 def _steady(Ca_s: Floats, law: tuple[str, float], ratio: float, end: float) -> Floats:
+    """Return :func:`_shapes`, and the least principal tension over G_s, (n, 4)."""
     cloud = _cloud(Ca_s, law, ratio)
     advance_to(cloud, end)
-    return _shapes(cloud)
+    return np.column_stack([_shapes(cloud), least_tensions(cloud.particles.F, *law)])
+
+
+def _ends() -> list[Row]:
+    """Return rows of the smallest Ca_s at which neo-Hookean capsules leave the table after the start."""
+    rows, numbers = [], np.arange(0.5, 1.0, 0.02)
+    for ratio in (0.2, 1.0):
+        cloud = _cloud(numbers, NEO_HOOKE, ratio)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FailedParticlesWarning)
+            advance_to(cloud, 20.0)
+        first = float(numbers[cloud.particles.status == Status.FAILED][0])
+        rows.append(
+            Row(f"neoHookean, λ = {ratio:g}: Ca_s from which capsules leave the table", first, None, "")
+        )
+    return rows
 
 
 def _small() -> list[Row]:
@@ -101,7 +120,7 @@ def _small() -> list[Row]:
         rows.append(Row(f"{name}D/Ca_s at Ca_s = {small:g}", found, slope, THEORY, 1e-4, True))
     tiny = 1e-4
     for ratio in (0.2, 1.0, 5.0):
-        D, angle, _ = _steady(np.array([tiny]), NEO_HOOKE, ratio, 1.0)[0]
+        D, angle, *_ = _steady(np.array([tiny]), NEO_HOOKE, ratio, 1.0)[0]
         name = f"neoHookean, λ = {ratio:g}: "
         rows.append(
             Row(
@@ -136,11 +155,13 @@ def steady(quick: bool) -> Outcome:
         for Ca, found, steady_values in zip(NUMBERS, shapes[at], table, strict=True):
             name = f"{name_of(*law).removeprefix('capsule ')}, λ = {ratio:g}, Ca_s = {Ca:g}: "
             for what, value, reference, allowed in zip(
-                ("D", "θ, °", "ω/γ̇"), found.tolist(), steady_values, (5e-4, 0.05, 5e-4), strict=True
+                ("D", "θ, °", "ω/γ̇"), found[:3].tolist(), steady_values, (5e-4, 0.05, 5e-4), strict=True
             ):
                 rows.append(Row(f"{name}{what}", value, reference, BALANCE, allowed))
+            if ratio == 1.0:
+                rows.append(Row(f"{name}least tension over G_s", float(found[3]), None, ""))
     ours = curves[NEO_HOOKE, 1.0]
-    rows += _others(ours[at])
+    rows += _others(ours[at, :3]) + _ends()
     cloud = _cloud(np.array([*STARTS]), NEO_HOOKE)
     start = follow(cloud, np.array(TIMES), lambda cloud: shear_shapes(cloud)[:, 0])
     for k, (Ca, expected) in enumerate(STARTS.items()):
