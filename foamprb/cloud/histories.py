@@ -70,7 +70,7 @@ def along_history(
     >>> F = foamprb.along_history(t, l, p, foamprb.Medium(1e-3, 1000.0, (0.0, 0.0, 0.0)), every=100)
     >>> a, _, c = np.moveaxis(np.linalg.svd(F, compute_uv=False), -1, 0)
     >>> ((a - c) / (a + c)).round(3) + 0.0
-    array([[0.   , 0.109, 0.   ]])
+    array([[0.   , 0.124, 0.   ]])
     """
     models, t, l = models or Models(), np.asarray(times, dtype=float), np.asanyarray(gradients)
     n, m = particles.size, len(t)

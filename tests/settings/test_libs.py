@@ -307,13 +307,16 @@ def test_compiled_solid_is_found_again_by_the_next_process(tmp_path):
 
 
 POROUS = """
+import math
+
 import foamprb
-from foamprb.body.drag import oberbeck
 
 
 def porous(semi_axes, g):
-    a, b, c = oberbeck(semi_axes, g)
-    return 0.8 * a, 0.8 * b, 0.8 * c
+    a, b, c = semi_axes
+    k = 0.8 * 16.0 * math.pi
+    x, y, z = g.chi + g.alpha[0] * a * a, g.chi + g.alpha[1] * b * b, g.chi + g.alpha[2] * c * c
+    return k / x, k / y, k / z
 
 
 foamprb.add_drag("porous", porous)

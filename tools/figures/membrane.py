@@ -190,9 +190,11 @@ def text_of(rows: list[Floats]) -> str:
 
 def main() -> None:
     """Write the file and print the errors."""
-    argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    ).parse_args()
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, add_help=False
+    )
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
+    parser.parse_args()
     rows = []
     for C in (np.nan, *TABLED):
         row, error = row_of(C)

@@ -465,7 +465,7 @@ class ConeInjection(Injection):
         what = f"coneInjection: parcelsPerInjector {self.parcelsPerInjector:g} at {len(positions)} positions"
         n = require_room(float(np.rint(self.parcelsPerInjector)) * len(positions), what)
         which = np.arange(n) % len(positions)
-        theta = np.deg2rad(random.uniform(self.thetaInner, self.thetaOuter, n))
+        theta = np.deg2rad(random.uniform(*sorted((self.thetaInner, self.thetaOuter)), n))
         v = self.Umag * _directions(axes[which], theta, random.uniform(0.0, 2.0 * np.pi, n))
         t = SOI + self.duration * np.arange(n) / n
         return Places(positions[which], hosts[which], t, v)
