@@ -212,6 +212,11 @@ class TestCone:
         np.testing.assert_array_equal(p.x[::2], np.tile([0.1, 0.0, 0.0], (3000, 1)))
         np.testing.assert_array_equal(p.x[1::2], np.tile([0.2, 0.0, 0.0], (3000, 1)))
 
+    def test_angles_may_be_given_from_the_outer_to_the_inner(self):
+        angles = CONE["thetaInner"], CONE["thetaOuter"]
+        turned = self.release(thetaInner=angles[1], thetaOuter=angles[0])
+        np.testing.assert_array_equal(turned.v, self.release().v)
+
     def test_directions_fill_the_cone_as_in_openfoam(self):
         """Uniform in the angle from the axis and in the angle about it."""
         p = self.release()
