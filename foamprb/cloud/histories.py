@@ -56,7 +56,7 @@ def along_history(
     Raises
     ------
     InputError
-        If the shapes do not go together, or as :func:`foamprb.flow.history.history`.
+        If the shapes do not go together, ``every`` is below 1, or as :func:`foamprb.flow.history.history`.
 
     Examples
     --------
@@ -73,7 +73,9 @@ def along_history(
     array([[0.   , 0.124, 0.   ]])
     """
     models, t, l = models or Models(), np.asarray(times, dtype=float), np.asanyarray(gradients)
-    n, m = particles.size, len(t)
+    n, m = particles.size, t.size
+    if every < 1:
+        raise InputError(f"every is {every}. Allowed: an integer >= 1.")
     if l.shape != (n, m, 3, 3):
         raise InputError(f"gradients have the shape {l.shape}. Allowed: ({n}, {m}, 3, 3).")
     found = np.empty((n, 1 + (m - 1) // every, 9))
@@ -81,7 +83,9 @@ def along_history(
     for first in range(0, n, together):
         some = np.arange(first, min(first + together, n))
         flow, p = history(t, l[some[0] : some[-1] + 1]), particles.take(some)
-        dt, p.t0[:] = (t[-1] - t[0]) / (m - 1), t[0]
+        # Each has the history of its number, wherever it was before.
+        p.host[:], p.t0[:], p.t[:] = -1, t[0], t[0]
+        dt = (t[-1] - t[0]) / (m - 1)
         # A step that spans several times would not see those between.
         chosen = replace(models, stride=1)
         cloud = Cloud(p, flow, medium, (), dt, chosen, threads or available_threads(), start=float(t[0]))

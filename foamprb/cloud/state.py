@@ -17,6 +17,7 @@ from foamprb.body.compressibility import lame_from_bulk_modulus
 from foamprb.body.material import lame_parameter
 from foamprb.body.vesicle import spheroid_of_area
 from foamprb.compile.record import record
+from foamprb.errors import InputError
 
 Array: TypeAlias = NDArray[Any]
 
@@ -381,7 +382,14 @@ def set_excess_area(p: Particles, excess_area: float, bending_modulus: float = 1
         Area of the membrane over R², less 4π.
     bending_modulus
         κ of the membrane, J. It is no part of the model; κ/R³ is the modulus of capillary numbers.
+
+    Raises
+    ------
+    InputError
+        If the excess is not above 0, or above 20.
     """
+    if not 0.0 < excess_area <= 20.0:
+        raise InputError(f"excess_area is {excess_area:g}. Allowed: a number > 0 and <= 20.")
     x = spheroid_of_area(excess_area)
     p.mu[:], p.k[:] = bending_modulus / p.R**3, excess_area
     p.F[:] = np.diag([x, x**-0.5, x**-0.5]).ravel()

@@ -141,7 +141,8 @@ def _packed(request: Request, megabytes: float, version: str) -> tuple[Page, Run
     for _ in range(2 if n_bodies > 4 * _SAMPLE and m > 1 else 0):
         # Pages of few bodies tell what a body takes at times so far apart, and what all take together.
         few, more = (pack(m, n).size for n in (_SAMPLE, 2 * _SAMPLE))
-        m = max(1, min(m, int(0.98 * m * (most - 2 * few + more) / (n_bodies * (more - few) / _SAMPLE))))
+        of_all = n_bodies * max(1, more - few) / _SAMPLE
+        m = max(1, min(m, int(0.98 * m * (most - 2 * few + more) / of_all)))
     size = (page := pack(m, n_bodies)).size
     while size > most and m > 1:
         m = max(1, min(m - 1, int(0.98 * m * most / size)))

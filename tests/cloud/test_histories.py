@@ -37,6 +37,18 @@ def test_constant_histories_are_linear_flows(monkeypatch):
         np.testing.assert_allclose(found[k, -1], p.F.reshape(3, 3), rtol=1e-9, atol=1e-9)
 
 
+def test_bodies_that_come_from_another_flow_have_their_own_histories():
+    """And not that of the place where they were: the same bits as each alone."""
+    p, rates, models = soft(3), np.array([1.0, 0.2, 0.7]), Models(stride=1)
+    Cloud(p, analytic.linear(SHEAR), OIL, (), 2e-3, models).advance(10)
+    l = np.broadcast_to(rates[:, None, None, None] * SHEAR, (3, 11, 3, 3))
+    found = along_history(np.linspace(0.02, 0.04, 11), l, p, OIL)
+    np.testing.assert_array_equal(found[:, 0], p.F.reshape(3, 3, 3))
+    for k in range(3):
+        alone = along_history(np.linspace(0.02, 0.04, 11), l[k : k + 1], p.take(np.array([k])), OIL)
+        np.testing.assert_array_equal(found[k], alone[0])
+
+
 def test_histories_in_a_turning_frame_turn_the_shapes_to_second_order():
     """l' = Ω + Q·l·Qᵀ gives F' = Q·F: elasticity is objective."""
     p, exact, errors = soft(1), Models(tolerance=1e-8), []
@@ -80,3 +92,5 @@ def test_histories_that_do_not_fit_are_refused(times, shape, fault):
     gradients[0, 1, 2, 0] = np.nan
     with pytest.raises(InputError, match="1 numbers are not finite"):
         along_history([0.0, 1.0], gradients, soft(1), OIL)
+    with pytest.raises(InputError, match="every is 0"):
+        along_history([0.0, 1.0], np.zeros((1, 2, 3, 3)), soft(1), OIL, every=0)

@@ -245,6 +245,9 @@ class TestSize:
         path = write_page(Request(tmp_path, bodies=4900), None, 1.5, "")
         assert path.stat().st_size <= 1.5e6
         assert max(len(bodies.times) for bodies in read) <= 1.5e6 / (8 * 4900)
+        # Few bodies tell the size of the page, which is packed once.
+        assert [len(bodies.ids) for bodies in read].count(4900) == 1
+        assert path.stat().st_size > 0.8 * 1.5e6
 
 
 class TestCommand:
