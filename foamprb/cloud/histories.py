@@ -79,7 +79,7 @@ def along_history(
     if l.shape != (n, m, 3, 3):
         raise InputError(f"gradients have the shape {l.shape}. Allowed: ({n}, {m}, 3, 3).")
     found = np.empty((n, 1 + (m - 1) // every, 9))
-    together = max(1, _BYTES // (72 * m))
+    together = max(1, _BYTES // (72 * max(m, 1)))
     for first in range(0, n, together):
         some = np.arange(first, min(first + together, n))
         flow, p = history(t, l[some[0] : some[-1] + 1]), particles.take(some)

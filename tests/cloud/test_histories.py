@@ -82,6 +82,7 @@ def test_a_body_that_fails_has_no_shape_from_then_on():
         ([0.0, 1.0, 3.0], (1, 3, 3, 3), "differ by up to 0.5 s from steps of 1.5 s"),
         ([0.0, 1.0], (1, 3, 3, 3), r"Allowed: \(1, 2, 3, 3\)"),
         ([0.0], (1, 1, 3, 3), "m of at least 2"),
+        ([], (1, 0, 3, 3), "m of at least 2"),
         ([0.0, 1.0], (2, 2, 3, 3), r"Allowed: \(1, 2, 3, 3\)"),
     ],
 )

@@ -465,7 +465,8 @@ class ConeInjection(Injection):
         what = f"coneInjection: parcelsPerInjector {self.parcelsPerInjector:g} at {len(positions)} positions"
         n = require_room(float(np.rint(self.parcelsPerInjector)) * len(positions), what)
         which = np.arange(n) % len(positions)
-        theta = np.deg2rad(random.uniform(*sorted((self.thetaInner, self.thetaOuter)), n))
+        least, most = sorted((self.thetaInner, self.thetaOuter))
+        theta = np.deg2rad(random.uniform(least, most, n))
         v = self.Umag * _directions(axes[which], theta, random.uniform(0.0, 2.0 * np.pi, n))
         t = SOI + self.duration * np.arange(n) / n
         return Places(positions[which], hosts[which], t, v)
