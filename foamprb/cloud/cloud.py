@@ -30,7 +30,7 @@ from foamprb.cloud.communicator import (
     take_rebounds,
     values_of,
 )
-from foamprb.cloud.contact import in_order
+from foamprb.cloud.contact import GAPS, gap, gaps_of, in_order
 from foamprb.cloud.instants import PREFIX, READ, Moments
 from foamprb.cloud.integrators.adaptive import stretch_in
 from foamprb.cloud.integrators.paper import PAPER
@@ -39,7 +39,7 @@ from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import as_slice, path_stokes_number, shape_stokes_number, shear_rate_at
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.needs import check_needs
-from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Adhere, Interaction
+from foamprb.cloud.patches import CYCLIC, Adhere, Interaction, stopping
 from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.surroundings.base import Surrounding, Survey
@@ -47,7 +47,7 @@ from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.quadratic import QuadraticSolid
 from foamprb.cloud.tracker import Models, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
-from foamprb.compile.link import link
+from foamprb.compile.link import conform, link, packed
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
 from foamprb.flow.base import Floats, Flow, Patch
 from foamprb.flow.fields import columns_of
@@ -428,12 +428,7 @@ class Cloud:
     @property
     def _touchable(self) -> list[int]:
         """Indices of the patches that a body may touch."""
-        return [] if self.models.touching == "centre" else self._solid
-
-    @property
-    def _solid(self) -> list[int]:
-        """Indices of the patches that stop a body."""
-        return [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
+        return [] if self.models.touching == "centre" else stopping(self.interactions)
 
     @property
     def _sight(self) -> tuple[float, list[int]]:
@@ -441,7 +436,7 @@ class Cloud:
         ranges = [model.walls(self.flow.patches) for model in self.models.surroundings]
         seen = {index for _, patches in ranges for index in patches}
         radii = max((radii for radii, _ in ranges), default=0.0)
-        return radii * self._largest, [i for i in self._solid if i in seen]
+        return radii * self._largest, [i for i in stopping(self.interactions) if i in seen]
 
     def make_ready(self) -> Any:
         """Prepare the flow for the first step; return the arguments of its kernels."""
@@ -451,7 +446,7 @@ class Cloud:
     def _grow_reach(self) -> None:
         """Set the reach at the start beyond the range of the longest particle."""
         if self.reach == 0.0:
-            self.reach = SEEN * _REACH_MARGIN * max(self.map_ranks(longest_semi_axis))
+            self.reach = max(self.map_ranks(first_reach))
 
     def extend_reach(self) -> None:
         """List walls farther away, unless the lists would be too long: then bodies that need it fail."""
@@ -645,6 +640,24 @@ def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
 def longest_semi_axis(p: Particles) -> float:
     """Return an upper bound of the semi-axes of active and pending particles, m; 0 without any."""
     return float(link(longest_of)(p))
+
+
+def first_reach(p: Particles) -> float:
+    """Return the distance to which walls are listed for particles at their start, m."""
+    return SEEN * _REACH_MARGIN * longest_semi_axis(p)
+
+
+def clearances(p: Particles, flow: Flow, reach: float, patches: Sequence[int]) -> Floats:
+    """Return the gaps between bodies and the nearest of some patches within ``reach`` (m), (n,), m.
+
+    They are infinite where there is none; the first times of the flow are loaded.
+    """
+    start = flow.span[0] if math.isfinite(flow.span[0]) else 0.0
+    flow.load(start, start)
+    arrays, gaps = packed(flow.arrays(reach, patches)), np.empty(p.size)
+    slots = {**GAPS, gap: conform(gap, flow.kernels["gap"])}
+    link(gaps_of, slots, flow=getattr(arrays, "layout", None))(arrays, p, gaps)
+    return gaps
 
 
 def _refuse_mixture(p: Particles, material: str) -> None:

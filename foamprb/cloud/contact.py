@@ -119,6 +119,15 @@ GAPS: Slots = {
 """The functions behind both slots, where bodies meet walls by their surface or their centre (:func:`gap`)."""
 
 
+def gaps_of(flow: object, p: Particles, gaps: NDArray[np.float64]) -> None:
+    """Store the gaps, (n,), m, between bodies where they are and the walls nearest to them."""
+    for k in range(len(gaps)):
+        f = p.F[k]
+        F: Tensor = (f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8])
+        x: Vector = (p.x[k, 0], p.x[k, 1], p.x[k, 2])
+        gaps[k] = gap_of_particle(flow, p, k, p.host[k], x, F, p.t[k])[0]
+
+
 class Rebounds(NamedTuple):
     """Records of n rebounds, in the order of their times.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Protocol
 
@@ -79,6 +80,11 @@ class Adhere:
             per_force = mu_f * sensitivity(self.xb, self.T)
         limit = math.inf if self.criticalShearRate is None else self.criticalShearRate
         return self.kOn, self.kOff, per_force, limit, float(self.seed)
+
+
+def stopping(interactions: Sequence[Interaction]) -> list[int]:
+    """Return the indices of the patches that stop a body."""
+    return [i for i, action in enumerate(interactions) if action.code in (STICK, REBOUND)]
 
 
 NO_BOND = (-1.0, 0.0, 0.0, math.inf, 0.0)

@@ -28,7 +28,7 @@ from foamprb.cloud.injection.models import (
 )
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.registry import automatic
-from foamprb.cloud.patches import CYCLIC
+from foamprb.cloud.patches import CYCLIC, stopping
 from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
@@ -341,7 +341,8 @@ def assemble(
     start = _start(settings, flow)
     steps, end = _last_step(settings.solution, start)
     last = max(settings.solution.endTime, start + steps * settings.solution.deltaT)
-    release = Release(settings.injections, flow, medium, _span(settings, start, flow), last)
+    span, solid = _span(settings, start, flow), stopping(interactions)
+    release = Release(settings.injections, flow, medium, span, last, solid)
     solids = sorted({injection.solid.material for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")

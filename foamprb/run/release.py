@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import sys
 import zlib
@@ -19,16 +20,18 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import find_hosts
 from foamprb.cloud.communicator import parts_of
 from foamprb.cloud.injection.distribution import Distribution, draw
-from foamprb.cloud.injection.models import given_shear_modulus, pending, start_of_injection
+from foamprb.cloud.injection.models import Places, given_shear_modulus, pending, start_of_injection
 from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.state import Particles, set_excess_area, with_relaxation
 from foamprb.cloud.viscosity import medium_at, viscosity_at_rate
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
+from foamprb.run.room import Room
 from foamprb.settings.injections import InjectionSettings, Solid
 
 Floats = NDArray[np.float64]
+log = logging.getLogger("foamprb")
 
 
 def lame_of(solid: Solid, mu: Floats, largest_stress: Callable[[], float]) -> Floats:
@@ -87,6 +90,8 @@ class Release:
         Shortest and longest time of the run, s.
     end
         End of the run, s. The last particles of all are left out if they are due then or later.
+    walls
+        Indices of the patches from which models with ``clearance`` keep bodies away.
 
     Raises
     ------
@@ -101,10 +106,11 @@ class Release:
         medium: Medium,
         span: tuple[float, float] = (1e-3, 1.0),
         end: float = math.inf,
+        walls: Sequence[int] = (),
     ) -> None:
         self.n_times = number_of_times(injections, span)
         self._sources = [
-            _Source(i, injection, flow, medium, times_of_power_law(*span), self.n_times)
+            _Source(i, injection, flow, medium, times_of_power_law(*span), self.n_times, walls)
             for i, injection in enumerate(injections)
         ]
         self.late = self._sources[-1].leave_out(end) if self._sources else 0
@@ -138,12 +144,13 @@ class _Source:
         medium: Medium,
         times: Floats,
         n_times: int,
+        walls: Sequence[int],
     ) -> None:
         self._index, self._injection, self._flow, self._medium = index, injection, flow, medium
         self._times, self._n_times = times, n_times
         solid = injection.solid
         try:
-            self._places = injection.model.places(flow, self._random(), read_positions)
+            self._places = self._find_places(walls)
             self._values = self._places.columns
             mu = viscosity_at_rate(medium.mu, solid.referenceShearRate)
             self._stiffness = given_shear_modulus(
@@ -159,6 +166,18 @@ class _Source:
         except InputError as error:
             raise InputError(f"injection model {injection.name}: {error}") from error
         self.size = len(self._places.t)
+
+    def _find_places(self, walls: Sequence[int]) -> Places:
+        """Return the places of release; with ``clearance``, bodies have room there."""
+        injection, arguments = self._injection, (self._flow, self._random(), read_positions)
+        model: Any = injection.model
+        if not getattr(model, "clearance", False):
+            return injection.model.places(*arguments)
+        room = Room(injection, self._flow, walls, self._random("size"), self._random("shape"))
+        places: Places = model.places(*arguments, room.fit)
+        log.info("    injection model %s: %d of %d places had no room and were drawn anew",
+                 injection.name, room.moved, len(places.t))  # fmt: skip
+        return places
 
     def leave_out(self, end: float) -> int:
         """Leave out the last particles if they are due at ``end`` (s) or later, but for one; return how many.

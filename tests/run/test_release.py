@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from paths import PIPE
+from scipy import stats
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.injection import models
 from foamprb.cloud.injection.distribution import Normal, RosinRammler, Uniform
-from foamprb.cloud.injection.models import BoxInjection, ConeInjection, PatchInjection
+from foamprb.cloud.injection.models import (
+    BoxInjection,
+    CellZoneInjection,
+    ConeInjection,
+    PatchFlowRateInjection,
+    PatchInjection,
+    SphereInjection,
+)
 from foamprb.cloud.injection.shapes import Ellipsoid, Sphere
 from foamprb.cloud.state import concatenate
 from foamprb.errors import InputError
@@ -92,3 +102,64 @@ def test_a_stiffness_that_is_no_number_is_reported(flow):
     solid = Solid(type="neoHooke", poissonsRatio=0.49, shearModulus=np.inf)
     with pytest.raises(InputError, match="one: the shear modulus of 5 of 5 particles is inf"):
         list(Release([injection("one", PatchInjection("inlet", 5.0, 1.0), solid)], flow, AIR).parts(5))
+
+
+RADIUS = 2.1e-3
+"""Of the pipe, m."""
+WIDE = Uniform(8e-4, 1.4e-3)
+"""Diameters of bodies, many of which would overlap the wall, m."""
+SOFT = Solid(type="neoHooke", shearModulus=1.0)
+FREELY = {
+    "patch": PatchInjection("inlet", 1e5, 0.005),
+    "rate": PatchFlowRateInjection("inlet", 1e9, 0.06),
+    "box": BOX,
+    "sphere": SphereInjection(origin=(0.1, 0.0, 0.0), radius=0.003, number=400),
+    "zone": CellZoneInjection(3e8, selectionMode="all"),
+}
+
+
+def cleared(model, flow, sizes=WIDE, shape=Sphere()):  # noqa: B008
+    model = replace(model, clearance=True)
+    wall = [k for k, patch in enumerate(flow.patches) if patch.type == "wall"]
+    return Release([injection("one", model, SOFT, sizes, shape=shape)], flow, AIR, walls=wall)
+
+
+@pytest.mark.parametrize("name", FREELY)
+def test_bodies_with_clearance_overlap_no_wall(name, flow, caplog):
+    with caplog.at_level("INFO", "foamprb"):
+        p = concatenate(cleared(FREELY[name], flow).parts())
+    freely = concatenate(Release([injection("one", FREELY[name], SOFT, WIDE)], flow, AIR).parts())
+    # The polygon of the wall is within its circle.
+    outside = np.hypot(*freely.x[:, 1:].T) + freely.R > RADIUS
+    assert (np.hypot(*p.x[:, 1:].T) + p.R < RADIUS).all()
+    assert outside.sum() > 50
+    # Sizes and times are those without clearance, and so are places with room, if all are drawn before.
+    np.testing.assert_array_equal(p.R, freely.R)
+    np.testing.assert_array_equal(p.t0, freely.t0)
+    moved = (p.x != freely.x).any(axis=1)
+    assert moved[outside].all()
+    assert name == "rate" or f"injection model one: {moved.sum()} of {p.size} places had no room" in caplog.text
+
+
+def test_places_with_room_keep_the_density_of_the_flux_and_depend_on_no_parts(flow, monkeypatch):
+    model, d = PatchInjection("inlet", 2e5, 0.02), Uniform(1e-3, 1e-3 + 1e-12)
+    shape = Ellipsoid((2.0, 1.0, 1.0), e1=(1.0, 0.0, 0.0))
+    p = concatenate(cleared(model, flow, d, shape).parts())
+    # Along the axis the section is a circle of this radius.
+    r, most = np.hypot(*p.x[:, 1:].T), RADIUS - 5e-4 * 2.0 ** (-1.0 / 3.0)
+    assert (r < most).all()
+
+    def share(rho):
+        return 2.0 * (rho / RADIUS) ** 2 - (rho / RADIUS) ** 4
+
+    # Poiseuille's flux within r, over that within the free circle.
+    assert stats.kstest(share(r) / share(most), "uniform").pvalue > 0.05
+    monkeypatch.setattr("foamprb.cloud.communicator.PART", 77)
+    again = concatenate(cleared(model, flow, d, shape).parts(31))
+    assert again.x.tobytes() == p.x.tobytes()
+
+
+def test_a_body_without_room_is_reported(flow):
+    message = "one: clearance yes: a body of diameter 0.00.* m has no room at any of 1000 random places"
+    with pytest.raises(InputError, match=message):
+        cleared(PatchInjection("inlet", 50.0, 1.0), flow, Uniform(3e-3, 5e-3))

@@ -9,6 +9,7 @@ import logging
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
@@ -52,6 +53,9 @@ _U0 = Annotated[
     ),
 ]
 
+_CLEARANCE = Annotated[
+    bool, Meaning("bodies appear only where they overlap no wall; other places are drawn anew")
+]
 _LEAVE_OUT = Annotated[bool, Meaning("leave out positions outside the mesh")]
 
 GIVEN: dict[str, Bounds] = {
@@ -65,6 +69,12 @@ GIVEN: dict[str, Bounds] = {
 }
 """Further columns of a file of positions, in place of distributions: entries of the dictionary, in their
 units; ``d`` is the diameter, m."""
+
+Drawn: TypeAlias = tuple[Floats, NDArray[Any]]
+"""Random places, (n, 3), m, and their hosts, (n,)."""
+
+Fit: TypeAlias = Callable[[Drawn, Callable[[int], Drawn]], Drawn]
+"""Function that replaces the places that do not fit the next particles, by a given number of other ones."""
 
 ReadPositions: TypeAlias = Callable[[Path, Mapping[str, Bounds]], tuple[Floats, Mapping[str, Floats]]]
 """Function that reads a file: positions (n, 3), m, and further columns, (n,) each, within bounds."""
@@ -95,8 +105,13 @@ class Places(NamedTuple):
     """Values per particle of some of :data:`GIVEN`, (n,) each."""
 
 
+def as_drawn(drawn: Drawn, _redraw: Callable[[int], Drawn]) -> Drawn:
+    """Return random places as they were drawn."""
+    return drawn
+
+
 class Injection(Schema, Protocol):
-    """An injection model."""
+    """An injection model; with an entry ``clearance`` its :meth:`places` has an argument ``fit``."""
 
     @property
     def SOI(self) -> float:
@@ -113,6 +128,8 @@ class Injection(Schema, Protocol):
             Source of every random number.
         read
             Function that reads a file of positions.
+
+        A model with an entry ``clearance`` has a further argument ``fit``, see :data:`Fit`.
 
         Raises
         ------
@@ -156,8 +173,11 @@ class PatchInjection(Injection):
     duration: Annotated[float, Positive, Meaning("of the injection", "s")]
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
+    clearance: _CLEARANCE = False
 
-    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+    def places(
+        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
+    ) -> Places:
         """Return random places on the patch, with a density proportional to the flux, at even intervals."""
         SOI = start_of_injection(self, flow)
         n = require_room(
@@ -176,7 +196,8 @@ class PatchInjection(Injection):
                 + "Choose another SOI, another patch or other times of the flow; or the type "
                 "patchFlowRateInjection, which follows the inflow in time."
             )
-        x, hosts = _on_faces(faces, inflow, n, random)
+        draw = partial(_on_faces, random, faces, inflow)
+        x, hosts = fit(draw(n), draw)
         return Places(x, hosts, SOI + np.arange(n) / self.parcelsPerSecond, self.U0)
 
 
@@ -203,8 +224,11 @@ class PatchFlowRateInjection(Injection):
     concentration: Annotated[Constant, Positive, Meaning("factor of `parcelConcentration`", "1")] = _ONE
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
+    clearance: _CLEARANCE = False
 
-    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+    def places(
+        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
+    ) -> Places:
         """Return random places on the patch, as the inflow at the times of release.
 
         Particle k is released when the volume for k + ½ particles has entered.
@@ -231,8 +255,8 @@ class PatchFlowRateInjection(Injection):
                 mean = (math.floor(first + 0.5) + 0.5 + np.arange(n) - first) / (rate * h)
                 # The share s of the part in which this volume over h enters: Q0 s + (Q1 - Q0) s²/2.
                 s = 2.0 * mean / (Q0 + np.sqrt(np.maximum(Q0**2 + 2.0 * mean * (Q1 - Q0), 0.0)))
-                x, hosts = _on_faces(before, a + b, n, random)
-                parts.append((x, hosts, t0 + h * (j + np.minimum(s, 1.0))))
+                draw = partial(_on_faces, random, before, a + b)
+                parts.append((*fit(draw(n), draw), t0 + h * (j + np.minimum(s, 1.0))))
             before = after
         if not parts:
             raise InputError(
@@ -285,15 +309,18 @@ class BoxInjection(Injection):
     duration: _OVER = 0.0
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
+    clearance: _CLEARANCE = False
 
     def __post_init__(self) -> None:
         if any(low > high for low, high in zip(self.min, self.max, strict=True)):
             raise InputError("has a component of min above that of max")
 
-    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+    def places(
+        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
+    ) -> Places:
         """Return random places in the box; see :func:`_in_mesh`."""
         box = np.array([self.min, self.max])
-        return _in_mesh(self, "boxInjection", flow, random, box, lambda x: np.full(len(x), True))
+        return _in_mesh(self, "boxInjection", flow, random, fit, box, lambda x: np.full(len(x), True))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -306,13 +333,16 @@ class SphereInjection(Injection):
     duration: _OVER = 0.0
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
+    clearance: _CLEARANCE = False
 
-    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+    def places(
+        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
+    ) -> Places:
         """Return random places in the sphere; see :func:`_in_mesh`."""
         o, R = np.array(self.origin), self.radius
         box = np.array([o - R, o + R])
         return _in_mesh(
-            self, "sphereInjection", flow, random, box, lambda x: np.linalg.norm(x - o, axis=1) <= R
+            self, "sphereInjection", flow, random, fit, box, lambda x: np.linalg.norm(x - o, axis=1) <= R
         )
 
 
@@ -327,6 +357,7 @@ def _in_mesh(
     what: str,
     flow: Flow,
     random: np.random.Generator,
+    fit: Fit,
     box: Floats,
     contains: Callable[[Floats], NDArray[np.bool_]],
 ) -> Places:
@@ -345,19 +376,24 @@ def _in_mesh(
         If less than a thousandth of that part lies in region and mesh.
     """
     low, high = np.maximum(box[0], flow.bounds[0]), np.minimum(box[1], flow.bounds[1])
-    n = require_room(model.number, f"{what}: number {model.number}")
-    x, hosts, tried, placed = np.empty((n, 3)), np.empty(n, dtype=np.int64), 0, 0
     start = start_of_injection(model, flow)
-    while placed < n:
-        drawn = low + (high - low) * random.random((min(max(n - placed, 1000), _AT_ONCE), 3))
-        tried += len(drawn)
-        drawn = drawn[contains(drawn)]
-        held = flow.locate(drawn, start)
-        rows = np.flatnonzero(held >= 0)[: n - placed]
-        x[placed : placed + len(rows)], hosts[placed : placed + len(rows)] = drawn[rows], held[rows]
-        placed += len(rows)
-        if (low > high).any() or (placed < n and tried > _MOST_DRAWN * (placed + 10)):
-            raise InputError(f"{what}: only {placed} of {tried} random places lie in the mesh.")
+
+    def draw(n: int) -> Drawn:
+        x, hosts, tried, placed = np.empty((n, 3)), np.empty(n, dtype=np.int64), 0, 0
+        while placed < n:
+            drawn = low + (high - low) * random.random((min(max(n - placed, 1000), _AT_ONCE), 3))
+            tried += len(drawn)
+            drawn = drawn[contains(drawn)]
+            held = flow.locate(drawn, start)
+            rows = np.flatnonzero(held >= 0)[: n - placed]
+            x[placed : placed + len(rows)], hosts[placed : placed + len(rows)] = drawn[rows], held[rows]
+            placed += len(rows)
+            if (low > high).any() or (placed < n and tried > _MOST_DRAWN * (placed + 10)):
+                raise InputError(f"{what}: only {placed} of {tried} random places lie in the mesh.")
+        return x, hosts
+
+    n = require_room(model.number, f"{what}: number {model.number}")
+    x, hosts = fit(draw(n), draw)
     times = start + model.duration * np.arange(n, dtype=float) / n
     return Places(x, hosts, times, model.U0)
 
@@ -403,6 +439,7 @@ class CellZoneInjection(Injection):
     ] = "cellZone"
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
+    clearance: _CLEARANCE = False
 
     def __post_init__(self) -> None:
         if self.selectionMode == "all" and self.cellZone:
@@ -410,8 +447,13 @@ class CellZoneInjection(Injection):
         if self.selectionMode == "cellZone" and not self.cellZone:
             raise InputError("has no cellZone. Allowed: the name of a zone, or selectionMode all")
 
-    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
-        """Return random places in the zone; the number in any part follows its volume, within two."""
+    def places(
+        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
+    ) -> Places:
+        """Return random places in the zone; the number in any part follows its volume, within two.
+
+        Places that are drawn anew are independent of each other.
+        """
         SOI = start_of_injection(self, flow)
         zone = flow.cell_zone(self.cellZone or None, SOI)
         # An inverted tetrahedron overlaps its neighbours, which contain its share.
@@ -423,12 +465,18 @@ class CellZoneInjection(Injection):
             f"cellZoneInjection in {self.cellZone or 'all cells'}: numberDensity {self.numberDensity:g} 1/m3 "
             f"times the volume {volume:g} m3 of {len(volumes)} tetrahedra",
         )
+
+        def at(shares: Floats) -> Drawn:
+            """Return random places in the tetrahedra at some shares of the cumulative volume."""
+            last = np.flatnonzero(volumes)[-1]
+            tetrahedra = np.minimum(np.searchsorted(total, shares * total[-1], side="right"), last)
+            weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), len(shares))
+            hosts = zone.hosts[tetrahedra]
+            return np.einsum("nv,nvi->ni", weights, zone.vertices(hosts)), hosts
+
         # Stratified sampling: one random number in each n-th part of the cumulative volume.
-        sought = (np.arange(n) + random.random(n)) / n * total[-1]
-        tetrahedra = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
-        weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), n)
-        hosts = zone.hosts[tetrahedra]
-        x = np.einsum("nv,nvi->ni", weights, zone.vertices(hosts))
+        strata = (np.arange(n) + random.random(n)) / n
+        x, hosts = fit(at(strata), lambda k: at(random.random(k)))
         return Places(x, hosts, np.full(n, SOI), self.U0)
 
 
@@ -485,9 +533,7 @@ def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
     return directions
 
 
-def _on_faces(
-    faces: PatchFaces, density: Floats, n: int, random: np.random.Generator
-) -> tuple[Floats, NDArray[Any]]:
+def _on_faces(random: np.random.Generator, faces: PatchFaces, density: Floats, n: int) -> Drawn:
     """Draw n points, (n, 3), m, on triangles, and return their hosts.
 
     ``density`` is at the vertices of the triangles, (m, 3), and linear between them.

@@ -1,0 +1,109 @@
+"""Places of release where bodies have room between walls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.cloud import clearances, first_reach
+from foamprb.cloud.communicator import parts_of
+from foamprb.cloud.injection.distribution import draw
+from foamprb.cloud.injection.models import Drawn
+from foamprb.cloud.state import Particles, concatenate, empty
+from foamprb.errors import InputError
+from foamprb.flow.base import Flow
+from foamprb.settings.injections import InjectionSettings
+
+MOST_DRAWN = 1000
+"""Most places that are drawn anew for a body."""
+_AT_ONCE = 1000
+"""Bodies whose places are drawn anew together, whatever the number of processes."""
+
+
+class Room:
+    """Draw of places where bodies at rest overlap no wall.
+
+    Sizes and shapes are those of the bodies in the order of their numbers; a place without room for its body
+    is drawn anew, so that clearance changes the distribution of the places, not of the sizes.
+
+    Parameters
+    ----------
+    injection, flow
+        The injection model, and the flow.
+    walls
+        Indices of the patches from which bodies are kept away.
+    sizes, shapes
+        Sources of the random numbers of both.
+
+    Raises
+    ------
+    InputError
+        If the mesh moves.
+    """
+
+    def __init__(
+        self,
+        injection: InjectionSettings,
+        flow: Flow,
+        walls: Sequence[int],
+        sizes: np.random.Generator,
+        shapes: np.random.Generator,
+    ) -> None:
+        if "wall_velocity" in flow.kernels:
+            raise InputError("the mesh moves, but clearance requires walls at rest. Allowed: clearance no.")
+        self._injection, self._flow, self._walls = injection, flow, walls
+        self._sizes, self._shapes = sizes, shapes
+        self._reach = 0.0
+        self.moved = 0
+        """Number of bodies whose places were drawn anew."""
+
+    def fit(self, drawn: Drawn, redraw: Callable[[int], Drawn]) -> Drawn:
+        """Return places for the next bodies, with others for bodies without room there.
+
+        Raises
+        ------
+        InputError
+            If a body has no room at :data:`MOST_DRAWN` places.
+        """
+        x, hosts = drawn
+        cramped = []
+        for part in parts_of(len(x)):
+            p = self._bodies(x[part], hosts[part])
+            rows = np.flatnonzero(self._overlap(p))
+            cramped.append((part.start + rows, p.take(rows)))
+        rows = np.concatenate([rows for rows, _ in cramped])
+        bodies = concatenate(p for _, p in cramped)
+        self.moved += len(rows)
+        for first in range(0, len(rows), _AT_ONCE):
+            some = slice(first, first + _AT_ONCE)
+            p = self._move(bodies.take(some), redraw)
+            x[rows[some]], hosts[rows[some]] = p.x, p.host
+        return x, hosts
+
+    def _bodies(self, x: NDArray[np.float64], hosts: NDArray[np.int32]) -> Particles:
+        """Return the next bodies at rest, at some places."""
+        p = empty(len(x))
+        p.x[:], p.host[:] = x, hosts
+        p.R[:] = 0.5 * draw(self._injection.sizeDistribution or 0.0, p.size, self._sizes)
+        self._injection.shape.form(p, self._shapes)
+        return p
+
+    def _overlap(self, p: Particles) -> NDArray[np.bool_]:
+        """Return which bodies overlap a wall."""
+        self._reach = max(self._reach, first_reach(p))
+        return clearances(p, self._flow, self._reach, self._walls) < 0.0
+
+    def _move(self, p: Particles, redraw: Callable[[int], Drawn]) -> Particles:
+        """Return bodies at other places, where they have room."""
+        left = np.arange(p.size)
+        for _ in range(MOST_DRAWN):
+            p.x[left], p.host[left] = redraw(len(left))
+            left = left[self._overlap(p.take(left))]
+            if not len(left):
+                return p
+        raise InputError(
+            f"clearance yes: a body of diameter {2.0 * p.R[left[0]]:g} m has no room at any of {MOST_DRAWN} "
+            "random places. Allowed: smaller bodies, other places, or clearance no."
+        )
