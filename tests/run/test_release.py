@@ -138,7 +138,9 @@ def test_bodies_with_clearance_overlap_no_wall(name, flow, caplog):
     np.testing.assert_array_equal(p.t0, freely.t0)
     moved = (p.x != freely.x).any(axis=1)
     assert moved[outside].all()
-    assert name == "rate" or f"injection model one: {moved.sum()} of {p.size} places had no room" in caplog.text
+    assert (
+        name == "rate" or f"injection model one: {moved.sum()} of {p.size} places had no room" in caplog.text
+    )
 
 
 def test_places_with_room_keep_the_density_of_the_flux_and_depend_on_no_parts(flow, monkeypatch):
