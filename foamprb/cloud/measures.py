@@ -459,7 +459,7 @@ _TAKEN = frozenset(MEASURES) | frozenset(
     (
         "id", "d", "rho", "Ca", "t0", "x0", "y0", "z0", "t1", "x1", "y1", "z1", "fate", "patch",
         "a", "b", "c", "D", "time", "injector", "maxD", "maxShearRate", "maxShearStress", "maxReynolds",
-        "minGap", "curvatureNumber", "maxBulletAmplitude",
+        "minGap", "curvatureNumber", "maxBulletAmplitude", "touchedAtRelease",
     )
 )  # fmt: skip
 

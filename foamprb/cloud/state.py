@@ -215,6 +215,11 @@ class Particles(NamedTuple):
         """Return the number of particles of each status; the numbers sum to :attr:`size`."""
         return {status: int(np.count_nonzero(self.status == status)) for status in Status}
 
+    @property
+    def touched(self) -> Array:
+        """Whether each particle stuck where it was released, (n,)."""
+        return np.asarray((self.status == Status.STUCK) & (self.t <= self.t0))
+
     def take(self, rows: Array | slice) -> Particles:
         """Return the particles of some rows: copies, or views for a slice."""
         return Particles(*(array[rows] for array in self))

@@ -19,6 +19,8 @@ from foamprb.results.atomic import unfinished
 DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES = "fates", "failed"
 """Tables of a run: a row per particle, and a row per failed particle."""
+TOUCHED = "touchedAtRelease"
+"""Column of ``fates``: 1 for a body that stuck where it was released."""
 MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
 _ROOT = "postProcessing"
 _MOST_BYTES = 200

@@ -336,7 +336,7 @@ def _fates_of(
     numbers = np.zeros((len(Status), patches + 1), dtype=np.int64)
     # The last column takes the particles that are on no patch.
     np.add.at(numbers, (p.status, p.patch), 1)
-    return numbers, count_close(p), int(((p.status == Status.STUCK) & (p.t <= p.t0)).sum())
+    return numbers, count_close(p), int(p.touched.sum())
 
 
 @contextmanager

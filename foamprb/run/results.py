@@ -39,7 +39,7 @@ from foamprb.memory import OutOfMemory, ran_out
 from foamprb.results.atomic import before_each_file, only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import PARTICLES, Checkpoints, StoredCheckpoint, part_file, parts_of
-from foamprb.results.folder import FAILURES, FATES
+from foamprb.results.folder import FAILURES, FATES, TOUCHED
 from foamprb.results.manifest import Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, Rows, rows_of, write_rows
@@ -469,7 +469,7 @@ def _fates_of(
             "id": p.number, "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
             "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
-            "fate": fates[p.status], "patch": patches[p.patch],
+            "fate": fates[p.status], "patch": patches[p.patch], TOUCHED: p.touched.astype(np.int8),
             "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D,
             **path_values(p, rho, quadratic, D), **further,
         }

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError, suggestion
+from foamprb.results.folder import TOUCHED
 from foamprb.view.results import NEEDED, Run, Table
 from foamprb.view.surfaces import MODE, unfolded
 
@@ -337,11 +338,16 @@ def fields_of_fates(bodies: Bodies, fates: Table) -> dict[str, Quantity]:
 def fates_of(bodies: Bodies, run: Run, fates: Table | None) -> Codes:
     """Return the fates of the bodies, (1, n): "active", "stuck on wall", "escaped through outlet", ….
 
+    Those that touched a wall at their release are "stuck on wall at release".
+
     They are taken from ``fates.csv``, or without it from the last of the bodies' times.
     """
     if fates is not None:
-        columns = (fates[name].tolist() for name in ("id", "fate", "patch"))
-        by_id = {number: _fate(fate, patch) for number, fate, patch in zip(*columns, strict=True)}
+        columns = (fates[name].tolist() for name in ("id", "fate", "patch", TOUCHED))
+        by_id = {
+            number: _fate(fate, patch) + " at release" * bool(touched)
+            for number, fate, patch, touched in zip(*columns, strict=True)
+        }
         words = [by_id.get(body, "unknown") for body in bodies.ids.tolist()]
     else:
         statuses, patches = (dict(enumerate(run.names.get(name, ()))) for name in ("status", "patch"))

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.source import FlowSource
 from foamprb.optional import load
-from foamprb.results.folder import FATES, HOW, ResultsFolder
+from foamprb.results.folder import FATES, HOW, TOUCHED, ResultsFolder
 from foamprb.results.intervals import share
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.reading import reading
@@ -151,6 +151,8 @@ class Run:
             return None
         table = self.table("fates")
         with reading(self.file("fates"), "is not the table that foamprb run writes"):
+            # Older tables lack the column.
+            table.setdefault(TOUCHED, (table["fate"] == "stuck") & (table["t1"] <= table["t0"]))
             return table | {name: table[name].astype(kind) for name, kind in _OF_FATES.items()}
 
     def summary(self) -> Table:

@@ -23,7 +23,7 @@ from foamprb.run.job import likely_integrator, prepare
 from foamprb.run.template import write_template
 from foamprb.settings.settings import read_settings
 
-HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,a,b,c,D,"
+HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,touchedAtRelease,a,b,c,D,"
 LARGEST = "maxD,maxShearRate,maxShearStress,maxReynolds,minGap,curvatureNumber,maxBulletAmplitude"
 D = 5e-6
 

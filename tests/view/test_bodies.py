@@ -9,8 +9,9 @@ import pytest
 from view_run import INJECTORS, clouds, motion, write_run
 
 from foamprb.errors import InputError
-from foamprb.results.folder import ResultsFolder
+from foamprb.results.folder import TOUCHED, ResultsFolder
 from foamprb.results.pvd import Series
+from foamprb.results.tables import read_table, write_table
 from foamprb.results.vtk import write_snapshot
 from foamprb.view.bodies import UNNAMED, fates_of, fields_of_fates, gather, require_array
 from foamprb.view.results import open_run
@@ -82,6 +83,18 @@ def test_fates_are_those_of_the_table_and_of_the_last_time(case, with_table):
     fate = fates_of(bodies, results, results.fates() if with_table else None)
     assert fate.meanings == ("active", "stuck on floor", "escaped through lid")
     assert fate.codes[0, :4].tolist() == [0, 1, 2, 0]
+
+
+def test_bodies_that_touched_at_their_release_are_told(case):
+    """Older tables lack the column; the times of release and end tell it, too."""
+    results = open_run(case)
+    bodies, fates = gather(results, range(M)), results.fates()
+    np.testing.assert_array_equal(fates[TOUCHED], False)
+    told = fates_of(bodies, results, fates | {TOUCHED: np.arange(N) == 1})
+    assert told.meanings == ("active", "stuck on floor at release", "escaped through lid")
+    table = results.file("fates")
+    write_table(table, {**read_table(table), "t1": read_table(table)["t0"]})
+    assert np.flatnonzero(open_run(case).fates()[TOUCHED]).tolist() == [1]
 
 
 def test_columns_of_fates_become_arrays(case):

@@ -14,6 +14,7 @@ from view_run import PATCHES, motion, write_run
 
 from foamprb.cli import main
 from foamprb.errors import InputError
+from foamprb.results.folder import TOUCHED
 from foamprb.results.tables import write_table
 from foamprb.view.geometry import Surface
 from foamprb.view.report import plots
@@ -333,10 +334,7 @@ def test_few_deposits_are_dots():
 
 
 def test_bodies_that_touched_a_wall_at_their_release_are_told():
-    fates = {
-        "fate": np.array(["stuck"] * 77 + ["escaped"] * 23), "t0": np.ones(100),
-        "t1": np.where(np.arange(100) < 50, 1.0, 2.0),
-    }  # fmt: skip
+    fates = {"fate": np.array(["stuck"] * 77 + ["escaped"] * 23), TOUCHED: np.arange(100) < 50}
     said = stuck_at_release(fates, 100)
     assert said.startswith("stuck 77, of these 50 touched at release; of the others 54")
-    assert stuck_at_release({**fates, "t1": np.full(100, 2.0)}, 100) == ""
+    assert stuck_at_release({**fates, TOUCHED: np.zeros(100, dtype=int)}, 100) == ""

@@ -21,7 +21,7 @@ from foamprb.flow.base import NEAR
 from foamprb.flow.read.flows import read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
-from foamprb.results.folder import file_name
+from foamprb.results.folder import TOUCHED, file_name
 from foamprb.results.intervals import quantile, share
 from foamprb.results.manifest import Manifest
 from foamprb.results.reading import reading
@@ -250,7 +250,7 @@ def _fates(report: _Report) -> PageSection | None:
 def stuck_at_release(fates: Mapping[str, Any], total: int) -> str:
     """Return how many of the stuck bodies never moved, and the share of the others; empty if none did."""
     stuck = fates["fate"] == "stuck"
-    touched, n = int((stuck & (fates["t1"] <= fates["t0"])).sum()), int(stuck.sum())
+    touched, n = int(np.count_nonzero(fates[TOUCHED])), int(stuck.sum())
     if touched == 0:
         return ""
     others = share(n - touched, total - touched).percent()
