@@ -17,8 +17,8 @@ from foamprb.errors import InputError, suggestion
 from foamprb.results.atomic import unfinished
 
 DEFAULT_CLOUD = "softCloud"
-FATES, FAILURES = "fates", "failed"
-"""Tables of a run: a row per particle, and a row per failed particle."""
+FATES, FAILURES, TRACERS = "fates", "failed", "tracers"
+"""Tables of a run: a row per particle, per failed particle, and per point of the fluid."""
 TOUCHED = "touchedAtRelease"
 """Column of ``fates``: 1 for a body that stuck where it was released."""
 MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
@@ -173,7 +173,7 @@ class ResultsFolder:
 
 def fault_of_function(name: str, cloud: str) -> str:
     """Return why a cloud function cannot have a name, which names its folder too; empty if it can."""
-    tables = {f"{table}.csv" for table in (FATES, FAILURES)}
+    tables = {f"{table}.csv" for table in (FATES, FAILURES, TRACERS)}
     if name in {CHECKPOINTS, MANIFEST, RECORD, "manifest", *tables} or _series(cloud).fullmatch(name):
         return "the results have a file of that name"
     return fault_of_word(name)

@@ -16,7 +16,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 import foamprb
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import explain
+from foamprb.cloud.cloud import Cloud, explain
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.stability import unstable, warning_of
@@ -168,9 +168,12 @@ class RunLog:
             log.info("    ruptured, released              = %d, %d",
                      counts[Status.RUPTURED], counts[Status.RELEASED])  # fmt: skip
 
-    def end(self, finished: bool) -> None:
-        """Log the fates of the particles, the folder of the results, and End if the run has ``finished``."""
-        self._log_fates()
+    def end(self, finished: bool, points: Cloud | None = None) -> None:
+        """Log the fates of the particles, the folder of the results, and End if the run has ``finished``.
+
+        The shares of ``points`` of the fluid stand beside those of the particles.
+        """
+        self._log_fates(points)
         self._log_paths()
         log.info("\nResults in %s", self._job.folder.path)
         self._log_clocks()
@@ -246,7 +249,7 @@ class RunLog:
                 "more too small for a sphere there. The end of the log has its largest value.",
                 SMALL_REYNOLDS, 100.0 * drag_excess(SMALL_REYNOLDS))  # fmt: skip
 
-    def _log_fates(self) -> None:
+    def _log_fates(self, points: Cloud | None) -> None:
         """Log number and share of the particles by fate and patch; their sum is the number injected."""
         job, counts = self._job, self._job.cloud.counts()
         answers = job.cloud.map_in_flow(_fates_of, len(job.patch_names))
@@ -254,16 +257,26 @@ class RunLog:
         log.info("Fate of the particles")
         injected = sum(counts.values()) - counts[Status.PENDING]
         log.info("    %-24s %10d", "injected", injected)
+        # The last column is that of points on no patch.
+        of_points = np.zeros((len(Status), len(job.patch_names) + 1), dtype=np.int64)
+        if points is not None:
+            np.add.at(of_points, (points.particles.status, points.particles.patch), 1)
+
+        def log_line(depth: int, name: str, count: int, tracers: int) -> None:
+            said = _share(count, injected)
+            if points is not None:
+                both = (share(int(n), injected).percent() for n in (count, tracers))
+                said = "   {}; of points {}".format(*both)
+            log.info("%*s%-*s %10d%s", depth, "", 28 - depth, name, count, said)
+
         for status in tuple(Status)[Status.ACTIVE :]:
             if status > Status.FAILED and not job.cloud.models.has_fates:
                 continue
-            log.info(
-                "    %-24s %10d%s", status.name.lower(), counts[status], _share(counts[status], injected)
-            )
+            log_line(4, status.name.lower(), counts[status], of_points[status].sum())
             for index, name in enumerate(job.patch_names):
                 at = sum(table[status, index] for table in at_patches)
-                if at:
-                    log.info("        %-20s %10d%s", name, at, _share(at, injected))
+                if at or of_points[status, index]:
+                    log_line(8, name, at, of_points[status, index])
             if status is Status.STUCK and (n := sum(touched)):
                 log.info("        %-20s %10d   of the others %s", "touched at release", n,
                          share(counts[status] - n, injected - n).percent())  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import time as clock
 from collections.abc import Callable, Iterator
@@ -18,8 +19,11 @@ from foamprb.results.folder import FAILURES
 from foamprb.run.compilation import Compilation, compile_run
 from foamprb.run.job import Job
 from foamprb.run.log import RunLog, progress_bar
+from foamprb.run.points import points_of
 from foamprb.run.results import HOW_TO_GO_ON, Results, open_results
 from foamprb.settings.solution import StartFrom
+
+log = logging.getLogger("foamprb")
 
 
 def execute(
@@ -60,25 +64,43 @@ def execute(
     """
     cloud = job.cloud
     compile_run(cloud, job.compilation)
+    # Before a checkpoint is read: the bodies are where they are released.
+    points = points_of(job) if job.settings.solution.tracers else None
+    if points is not None:
+        compile_run(points, job.compilation)
     with open_results(job) as results:
         results.begin(start_from or job.settings.solution.startFrom)
         if results.finished:
             return cloud.counts()
-        log = RunLog(job)
+        run_log = RunLog(job)
         results.write_start()
         schedule = _Schedule(Stepper(cloud), job.compilation, results.store_between)
-        log.begin()
+        run_log.begin()
         with progress_bar(cloud.start, job.settings.solution.endTime) as show:
             for steps in _advance_to_writes(job, results, schedule, stop, show):
                 counts = {time: cloud.counts_at(time) for time in map(cloud.time_of, steps)}
                 results.write(steps)
-                log.write_times(counts)
-        results.end(log.warnings_at_end())
+                run_log.write_times(counts)
         failing = _failing(job)
-        log.end(finished=not failing)
+        if failing:
+            points = None
+        if points is not None:
+            _follow(points, job, stop)
+        results.end(run_log.warnings_at_end(), points)
+        run_log.end(finished=not failing, points=points)
     if failing:
         raise RunStopped(f"{failing} The results until then are in {job.folder.path}.")
     return cloud.counts()
+
+
+def _follow(points: Cloud, job: Job, stop: Callable[[], bool]) -> None:
+    """Advance points of the fluid to the end of a run."""
+    log.info("Following %d points of the fluid\n", points.size)
+    schedule = _Schedule(Stepper(points), job.compilation, lambda _first, _last: None)
+    while points.step < job.steps and moving(points):
+        if stop():
+            raise RunStopped(f"stopped at t = {points.time:.12g} s of the tracers. {HOW_TO_GO_ON}")
+        schedule.advance(job.steps, stop)
 
 
 def execute_until_signal(job: Job, start_from: StartFrom | None = None) -> None:

@@ -39,13 +39,14 @@ from foamprb.memory import OutOfMemory, ran_out
 from foamprb.results.atomic import before_each_file, only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import PARTICLES, Checkpoints, StoredCheckpoint, part_file, parts_of
-from foamprb.results.folder import FAILURES, FATES, TOUCHED
+from foamprb.results.folder import FAILURES, FATES, TOUCHED, TRACERS
 from foamprb.results.manifest import Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, Rows, rows_of, write_rows
 from foamprb.results.vtk import Parts
 from foamprb.run.description import write_record
 from foamprb.run.job import Job
+from foamprb.run.points import rows_of_points
 from foamprb.run.restart import (
     Sums,
     checkpoint_of,
@@ -118,7 +119,8 @@ class Results:
         self.finished = False
         """Whether the run had ended before."""
         self._manifest = Manifest(job.folder.path)
-        self._fates, self._failures = (job.folder.table(name) for name in (FATES, FAILURES))
+        names = (FATES, FAILURES, TRACERS)
+        self._fates, self._failures, self._tracers = (job.folder.table(name) for name in names)
         self._snapshot: Snapshot | None = None
         self._around: Sequence[Sums] = ()
 
@@ -205,8 +207,8 @@ class Results:
         memory = {**self._job.functions.state(), **cloud.stored}
         self._write_checkpoint(cloud, memory, self._write_parts(), cloud.comm.rank.moments.times)
 
-    def end(self, warnings: Sequence[str] = ()) -> None:
-        """Write ``fates``, ``failed`` if a particle failed, and warnings into the record.
+    def end(self, warnings: Sequence[str] = (), points: Cloud | None = None) -> None:
+        """Write ``fates``, ``failed`` if a particle failed, ``tracers``, and warnings into the record.
 
         ``fates`` has a row per injected particle, and marks a finished run: it takes its name after the last
         snapshot and checkpoint.
@@ -220,7 +222,10 @@ class Results:
                 description = self._job.description
                 all_warnings = [*description["warnings"], *warnings]
                 write_record(self._job.folder.record, {**description, "warnings": all_warnings})
-            self._manifest.settle([self._fates, self._failures] if failed else [self._fates])
+            tables = {self._fates: True, self._failures: failed, self._tracers: points is not None}
+            self._manifest.settle([table for table, written in tables.items() if written])
+            if points is not None:
+                write_rows(self._tracers, points.map_by_id(rows_of_points, self._job.patch_names))
             if failed:
                 write_rows(self._failures, cloud.map_by_id(_failures_of, cloud.models, cloud.limits))
 

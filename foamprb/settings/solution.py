@@ -188,6 +188,13 @@ class Solution:
     period: Annotated[
         float | None, Positive, Meaning("with `transient`: period of the flow", "s", "none")
     ] = None
+    tracers: Annotated[
+        bool,
+        Meaning(
+            "points of the fluid start where and when the bodies do: the log has their fates beside those of "
+            "the bodies, and the table `tracers`; they follow after the bodies' run, on its first process"
+        ),
+    ] = False
     scale: Annotated[
         float,
         Positive,
