@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import logging
+import shutil
 
 import numpy as np
 import pytest
 from pipe_case import copy_of_pipe, edit, results
+from scipy.integrate import solve_ivp
+from transient_case import SCALE, write_transient_case
 
 import foamprb
 from foamprb.cli import main
@@ -45,6 +48,13 @@ def test_points_follow_the_fluid_and_none_sticks(case, capsys):
     said = f"{share(stuck, n).percent()}; of points {share(0, n).percent()}"
     assert f"stuck                    {stuck:10d}   {said}" in text
     assert f"    wall                 {stuck:10d}   {said}" in text
+    # The report has them, too.
+    assert main(["report", "-case", str(case)]) == 0
+    page = (case / "postProcessing/softCloud/report.html").read_text()
+    assert "share of points" in page
+    assert share(0, n).percent() in page
+    (case / "postProcessing/softCloud/report.html").unlink()
+    shutil.rmtree(case / "postProcessing/softCloud/reportPlots")
 
 
 def test_a_run_that_stops_among_its_points_ends_with_the_same_files(case, tmp_path):
@@ -63,3 +73,23 @@ def test_a_run_that_stops_among_its_points_ends_with_the_same_files(case, tmp_pa
     assert not any(name.endswith(("fates.csv", "tracers.csv")) for name in results(case))
     foamprb.execute(foamprb.prepare(case, threads=1), "latestTime")
     assert results(case) == whole
+
+
+def test_points_in_a_flow_that_changes_follow_its_velocity(tmp_path):
+    """It is linear in time and space, and the bodies, which have inertia, end elsewhere."""
+    case = write_transient_case(tmp_path)
+    edit(case, r"transient yes;", "transient yes; tracers yes;")
+    job = foamprb.prepare(case, threads=1)
+    foamprb.execute(job)
+    flow, x = job.cloud.flow, np.array([[0.5, 0.5, 0.5], [0.45, 0.5, 0.55]])
+    flow.load(0.0, 0.0)
+    u, gradient = (values / SCALE["0"] for values in flow.sample(x, flow.locate(x), 0.0))
+
+    def velocity(t, y):
+        factor = np.interp(t, [float(time) for time in SCALE], list(SCALE.values()))
+        return factor * (u[0] + gradient[0] @ (y - x[0]))
+
+    points = foamprb.open_run(case).table("tracers")
+    for k in range(2):
+        way = solve_ivp(velocity, (0.3, 1.2), x[k], rtol=1e-10, max_step=0.01).y[:, -1]
+        np.testing.assert_allclose([points[f"{c}1"][k] for c in "xyz"], way, atol=1e-6)

@@ -21,7 +21,7 @@ from foamprb.flow.base import NEAR
 from foamprb.flow.read.flows import read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
-from foamprb.results.folder import TOUCHED, file_name
+from foamprb.results.folder import TOUCHED, TRACERS, file_name
 from foamprb.results.intervals import quantile, share
 from foamprb.results.manifest import Manifest
 from foamprb.results.reading import reading
@@ -61,6 +61,11 @@ class _Report:
     paths: tuple[int, ...] | None
     made: dict[str, plots.Plot]
     """By the names of their files."""
+
+    @property
+    def points(self) -> Table | None:
+        """Fates of points of the fluid, if the run had ``tracers``."""
+        return self.run.table(TRACERS) if TRACERS in self.run.tables else None
 
     def figure(self, name: str, plot: plots.Plot, caption: str) -> str:
         self.made[file_name(name)] = plot
@@ -234,12 +239,18 @@ def _fates(report: _Report) -> PageSection | None:
     total = sum(sums.values())
     met = {fate for by_fate in counts.values() for fate in by_fate}
     shown = [fate for k, fate in enumerate(plots.FATES) if k < _ALWAYS or fate in met]
+    points, header = report.points, ["where", *shown, "share"]
     rows = [
-        (place, *(by_fate.get(fate, 0) for fate in shown), share(sums[place], total).percent())
+        [place, *(by_fate.get(fate, 0) for fate in shown), share(sums[place], total).percent()]
         for place, by_fate in counts.items()
     ]
+    if points is not None:
+        header.append("share of points")
+        for row in rows:
+            at = int(np.count_nonzero(points["patch"] == ("" if row[0] == "in the flow" else row[0])))
+            row.append(share(at, len(points["id"])).percent())
     caption = "Particles by place and fate; in parentheses the 95 % interval of the share, after Wilson"
-    listed = table(caption, ("where", *shown, "share"), rows)
+    listed = table(caption, header, rows)
     drawn = report.figure("fates", plots.shares(counts), "Particles by patch and fate.")
     drawn += _origins(report)
     if said := stuck_at_release(report.fates, total):
