@@ -24,6 +24,8 @@ NAMES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e
 MAPS = ("viridis", "cividis", "magma", "coolwarm")
 """Colour maps of matplotlib; the last one is for values on both sides of zero."""
 
+OF_DEPOSITS = "magma"
+"""Colour map of the deposits on walls."""
 _GOLDEN_ANGLE = 137.508
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 _SCALED_UNITS = frozenset({"m", "s", "m/s", "Pa", "N"})

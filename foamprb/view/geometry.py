@@ -31,6 +31,8 @@ class Surface(NamedTuple):
     """(v, 3), m."""
     triangles: Ints
     """(t, 3)."""
+    density: Floats | None = None
+    """Particles per area that stick there, at the points, (v,), 1/m²; None if it is not known."""
 
     @property
     def centres(self) -> Floats:

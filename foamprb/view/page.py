@@ -163,18 +163,22 @@ class Page:
         surfaces = geometry.surfaces if geometry is not None else ()
         return {
             "surfaces": [self._surface(surface, grid) for surface in surfaces],
+            "deposits": scene.scale_of_deposits,
             "edges": self._add(encode.pack_points(scene.edges.reshape(-1, 3), grid)),
             "flow": None if scene.flowfield is None else self._flow(scene.flowfield, grid),
             "paths": self._paths(grid),
         }
 
     def _surface(self, surface: Surface, grid: Grid) -> dict[str, Any]:
+        density = surface.density
+        shares = None if density is None else np.clip(density / self.scene.most_dense, 0.0, 1.0)
         return {
             "name": surface.name,
             "type": surface.type,
             "anchor": self._inside(anchor(surface, self.scene.camera)),
             "points": self._add(encode.pack_points(surface.points, grid)),
             "triangles": self._add(encode.pack(surface.triangles)),
+            "density": None if shares is None else self._add(encode.pack(np.rint(255.0 * shares))),
         }
 
     def _flow(self, field: FlowField, grid: Grid) -> dict[str, Any]:

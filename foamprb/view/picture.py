@@ -23,6 +23,7 @@ from foamprb.optional import load
 from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
 from foamprb.view.colours import (
+    OF_DEPOSITS,
     Style,
     Table,
     colour_map,
@@ -64,6 +65,8 @@ _UNKNOWN = 153
 _TRAIL_OPACITY = 0.85
 _HAZE, _HAZE_LENGTH = 0.3, 0.6
 """Largest share of the paper in colours, and how far behind the focus it is reached, in its distances."""
+_NEAR_DEPOSITS = 0.35
+"""Opacity of the near side of a wall that is coloured by its deposits."""
 _LATER: dict[str, Any] = {"render": False, "reset_camera": False}
 """Options of the plotter: the picture is rendered once, by the camera of the scene."""
 
@@ -91,6 +94,8 @@ class Drawing:
     def show(self, frame: int) -> None:
         """Draw the bodies and the texts of a time."""
         scene, bodies = self.scene, self.scene.bodies
+        if scene.painted:
+            return
         shown = np.flatnonzero(bodies.shown[frame])
         for old in ("bodies", "mark", "trails"):
             self.plotter.remove_actor(old, render=False)
@@ -147,7 +152,10 @@ class Drawing:
             scale = scene.flowfield.scales[PLANE]
             left = self._bar(*QUANTITIES[PLANE], scale.limits, self.style.plane, left, scale.extremes)
         name, part = scene.colour
-        if name in scene.bodies.fields:
+        if scene.painted and (scale := scene.scale_of_deposits):
+            limits, ends = (0.0, scale["high"]), (scale["least"], scale["most"])
+            self._bar("deposits per area", scale["unit"], limits, colour_map(OF_DEPOSITS), left, ends)
+        elif name in scene.bodies.fields:
             field = scene.bodies.fields[name]
             label = f"{field.label}, {part}" if part else field.label
             self._bar(label, field.unit, scene.limits, colour_map(scene.map_name), left, scene.extremes)
@@ -357,7 +365,7 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool) -> 
     scale = size[1] / PAGE_HEIGHT
     drawing = Drawing(plotter, scene, texts, style, scale)
     if scene.geometry is not None:
-        draw_geometry(plotter, scene.geometry, style)
+        draw_geometry(plotter, scene.geometry, style, scene.most_dense if scene.painted else 0.0)
     if len(scene.edges):
         lines = pyvista.line_segments_from_points(scene.edges.reshape(-1, 3))
         plotter.add_mesh(lines, color=style.edge, line_width=1.0, lighting=False, **_LATER)
@@ -387,16 +395,24 @@ def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: lis
     plotter.camera_set = True
 
 
-def draw_geometry(plotter: Any, geometry: Geometry, style: Style) -> None:
-    """Draw the far side of walls, and the near side and other patches almost transparent."""
+def draw_geometry(plotter: Any, geometry: Geometry, style: Style, most_dense: float = 0.0) -> None:
+    """Draw the far side of walls, and the near side and other patches almost transparent.
+
+    Up to the density ``most_dense``, 1/m², if it is given, colours of walls tell that of their deposits.
+    """
     for surface in geometry.surfaces:
         if surface.type in FLAT_TYPES:
             continue
         mesh = pyvista.PolyData.from_regular_faces(surface.points, surface.triangles)
         more = {"smooth_shading": True} | _LATER
         if kind_of_type(surface.type) is PatchKind.WALL:
-            more["color"] = style.glass
-            plotter.add_mesh(mesh, culling="back", opacity=0.1, ambient=0.6, diffuse=0.4, **more)
+            more["color"], opacity = style.glass, 0.1
+            if most_dense > 0.0 and surface.density is not None:
+                shares = np.clip(255.0 * surface.density / most_dense, 0, 255).astype(np.uint8)
+                mesh.point_data["colour"] = colour_map(OF_DEPOSITS)[shares]
+                more |= {"color": None, "scalars": "colour", "rgb": True, "show_scalar_bar": False}
+                opacity = _NEAR_DEPOSITS
+            plotter.add_mesh(mesh, culling="back", opacity=opacity, ambient=0.6, diffuse=0.4, **more)
             plotter.add_mesh(mesh, culling="front", ambient=0.8, diffuse=0.22, specular=0.0, **more)
         else:
             plotter.add_mesh(mesh, color=style.accent, opacity=0.07, ambient=1.0, diffuse=0.0, **more)

@@ -46,6 +46,8 @@ TRAIL = 0.3
 """Length of the fading trail of a body with the median speed, as a share of the visible length."""
 MOST_TRAILS = 5000
 """Largest number of bodies that have trails by default."""
+LARGE_DENSITY = 1e4
+"""Density of deposits above which it is shown per mm², 1/m²."""
 _THIN = 0.35
 """A geometry with a smaller ratio of the shortest side to the second one is viewed along the shortest."""
 _TILTED = 1.3
@@ -118,6 +120,8 @@ class Scene:
         Dimensionless groups and the fluid, as text.
     known_extremes
         Least and largest value of the chosen array at all times, if the bodies have some times only.
+    painted
+        Whether a picture has the density of deposits on walls in place of bodies.
     """
 
     title: str
@@ -136,6 +140,7 @@ class Scene:
     gravity: Floats = field(default_factory=lambda: np.zeros(3))
     groups: str = ""
     known_extremes: tuple[float, float] | None = None
+    painted: bool = False
 
     @cached_property
     def limits(self) -> tuple[float, float]:
@@ -146,6 +151,26 @@ class Scene:
     def extremes(self) -> tuple[float, float]:
         """Least and largest shown value of the chosen array."""
         return self.known_extremes or extremes_of(self.bodies, *self.colour) or self.limits
+
+    @cached_property
+    def densities(self) -> Floats:
+        """Densities of deposits at the points of all walls that have them, 1/m²."""
+        surfaces = self.geometry.surfaces if self.geometry is not None else ()
+        return np.concatenate([np.zeros(0), *(s.density for s in surfaces if s.density is not None)])
+
+    @cached_property
+    def most_dense(self) -> float:
+        """Density of deposits at which the colours end; some walls may have more, 1/m²."""
+        return limits_of_values(self.densities, (0.0, PERCENTILES[1]))[1]
+
+    @property
+    def scale_of_deposits(self) -> dict[str, Any] | None:
+        """Ends of the densities and of their colours, with their unit; None without deposits."""
+        if not len(self.densities):
+            return None
+        per, unit = (1e-6, "1/mm²") if self.most_dense > LARGE_DENSITY else (1.0, "1/m²")
+        ends = {"least": self.densities.min(), "most": self.densities.max(), "high": self.most_dense}
+        return {"unit": unit, **{name: float(per * value) for name, value in ends.items()}}
 
     @cached_property
     def edges(self) -> Floats:

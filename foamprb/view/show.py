@@ -35,6 +35,7 @@ from foamprb.view.bodies import (
     survey,
 )
 from foamprb.view.colours import Style, number, written
+from foamprb.view.deposits import painted
 from foamprb.view.flowfield import FlowField, field_of
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.page import Page
@@ -302,7 +303,7 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
         run,
         colour,
         fates,
-        geometry,
+        geometry if fates is None or geometry is None else painted(geometry, fates),
         field,
         run.paths(),
         direction,

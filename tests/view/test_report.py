@@ -9,16 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 from view_run import PATCHES, motion, write_run
 
 from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.results.folder import TOUCHED
 from foamprb.results.tables import write_table
-from foamprb.view.geometry import Surface
 from foamprb.view.report import plots
-from foamprb.view.report.deposits import deposits
 from foamprb.view.report.page import table
 from foamprb.view.report.report import stuck_at_release, write_report
 
@@ -208,62 +205,6 @@ def test_a_run_that_has_not_ended(tmp_path, capsys):
     assert "the run has not ended" in capsys.readouterr().err
 
 
-def tube(n: int = 48, length: float = 4.0, radius: float = 0.5) -> Surface:
-    """A tube along x, of n times ten rectangles."""
-    angle, x = np.linspace(0.0, 2.0 * np.pi, n + 1), np.linspace(0.0, length, 11)
-    grid = np.array([[(a, radius * np.cos(t), radius * np.sin(t)) for t in angle] for a in x])
-    corner = np.arange(11 * (n + 1)).reshape(11, n + 1)
-    a, b, c, d = (
-        part.ravel() for part in (corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:])
-    )
-    return Surface(
-        "tube", "wall", grid.reshape(-1, 3), np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
-    )
-
-
-def test_a_tube_is_unrolled_about_its_axis():
-    random = np.random.default_rng(0)
-    n = 20000
-    t, x = random.uniform(0.0, 2.0 * np.pi, n), random.uniform(0.0, 4.0, n)
-    found = deposits(tube(), np.stack([x, 0.5 * np.cos(t), 0.5 * np.sin(t)], axis=1))
-    assert found.across == ("along", "around")
-    assert found.area == pytest.approx(4.0 * np.pi, rel=3e-3)
-    assert np.ptp(found.edges[0]) == pytest.approx(4.0, rel=0.02)
-    assert np.ptp(found.edges[1]) == pytest.approx(np.pi, rel=0.02)
-    # Spread evenly, all bins have the mean density but for chance.
-    assert np.nanmedian(found.density) == pytest.approx(n / (4.0 * np.pi), rel=0.1)
-
-
-def test_a_floor_stays_in_its_plane_and_its_particles_where_they_are():
-    points = np.array([[0.0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]])
-    floor = Surface("floor", "wall", points, np.array([[0, 2, 1], [0, 3, 2]]))
-    x = np.array([[1.9, 0.9, 0.0]] * 80)
-    found = deposits(floor, x)
-    assert found.across == ("along", "across")
-    counts = np.nansum(found.density * np.outer(np.diff(found.edges[0]), np.diff(found.edges[1])))
-    assert counts == pytest.approx(80, rel=0.02)
-    i, j = np.unravel_index(np.nanargmax(found.density), found.density.shape)
-    assert (found.edges[0][i], found.edges[1][j]) == pytest.approx((0.9, 0.4), abs=0.5)
-
-
-@pytest.mark.parametrize(("along", "across"), [(0, 1), (1, 0), (1, 2), (2, 1), (2, 0), (0, 2)])
-@pytest.mark.parametrize("turned", [False, True])
-def test_a_wall_is_not_mirrored_and_its_bins_have_their_areas(along, across, turned):
-    """Coordinates grow with those of the case; density times the area of a bin is its particles."""
-    points = np.zeros((4, 3))
-    points[:, along], points[:, across] = [0.0, 3.0, 3.0, 0.0], [0.0, 0.0, 1.0, 1.0]
-    triangles = np.array([[0, 2, 1], [0, 3, 2]])
-    floor = Surface("floor", "wall", points, triangles[:, ::-1] if turned else triangles)
-    random = np.random.default_rng(3)
-    x = np.zeros((400, 3))
-    x[:, along], x[:, across] = random.uniform(0.0, 3.0, 400), random.beta(2.0, 5.0, 400)
-    wall = deposits(floor, x)
-    np.testing.assert_allclose(wall.points, x[:, [along, across]] - [1.5, 0.5], atol=0.01)
-    counts = np.histogram2d(*wall.points.T, bins=wall.edges)[0]
-    areas = np.outer(np.diff(wall.edges[0]), np.diff(wall.edges[1]))
-    np.testing.assert_allclose(wall.density * areas, counts, rtol=0.1)
-
-
 @pytest.mark.parametrize("record", ['{"warnings": 3}', '{"versions": 1}'])
 def test_an_edited_record_is_one_message(case, record):
     file = case / "postProcessing/softCloud/run.json"
@@ -302,35 +243,7 @@ def test_the_flow_of_a_large_mesh_is_not_reconstructed(case, tmp_path, monkeypat
     monkeypatch.setattr("foamprb.flow.read.openfoam.Reconstruction", None)
     monkeypatch.setattr("foamprb.view.show.MOST_CELLS", 0)
     write_report(case, tmp_path / "report.html")
-    assert (tmp_path / "reportPlots/deposits-floor.svg").exists()
-
-
-@pytest.mark.parametrize(("length", "strips"), [(2.0, 1), (16.0, 1), (60.0, 4), (900.0, 6)])
-def test_deposits_keep_their_proportions(length, strips, monkeypatch):
-    """A millimetre is as long along a pipe as around it, however long the pipe is."""
-    figures = []
-    monkeypatch.setattr(plots, "_plot", lambda draw, height=3.2: figures.append((draw, height)))
-    x = np.column_stack([np.linspace(0.1, 0.9, 100), np.full(100, 0.5), np.zeros(100)])
-    plots.unrolled(deposits(tube(length=length), x))
-    (draw, height), figure = figures[0], Figure(figsize=(6.4, figures[0][1]), layout="constrained")
-    draw(figure, figure.add_subplot())
-    figure.draw_without_rendering()
-    assert 1.8 <= height <= 4.4
-    *panels, _bar = figure.axes
-    assert len(panels) == strips
-    assert panels[0].get_xlim()[0] == pytest.approx(-panels[-1].get_xlim()[1], abs=0.2 * length)
-    for panel in panels:
-        box = panel.get_window_extent()
-        scales = box.width / np.ptp(panel.get_xlim()), box.height / np.ptp(panel.get_ylim())
-        assert scales[0] == pytest.approx(scales[1], rel=1e-3)
-
-
-def test_few_deposits_are_dots():
-    """A density of one particle would paint a large part of the wall."""
-    for n, painted in ((1, False), (100, True)):
-        x = np.column_stack([np.linspace(0.1, 0.9, n), np.full(n, 0.5), np.zeros(n)])
-        svg = plots.unrolled(deposits(tube(), x)).svg
-        assert ("particles per area" in svg) == painted
+    assert "Deposition on walls" in (tmp_path / "report.html").read_text()
 
 
 def test_bodies_that_touched_a_wall_at_their_release_are_told():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import re
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from foamprb.optional import load
 from foamprb.results.intervals import Estimate
 from foamprb.view.colours import NAMES, number, readable
-from foamprb.view.report.deposits import FEW, Deposits
 
 Floats = NDArray[np.float64]
 
@@ -29,8 +28,8 @@ _HATCHES = dict(zip(FATES, ("", "///", "...", "xxx", "ooo", "\\\\\\"), strict=Tr
 _MARKERS = dict(zip(FATES, "o^s*Dv", strict=True))
 _MOST_DOTS = 5000
 """Dots of each fate, about, in a plot of places."""
-_LONGEST_STRIP, _MOST_STRIPS = 6.0, 6
-"""Length over width of a strip of an unrolled wall, about, and number of strips."""
+_PER_BIN = 8
+"""Mean number of particles in a bin of the way along walls, while there are few."""
 _ROLES = {_INK: "currentColor", _SOFT: "var(--soft)", _PAPER: "var(--paper)"}
 _STYLE: Any = {
     "font.size": 10.0,
@@ -125,12 +124,6 @@ def _label(symbol: str, unit: str) -> str:
 def _scaled(values: Floats, unit: str) -> tuple[float, str]:
     finite = values[np.isfinite(values)]
     return readable(unit, float(np.abs(finite).max()) if len(finite) else 0.0)
-
-
-def _colour_bar(figure: Any, drawn: Any, axes: Any) -> None:
-    bar = figure.colorbar(drawn, ax=axes, aspect=12)
-    bar.set_label("particles per area [1/m²]")
-    bar.outline.set_visible(False)
 
 
 def shares(counts: dict[str, dict[str, int]]) -> Plot:
@@ -319,37 +312,27 @@ def by_origin(x: Floats, fates: NDArray[np.str_]) -> Plot:
     return _plot(draw)
 
 
-def unrolled(wall: Deposits) -> Plot:
-    """Return the particles per area of an unrolled wall in true proportions; a long one is in strips."""
-    sides = [float(np.ptp(edges)) for edges in wall.edges]
-    factor, name = readable("m", max(sides))
-    ratio = sides[0] / max(sides[1], 1e-300)
-    n = int(np.clip(np.ceil(ratio / _LONGEST_STRIP), 1, _MOST_STRIPS))
-    ends = np.linspace(wall.edges[0][0], wall.edges[0][-1], n + 1) / factor
+def per_length(ways: Mapping[str, Floats], longest: float) -> Plot:
+    """Return the number per length of the particles on walls, over the lengths of their ways.
 
-    def draw(figure: Any, axes: Any) -> None:
-        axes.remove()
-        strips = figure.subplots(n, 1, squeeze=False)[:, 0]
-        for strip, *span in zip(strips, ends[:-1], ends[1:], strict=True):
-            if wall.few:
-                strip.plot(*(wall.points / factor).T, "o", color=FATES["stuck"], markersize=4.0)
-            else:
-                image = strip.pcolormesh(
-                    wall.edges[0] / factor, wall.edges[1] / factor, wall.density.T, rasterized=True, vmin=0.0
-                )
-            if FEW <= wall.number <= 2000:
-                strip.plot(
-                    *(wall.points / factor).T, ".", color="#ffffff", markersize=1.4, markeredgewidth=0.0
-                )
-            strip.grid(False)
-            strip.set_aspect("equal")
-            strip.xaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(6))
-            strip.yaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(3))
-            strip.set(xlim=span, ylim=wall.edges[1][[0, -1]] / factor)
-        strips[-1].set_xlabel(f"{wall.across[0]} {wall.name} [{name}]")
-        strips[n // 2].set_ylabel(f"{wall.across[1]} [{name}]")
-        if not wall.few:
-            _colour_bar(figure, image, list(strips))
+    Parameters
+    ----------
+    ways
+        Lengths of ways, (n,), m, by the name of the wall.
+    longest
+        End of the axis, m.
+    """
+    factor, name = readable("m", longest)
+    most = max(map(len, ways.values()))
+    edges = np.linspace(0.0, longest, int(np.clip(most / _PER_BIN, 4, _BINS)) + 1)
 
-    width = 5.0
-    return _plot(draw, float(np.clip(n * (width * n / ratio + 0.3) + 0.6, 1.8, 4.4)))
+    def draw(_: Any, axes: Any) -> None:
+        for k, (wall, lengths) in enumerate(ways.items()):
+            numbers = np.histogram(lengths, edges)[0] / np.diff(edges)
+            colour = NAMES[(0, 5, 2, 3, 1, 4)[k % 6]]
+            axes.stairs(numbers, edges / factor, color=colour, linewidth=1.4, label=wall)
+        axes.set(xlabel=f"way along the walls from the release [{name}]", ylabel="particles per length [1/m]")
+        axes.set_ylim(bottom=0.0)
+        _legend(axes)
+
+    return _plot(draw)

@@ -7,7 +7,7 @@ import logging
 import os
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -28,10 +28,10 @@ from foamprb.results.reading import reading
 from foamprb.results.record import RECORD_FORMAT
 from foamprb.run.validity import COLUMNS, excesses, limits_of, warnings_of
 from foamprb.view.colours import DARK, LIGHT, number, with_interval, written
+from foamprb.view.deposits import ends_of, painted, ways
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
 from foamprb.view.report import plots
-from foamprb.view.report.deposits import deposits
 from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import Scene
@@ -48,7 +48,7 @@ _MOST_BODIES = 30_000
 """Largest number of bodies in the picture."""
 _PATHS = _MOST_NAMED = 6
 _MOST_WALLS = 6
-"""Largest number of walls that are drawn unrolled."""
+"""Largest number of walls in the plot of the deposits."""
 
 
 @dataclass(frozen=True)
@@ -99,21 +99,23 @@ def write_report(
     if fates is None:
         raise InputError(f"{run.folder}: no fates, the run has not ended. To continue: foamprb run -resume.")
     geometry: Geometry | None = None
-    body, missing = "", _missing_record(run)
+    body, on_walls, missing = "", "", _missing_record(run)
     try:
         scene = make_still(Request(case, cloud, source, results=results), run, _MOST_BODIES)
         geometry = scene.geometry
         body = _drawn(scene)
+        if len(scene.densities):
+            on_walls = _drawn(replace(scene, painted=True))
     except InputError as error:
         missing.append(f"No picture: {error}")
-        geometry = geometry or _geometry(case, source)
+        geometry = geometry or _geometry(case, source, fates)
     report = _Report(run, fates, geometry, tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
     with reading(run.folder, "is not as foamprb run wrote it", "Run the particles again: foamprb run."):
         sections = [
             _scene(report, body, target),
             _fates(report),
-            _deposition(report),
+            _deposition(report, on_walls),
             _residence(report),
             _deformation(report),
             _exposure(report),
@@ -167,9 +169,9 @@ def _missing_record(run: Run) -> list[str]:
     return [] if recorded else ["No record: the run has no run.json, or one of another version of foamprb."]
 
 
-def _geometry(case: Path, source: FlowSource) -> Geometry | None:
+def _geometry(case: Path, source: FlowSource, fates: Table) -> Geometry | None:
     try:
-        return boundary(read_mesh(case, "latestTime", source))
+        return painted(boundary(read_mesh(case, "latestTime", source)), fates)
     except InputError as error:
         log.warning("No walls are shown: %s", error)
         return None
@@ -206,9 +208,14 @@ def _drawn(scene: Scene) -> str:
             picture(scene, file, _PICTURE, style)
             drawn.append(file.read_bytes())
     time = float(scene.bodies.times[scene.first])
+    caption = "Particles per area that stuck to the walls, as the mean over circles of about four."
     caption = (
-        f"Bodies at {written(time, 's', time)}, drawn {number(scene.enlargement, 3)} times larger, "
-        f"coloured by {scene.colour[0]}."
+        caption
+        if scene.painted
+        else (
+            f"Bodies at {written(time, 's', time)}, drawn {number(scene.enlargement, 3)} times larger, "
+            f"coloured by {scene.colour[0]}."
+        )
     )
     return image(drawn[0], drawn[1], caption)
 
@@ -280,34 +287,30 @@ def _origins(report: _Report) -> str:
     )
 
 
-def _deposition(report: _Report) -> PageSection | None:
+def _deposition(report: _Report, drawn: str) -> PageSection | None:
+    """Return the section of the deposits, with a picture of their density."""
     fates, geometry = report.fates, report.geometry
-    stuck = fates["fate"] == "stuck"
     if geometry is None or "x1" not in fates:
         return None
-    x = np.stack([fates[key] for key in ("x1", "y1", "z1")], axis=1)
-    walls = {
-        surface.name: deposits(surface, x[here])
-        for surface in geometry.surfaces
-        if (here := stuck & (fates["patch"] == surface.name)).any()
-    }
+    stuck = fates["fate"] == "stuck"
+    patches = fates["patch"][stuck]
+    walls = [(s, patches == s.name) for s in geometry.surfaces if (patches == s.name).any()]
     if not walls:
         return None
-    densities = {name: (wall.number / wall.area, np.nanmax(wall.density)) for name, wall in walls.items()}
-    listed = table(
-        "Deposits",
-        ("wall", "particles", "area [m²]", "mean density [1/m²]", "largest density [1/m²]"),
-        [
-            (name, wall.number, *(number(float(value)) for value in (wall.area, *densities[name])))
-            for name, wall in walls.items()
-        ],
-    )
-    drawn = ""
-    for name, wall in sorted(walls.items(), key=lambda item: -item[1].number)[:_MOST_WALLS]:
-        how = "unrolled about its axis" if wall.across[1] == "around" else "in its plane"
-        caption = f"{name}, {how}: particles per area; dots are particles."
-        drawn += report.figure(f"deposits-{name}", plots.unrolled(wall), caption)
-    return PageSection("deposition", "Deposition on walls", listed + grid(drawn))
+    rows = []
+    for wall, here in walls:
+        n, area = int(here.sum()), float(np.linalg.norm(wall.areas, axis=1).sum())
+        largest = "" if wall.density is None else number(float(wall.density.max()))
+        rows.append((wall.name, n, number(area), number(n / area), largest))
+    header = ("wall", "particles", "area [m²]", "mean density [1/m²]", "largest density [1/m²]")
+    listed = table("Deposits", header, rows)
+    starts = np.stack([fates[key] for key in ("x0", "y0", "z0")], axis=1) if "x0" in fates else ()
+    if len(starts):
+        lengths, longest = ways(geometry, starts, ends_of(fates)[stuck])
+        along = {wall.name: lengths[here] for wall, here in walls[:_MOST_WALLS]}
+        caption = "Particles per length, over the shortest way along the walls from a place of release."
+        listed += report.figure("deposits", plots.per_length(along, longest), caption)
+    return PageSection("deposition", "Deposition on walls", listed + drawn)
 
 
 def _by_fate(fates: NDArray[np.str_], values: Floats) -> dict[str, Floats]:

@@ -121,7 +121,8 @@ export async function load() {
   for (const [name, spec] of Object.entries(scene.fields)) fields[name] = new Field(spec, await column(spec), n);
   const surfaces = [];
   for (const spec of scene.surfaces) {
-    surfaces.push({ ...spec, points: await places(spec.points, frame), triangles: await column(spec.triangles, Uint32Array) });
+    const density = spec.density ? await column(spec.density, Uint8Array) : null;
+    surfaces.push({ ...spec, density, points: await places(spec.points, frame), triangles: await column(spec.triangles, Uint32Array) });
   }
   let flow = null;
   if (scene.flow) {

@@ -419,6 +419,7 @@ function fill(spec) {
   $("injectors").hidden = !injector || injector.meanings.length < 2;
   $("deposits-row").hidden = !fate.meanings.some((word) => word.startsWith("stuck"));
   $("trails").value = data.m > 1 && spec.trail > 0 && data.n <= spec.mostTrails ? "fading" : "none";
+  if (data.scene.deposits) option($("deposits"), "dense", "per area of walls");
   $("deposits").value = "marked";
   $("walls").hidden = data.surfaces.length === 0;
   walls.patches.forEach((patch, k) => {
@@ -611,7 +612,7 @@ function setSlice() {
   dirty = true;
 }
 
-const legendsShown = () => [legends.plane, legends.colour].filter((spec) => spec?.names || spec?.table);
+const legendsShown = () => [legends.plane, legends.deposits, legends.colour].filter((spec) => spec?.names || spec?.table);
 
 function showLegends() {
   $("legends").replaceChildren();
@@ -646,12 +647,22 @@ function variable(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
+const dense = () => $("deposits").value === "dense";
+
+function setDeposits() {
+  if (dense()) legends.deposits = { label: "Deposits per area", low: 0, ...data.scene.deposits, table: textures.magma.bytes };
+  else delete legends.deposits;
+  showDeposits();
+  showLegends();
+  paint();
+}
+
 function paint() {
   const rgb = (name) => bytesOf(variable(name)).map((byte) => byte / 255);
   const paper = rgb("--paper");
   // Colours are given in the colour space of the screen; no conversion.
   renderer.setClearColor(new Color().setRGB(...paper), 1);
-  walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent") }, $("opacity").value, dark());
+  walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent") }, $("opacity").value, dark(), dense() ? textureOf(textures.magma, false) : null);
   bodies.material.uniforms.darkness.value = dark() ? 1 : 0;
   bodies.material.uniforms.accent.value.set(...rgb("--accent"));
   if (streams) {
@@ -928,7 +939,7 @@ function listen() {
   });
   on("mark", "change", () => { bodies.material.uniforms.mark.value = $("mark").checked ? 1 : 0; dirty = true; });
   on("trails", "change", showTrails);
-  on("deposits", "change", () => { showDeposits(); dirty = true; });
+  on("deposits", "change", setDeposits);
   on("gone", "change", () => { state.gone = $("gone").checked; show(state.t); });
   for (const id of ["filter", "filter-low", "filter-high"]) on(id, "change", setFilter);
   const chooseWanted = () => {

@@ -9,10 +9,13 @@ import { HAZE, SHADE } from "./shade.js";
 const SURFACE_VERTEX = `
 precision highp float;
 in vec3 position, normal;
+in float density;
 uniform mat4 modelViewMatrix, projectionMatrix;
 out vec3 across, place;
+out float amount;
 void main() {
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  amount = density;
   across = mat3(modelViewMatrix) * normal;
   place = seen.xyz;
   gl_Position = projectionMatrix * seen;
@@ -21,8 +24,10 @@ void main() {
 const SURFACE_FRAGMENT = `
 precision highp float;
 in vec3 across, place;
+in float amount;
 uniform vec3 base, deep;
-uniform float opacity;
+uniform float opacity, painted;
+uniform sampler2D colours;
 out vec4 colour;
 ${SHADE}${HAZE}
 void main() {
@@ -32,6 +37,7 @@ void main() {
   float facing = abs(dot(normal, towards));
   float lit = 0.5 + 0.5 * dot(normal, normalize(vec3(-0.35, 0.75, 0.55)));
   vec3 seen = mix(deep, base, smoothstep(0.1, 0.95, lit));
+  if (painted > 0.5) seen = (0.75 + 0.25 * lit) * texture(colours, vec2(amount, 0.5)).rgb;
   seen = hazed(seen, -place.z, 0.35);
   // Glass is denser at grazing angles.
   colour = vec4(seen, opacity >= 1.0 ? 1.0 : opacity * (1.0 + 2.5 * pow(1.0 - facing, 3.0)));
@@ -104,11 +110,13 @@ export class Walls {
     this.patches = data.surfaces.map((surface) => {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(surface.points, 3));
+      const density = surface.density ?? new Uint8Array(surface.points.length / 3);
+      geometry.setAttribute("density", new BufferAttribute(density, 1, true));
       geometry.setIndex(new BufferAttribute(surface.triangles, 1));
       geometry.computeVertexNormals();
       const side = (more, order) => {
         const mesh = new Mesh(geometry, material(SURFACE_VERTEX, SURFACE_FRAGMENT,
-          { base: new Vector3(), deep: new Vector3(), opacity: 1, darkness: 0 }, more));
+          { base: new Vector3(), deep: new Vector3(), opacity: 1, darkness: 0, painted: 0, colours: null }, more));
         Object.assign(mesh.material.uniforms, { haze });
         mesh.renderOrder = order;
         this.group.add(mesh);
@@ -116,7 +124,7 @@ export class Walls {
       };
       const clear = { transparent: true, depthWrite: false };
       return {
-        name: surface.name, type: surface.type, visible: !isFlat(surface),
+        name: surface.name, type: surface.type, dense: Boolean(surface.density), visible: !isFlat(surface),
         far: side({ side: BackSide }, 0), veil: side({ side: BackSide, ...clear }, 1), near: side({ side: FrontSide, ...clear }, 5),
       };
     });
@@ -127,9 +135,10 @@ export class Walls {
     this.group.add(this.edges);
   }
 
-  paint(palette, style, dark) {
+  // `colours`: the texture of the deposits per area, or null.
+  paint(palette, style, dark, colours) {
     for (const patch of this.patches) {
-      const wall = isWall(patch);
+      const wall = isWall(patch), painted = colours !== null && patch.dense;
       patch.far.visible = patch.visible && style === "glass" && wall;
       patch.veil.visible = patch.visible && style !== "none" && !patch.far.visible;
       patch.near.visible = patch.visible && style !== "none";
@@ -137,8 +146,10 @@ export class Walls {
         const { base, deep, opacity } = mesh.material.uniforms;
         base.value.set(...(wall ? palette.glass : palette.accent));
         deep.value.set(...(wall ? palette.glassDeep : palette.accent));
-        opacity.value = mesh === patch.far ? 1 : wall ? (style === "glass" ? 0.1 : 0.06) : 0.05;
+        opacity.value = mesh === patch.far ? 1 : painted ? 0.35 : wall ? (style === "glass" ? 0.1 : 0.06) : 0.05;
         mesh.material.uniforms.darkness.value = dark ? 1 : 0;
+        mesh.material.uniforms.painted.value = painted ? 1 : 0;
+        mesh.material.uniforms.colours.value = colours;
       }
     }
     this.edges.material.uniforms.base.value.set(...palette.edge);
