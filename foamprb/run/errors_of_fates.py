@@ -11,13 +11,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Stepper
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.state import Status
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.results.intervals import share
 from foamprb.run.job import Job, assemble
-from foamprb.run.loop import moving
+from foamprb.run.loop import follow
 
 __all__ = ["Change", "estimate_errors", "log_errors"]
 
@@ -73,9 +72,7 @@ def estimate_errors(job: Job) -> Iterator[Change]:
         other = assemble(settings, flow, job.cloud.threads)
         # Stiffness by the shear rate at the release stays as it is.
         cloud = replace(other.cloud, flow=around)
-        stepper = Stepper(cloud)
-        while cloud.step < other.steps and moving(cloud):
-            stepper.advance(other.steps - cloud.step)
+        follow(cloud, other)
         yield Change(what, before, _fates(replace(other, cloud=cloud)))
 
 

@@ -169,10 +169,7 @@ class RunLog:
                      counts[Status.RUPTURED], counts[Status.RELEASED])  # fmt: skip
 
     def end(self, finished: bool, points: Cloud | None = None) -> None:
-        """Log the fates of the particles, the folder of the results, and End if the run has ``finished``.
-
-        The shares of ``points`` of the fluid stand beside those of the particles.
-        """
+        """Log the fates, beside those of ``points``, the folder, and End if the run has ``finished``."""
         self._log_fates(points)
         self._log_paths()
         log.info("\nResults in %s", self._job.folder.path)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Stepper, explain
 from foamprb.cloud.state import Particles, Reason, Status
+from foamprb.cloud.tracker import never
 from foamprb.distributed.launch import caught_signals
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.results.folder import FAILURES
@@ -82,10 +83,10 @@ def execute(
                 results.write(steps)
                 run_log.write_times(counts)
         failing = _failing(job)
-        if failing:
-            points = None
+        points = None if failing else points
         if points is not None:
-            _follow(points, job, stop)
+            log.info("Following %d points of the fluid\n", points.size)
+            follow(points, job, stop)
         results.end(run_log.warnings_at_end(), points)
         run_log.end(finished=not failing, points=points)
     if failing:
@@ -93,13 +94,12 @@ def execute(
     return cloud.counts()
 
 
-def _follow(points: Cloud, job: Job, stop: Callable[[], bool]) -> None:
-    """Advance points of the fluid to the end of a run."""
-    log.info("Following %d points of the fluid\n", points.size)
-    schedule = _Schedule(Stepper(points), job.compilation, lambda _first, _last: None)
-    while points.step < job.steps and moving(points):
+def follow(cloud: Cloud, job: Job, stop: Callable[[], bool] = never) -> None:
+    """Advance another cloud to the end of a run; RunStopped if ``stop`` returned True."""
+    schedule = _Schedule(Stepper(cloud), job.compilation, lambda _first, _last: None)
+    while cloud.step < job.steps and moving(cloud):
         if stop():
-            raise RunStopped(f"stopped at t = {points.time:.12g} s of the tracers. {HOW_TO_GO_ON}")
+            raise RunStopped(f"stopped at t = {cloud.time:.12g} s of the tracers. {HOW_TO_GO_ON}")
         schedule.advance(job.steps, stop)
 
 

@@ -26,11 +26,9 @@ def points_of(job: Job) -> Cloud:
     This process advances all of them.
     """
     cloud = job.cloud
-    starts = concatenate(cloud.map_by_id(_starts_of))
+    starts, models = concatenate(cloud.map_by_id(_starts_of)), cloud.models
     starts.R[:] = _SIZE * starts.R.min(initial=np.inf)
-    models = cloud.models
-    kept = [model for model in models.surroundings if isinstance(model, RotatingFrames)]
-    surroundings = (*kept, *job.settings.dispersion.values())
+    frames = [model for model in models.surroundings if isinstance(model, RotatingFrames)]
     return Cloud(
         starts,
         cloud.flow,
@@ -39,7 +37,7 @@ def points_of(job: Job) -> Cloud:
         cloud.dt,
         Models(
             touching=models.touching, integrator="stokes", tolerance=models.tolerance,
-            surroundings=surroundings, stride=models.stride,
+            surroundings=(*frames, *job.settings.dispersion.values()), stride=models.stride,
         ),
         cloud.threads,
         start=cloud.start,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,42 +23,29 @@ _AT_ONCE = 1000
 """Bodies whose places are drawn anew together, whatever the number of processes."""
 
 
+@dataclass
 class Room:
-    """Draw of places where bodies at rest overlap no wall.
+    """Draw of places where bodies at rest overlap no wall; InputError if the mesh moves.
 
     Sizes and shapes are those of the bodies in the order of their numbers; a place without room for its body
     is drawn anew, so that clearance changes the distribution of the places, not of the sizes.
-
-    Parameters
-    ----------
-    injection, flow
-        The injection model, and the flow.
-    walls
-        Indices of the patches from which bodies are kept away.
-    sizes, shapes
-        Sources of the random numbers of both.
-
-    Raises
-    ------
-    InputError
-        If the mesh moves.
     """
 
-    def __init__(
-        self,
-        injection: InjectionSettings,
-        flow: Flow,
-        walls: Sequence[int],
-        sizes: np.random.Generator,
-        shapes: np.random.Generator,
-    ) -> None:
-        if "wall_velocity" in flow.kernels:
+    injection: InjectionSettings
+    flow: Flow
+    walls: Sequence[int]
+    """Indices of the patches from which bodies are kept away."""
+    sizes: np.random.Generator
+    shapes: np.random.Generator
+    """Sources of the random numbers of both."""
+    reach: float = 0.0
+    """Distance to which walls are listed, m."""
+    moved: int = 0
+    """Number of bodies whose places were drawn anew."""
+
+    def __post_init__(self) -> None:
+        if "wall_velocity" in self.flow.kernels:
             raise InputError("the mesh moves, but clearance requires walls at rest. Allowed: clearance no.")
-        self._injection, self._flow, self._walls = injection, flow, walls
-        self._sizes, self._shapes = sizes, shapes
-        self._reach = 0.0
-        self.moved = 0
-        """Number of bodies whose places were drawn anew."""
 
     def fit(self, drawn: Drawn, redraw: Callable[[int], Drawn]) -> Drawn:
         """Return places for the next bodies, with others for bodies without room there.
@@ -67,8 +55,7 @@ class Room:
         InputError
             If a body has no room at :data:`MOST_DRAWN` places.
         """
-        x, hosts = drawn
-        cramped = []
+        (x, hosts), cramped = drawn, []
         for part in parts_of(len(x)):
             p = self._bodies(x[part], hosts[part])
             rows = np.flatnonzero(self._overlap(p))
@@ -86,14 +73,14 @@ class Room:
         """Return the next bodies at rest, at some places."""
         p = empty(len(x))
         p.x[:], p.host[:] = x, hosts
-        p.R[:] = 0.5 * draw(self._injection.sizeDistribution or 0.0, p.size, self._sizes)
-        self._injection.shape.form(p, self._shapes)
+        p.R[:] = 0.5 * draw(self.injection.sizeDistribution or 0.0, p.size, self.sizes)
+        self.injection.shape.form(p, self.shapes)
         return p
 
     def _overlap(self, p: Particles) -> NDArray[np.bool_]:
         """Return which bodies overlap a wall."""
-        self._reach = max(self._reach, first_reach(p))
-        return clearances(p, self._flow, self._reach, self._walls) < 0.0
+        self.reach = max(self.reach, first_reach(p))
+        return clearances(p, self.flow, self.reach, self.walls) < 0.0
 
     def _move(self, p: Particles, redraw: Callable[[int], Drawn]) -> Particles:
         """Return bodies at other places, where they have room."""

@@ -36,23 +36,15 @@ def painted(geometry: Geometry, fates: Table) -> Geometry:
     """Return a boundary whose walls have the density of the particles that stuck there."""
     if "x1" not in fates:
         return geometry
-    x, stuck = ends_of(fates), fates["fate"] == "stuck"
-    surfaces = (with_density(s, x[stuck & (fates["patch"] == s.name)]) for s in geometry.surfaces)
-    return geometry._replace(surfaces=tuple(surfaces))
+    x, on = ends_of(fates), np.where(fates["fate"] == "stuck", fates["patch"], "")
+    return geometry._replace(surfaces=tuple(with_density(s, x[on == s.name]) for s in geometry.surfaces))
 
 
 def with_density(wall: Surface, x: Floats) -> Surface:
     """Return a wall with the number of particles per area at its points, whose long triangles are divided.
 
     The density is the mean over a circle that holds :data:`_PER_CIRCLE` particles on average; with fewer
-    than :data:`FEW` particles there is none.
-
-    Parameters
-    ----------
-    wall
-        The wall.
-    x
-        Places of the particles, (n, 3), m.
+    than :data:`FEW` particles, which are at ``x``, (n, 3), m, there is none.
     """
     if len(x) < FEW:
         return wall
@@ -60,29 +52,21 @@ def with_density(wall: Surface, x: Floats) -> Surface:
     samples, side = spread_over([wall]), np.sqrt(area)
     radius = side * max(np.sqrt(_PER_CIRCLE / (np.pi * len(x))), _WIDEST / np.sqrt(_SAMPLES))
     tree = cKDTree(samples)
-    whole = pyvista.PolyData.from_regular_faces(wall.points, wall.triangles)
-    fine = whole.subdivide_adaptive(max_edge_len=max(0.7 * radius, _FINEST * side))
+    fine = pyvista.PolyData.from_regular_faces(wall.points, wall.triangles)
+    fine = fine.subdivide_adaptive(max_edge_len=max(0.7 * radius, _FINEST * side))
     points = np.array(fine.points, dtype=np.float64)
     # The centres of the particles are off the wall.
     on_wall = cKDTree(samples[tree.query(x)[1]])
     number, share = (t.query_ball_point(points, radius, return_length=True) for t in (on_wall, tree))
     density = number / (np.maximum(share, 1) * area / len(samples))
-    return wall._replace(
-        points=points, triangles=np.array(fine.regular_faces, dtype=np.int64), density=density
-    )
+    triangles = np.array(fine.regular_faces, dtype=np.int64)
+    return wall._replace(points=points, triangles=triangles, density=density)
 
 
 def ways(geometry: Geometry, starts: Floats, ends: Floats) -> tuple[Floats, float]:
-    """Return the shortest ways along the boundary from the nearest of some places to others.
+    """Return the shortest ways along the boundary from the nearest of some places to others, (n,), m.
 
-    Parameters
-    ----------
-    starts, ends
-        Places, (k, 3) and (n, 3), m.
-
-    Returns
-    -------
-    The lengths of the ways, (n,), and the longest way to any point of the boundary, m.
+    The places are (k, 3) and (n, 3), m. The longest way to any point of the boundary, m, comes with them.
     """
     points = spread_over(geometry.surfaces)
     tree = cKDTree(points)

@@ -16,6 +16,7 @@ from types import MappingProxyType
 from typing import Annotated, Any, Literal, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
+from numpy.random import Generator
 from numpy.typing import NDArray
 
 from foamprb.cloud.communicator import parts_of
@@ -53,9 +54,7 @@ _U0 = Annotated[
     ),
 ]
 
-_CLEARANCE = Annotated[
-    bool, Meaning("bodies appear only where they overlap no wall; other places are drawn anew")
-]
+_CLEARANCE = Annotated[bool, Meaning("bodies appear only where they overlap no wall; others are drawn anew")]
 _LEAVE_OUT = Annotated[bool, Meaning("leave out positions outside the mesh")]
 
 GIVEN: dict[str, Bounds] = {
@@ -111,7 +110,7 @@ def as_drawn(drawn: Drawn, _redraw: Callable[[int], Drawn]) -> Drawn:
 
 
 class Injection(Schema, Protocol):
-    """An injection model; with an entry ``clearance`` its :meth:`places` has an argument ``fit``."""
+    """An injection model."""
 
     @property
     def SOI(self) -> float:
@@ -175,9 +174,7 @@ class PatchInjection(Injection):
     SOI: _SOI = START_OF_FLOW
     clearance: _CLEARANCE = False
 
-    def places(
-        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
-    ) -> Places:
+    def places(self, flow: Flow, random: Generator, _read: ReadPositions, fit: Fit = as_drawn) -> Places:
         """Return random places on the patch, with a density proportional to the flux, at even intervals."""
         SOI = start_of_injection(self, flow)
         n = require_room(
@@ -226,9 +223,7 @@ class PatchFlowRateInjection(Injection):
     SOI: _SOI = START_OF_FLOW
     clearance: _CLEARANCE = False
 
-    def places(
-        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
-    ) -> Places:
+    def places(self, flow: Flow, random: Generator, _read: ReadPositions, fit: Fit = as_drawn) -> Places:
         """Return random places on the patch, as the inflow at the times of release.
 
         Particle k is released when the volume for k + ½ particles has entered.
@@ -315,9 +310,7 @@ class BoxInjection(Injection):
         if any(low > high for low, high in zip(self.min, self.max, strict=True)):
             raise InputError("has a component of min above that of max")
 
-    def places(
-        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
-    ) -> Places:
+    def places(self, flow: Flow, random: Generator, _read: ReadPositions, fit: Fit = as_drawn) -> Places:
         """Return random places in the box; see :func:`_in_mesh`."""
         box = np.array([self.min, self.max])
         return _in_mesh(self, "boxInjection", flow, random, fit, box, lambda x: np.full(len(x), True))
@@ -335,9 +328,7 @@ class SphereInjection(Injection):
     SOI: _SOI = START_OF_FLOW
     clearance: _CLEARANCE = False
 
-    def places(
-        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
-    ) -> Places:
+    def places(self, flow: Flow, random: Generator, _read: ReadPositions, fit: Fit = as_drawn) -> Places:
         """Return random places in the sphere; see :func:`_in_mesh`."""
         o, R = np.array(self.origin), self.radius
         box = np.array([o - R, o + R])
@@ -447,9 +438,7 @@ class CellZoneInjection(Injection):
         if self.selectionMode == "cellZone" and not self.cellZone:
             raise InputError("has no cellZone. Allowed: the name of a zone, or selectionMode all")
 
-    def places(
-        self, flow: Flow, random: np.random.Generator, _read: ReadPositions, fit: Fit = as_drawn
-    ) -> Places:
+    def places(self, flow: Flow, random: Generator, _read: ReadPositions, fit: Fit = as_drawn) -> Places:
         """Return random places in the zone; the number in any part follows its volume, within two.
 
         Places that are drawn anew are independent of each other.

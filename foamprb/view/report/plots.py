@@ -313,14 +313,9 @@ def by_origin(x: Floats, fates: NDArray[np.str_]) -> Plot:
 
 
 def per_length(ways: Mapping[str, Floats], longest: float) -> Plot:
-    """Return the number per length of the particles on walls, over the lengths of their ways.
+    """Return the particles per length over the lengths of their ways, (n,), m, by the names of walls.
 
-    Parameters
-    ----------
-    ways
-        Lengths of ways, (n,), m, by the name of the wall.
-    longest
-        End of the axis, m.
+    The axis ends at the ``longest`` way, m.
     """
     factor, name = readable("m", longest)
     most = max(map(len, ways.values()))
