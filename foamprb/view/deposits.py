@@ -72,7 +72,7 @@ def ways(geometry: Geometry, starts: Floats, ends: Floats) -> tuple[Floats, floa
     tree = cKDTree(points)
     lengths, near = tree.query(points, min(_NEIGHBOURS, len(points)))
     start = np.arange(len(points) + 1) * near.shape[1]
-    graph = csr_matrix((lengths.ravel(), near.ravel(), start), shape=(len(points), len(points)))
+    graph = csr_matrix((np.ravel(lengths), near.ravel(), start), shape=(len(points), len(points)))
     sources = np.unique(tree.query(starts)[1])
     way = dijkstra(graph, directed=False, indices=sources, min_only=True)
     # Obstacles that touch no other boundary are reached from the side.

@@ -152,9 +152,9 @@ class Drawing:
             scale = scene.flowfield.scales[PLANE]
             left = self._bar(*QUANTITIES[PLANE], scale.limits, self.style.plane, left, scale.extremes)
         name, part = scene.colour
-        if scene.painted and (scale := scene.scale_of_deposits):
-            limits, ends = (0.0, scale["high"]), (scale["least"], scale["most"])
-            self._bar("deposits per area", scale["unit"], limits, colour_map(OF_DEPOSITS), left, ends)
+        if scene.painted and (density := scene.scale_of_deposits):
+            limits, ends = (0.0, density["high"]), (density["least"], density["most"])
+            self._bar("deposits per area", density["unit"], limits, colour_map(OF_DEPOSITS), left, ends)
         elif name in scene.bodies.fields:
             field = scene.bodies.fields[name]
             label = f"{field.label}, {part}" if part else field.label

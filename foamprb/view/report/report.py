@@ -304,8 +304,8 @@ def _deposition(report: _Report, drawn: str) -> PageSection | None:
         rows.append((wall.name, n, number(area), number(n / area), largest))
     header = ("wall", "particles", "area [m²]", "mean density [1/m²]", "largest density [1/m²]")
     listed = table("Deposits", header, rows)
-    starts = np.stack([fates[key] for key in ("x0", "y0", "z0")], axis=1) if "x0" in fates else ()
-    if len(starts):
+    if "x0" in fates:
+        starts = np.stack([fates[key] for key in ("x0", "y0", "z0")], axis=1)
         lengths, longest = ways(geometry, starts, ends_of(fates)[stuck])
         along = {wall.name: lengths[here] for wall, here in walls[:_MOST_WALLS]}
         caption = "Particles per length, over the shortest way along the walls from a place of release."
