@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import meshio
 import numpy as np
 import pytest
+import pyvista
+from cgns_writer import write_cgns
 from figures import t_junction
 from paths import ROOT
+from scipy.spatial import cKDTree
 
+from foamprb import Cloud, Medium, Stick, spheres
 from foamprb.cli import main
+from foamprb.cloud.patches import Escape
+from foamprb.cloud.state import Status
+from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.source import FlowSource
 
 pytestmark = pytest.mark.openfoam
 
@@ -74,3 +83,68 @@ def test_deformation_in_the_junction_is_what_tells_them_apart(lines):
     assert (stiff.D < 0.02).all()
     assert (soft.D > 20.0 * stiff.D).all()
     assert (soft.D < 1.0).all()
+
+
+PLACES = 2000
+NAMES = {12: "hexahedron", 10: "tetra"}
+"""Of meshio, by VTK's types of cells."""
+
+
+def velocities(grid, flow, values):
+    """A copy of a grid of cells with U at its cells, or at its points and 0 on walls, as solvers write it."""
+    if values == "cells":
+        return grid
+    mesh = flow.mesh
+    u = np.array(grid.cell_data_to_point_data().point_data["U"])
+    walls = mesh.triangles[mesh.triangle_patch == [patch.name for patch in flow.patches].index("wall")]
+    u[cKDTree(mesh.nodes[np.unique(walls)]).query(grid.points)[0] < 1e-9] = 0.0
+    grid = grid.copy()
+    grid.cell_data.clear()
+    grid.point_data["U"] = u
+    return grid
+
+
+def write(file, grid):
+    """Write a grid with U in the format of the name of the file."""
+    at_cells = "U" in grid.cell_data
+    u = np.array((grid.cell_data if at_cells else grid.point_data)["U"], dtype=float)
+    if file.suffix == ".cgns":
+        write_cgns(file, grid, u)
+    elif file.suffix in (".vtk", ".vtu"):
+        grid.save(file)
+    else:
+        ((vtk_type, cells),) = grid.cells_dict.items()
+        data = {"cell_data": {"U": [u]}} if at_cells else {"point_data": {"U": u}}
+        mesh = meshio.Mesh(np.array(grid.points), [(NAMES[vtk_type], cells)], **data)
+        mesh.write(file, **({"file_format": "gmsh22"} if file.suffix == ".msh" else {}))
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("values", ["cells", "points"])
+@pytest.mark.parametrize("shape", ["hexahedra", "tetrahedra"])
+def test_tracers_stick_to_no_wall_of_any_file(job, live, tmp_path, shape, values):
+    """From the same places over the inlet; 140 and more stuck where walls of files let the flow through."""
+    (live / "case.foam").touch()
+    reader = pyvista.OpenFOAMReader(live / "case.foam")
+    reader.set_active_time_value(reader.time_values[-1])
+    reader.cell_to_point_creation = False
+    grid, flow = reader.read()["internalMesh"], job.cloud.flow
+    grid = velocities(grid if shape == "hexahedra" else grid.triangulate(), flow, values)
+    faces, random = flow.patch_faces("inlet", 0.0), np.random.default_rng(1)
+    flux = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0).mean(axis=1) * faces.areas
+    rows = random.choice(len(flux), PLACES, p=flux / flux.sum())
+    x = np.einsum("nk,nki->ni", random.dirichlet(np.ones(3), PLACES), faces.vertices[rows])
+    x += 1e-9 * faces.normals[rows]
+    for ending in ("vtu", "vtk", "msh", "xdmf", "cgns"):
+        file = tmp_path / f"flow.{ending}"
+        write(file, grid)
+        name = "Velocity" if ending == "cgns" else "U"
+        of_file = read_flow(live, "latestTime", FlowSource(file=file, velocity=name))
+        acts = [Stick() if patch.type == "wall" else Escape() for patch in of_file.patches]
+        medium = Medium(0.1, 1000.0, (0.0, 0.0, 0.0))
+        cloud = Cloud(spheres(x, d=1e-8, rho=1000.0, mu=1e3), of_file, medium, acts, 1e-3)
+        cloud.advance(400)
+        counts = cloud.particles.counts()
+        assert counts[Status.STUCK] <= 3, ending
+        assert counts[Status.ESCAPED] > 0.95 * PLACES, ending
+        assert counts[Status.FAILED] == 0, ending
