@@ -21,7 +21,7 @@ def cgns(parent, name, label, data=None):
 
 
 def write_cgns(path, shape, u):
-    """Write hexahedra or tetrahedra with velocities at their cells, or if there are as many, at their points."""
+    """Write hexahedra or tetrahedra with velocities at their cells, or at their points if u has as many."""
     (vtk_type, cells), at_cells = *shape.cells_dict.items(), len(u) == shape.n_cells
     cells = cells.astype(np.int32) + 1
     counts = np.array([[shape.n_points], [shape.n_cells], [0]], np.int32)

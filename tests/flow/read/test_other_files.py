@@ -11,6 +11,7 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
+from cgns_writer import cgns, write_cgns
 from mesh_shapes import block, pipe
 
 from foamprb.errors import InputError
