@@ -26,7 +26,7 @@ from foamprb.flow.base import Caveat, Floats, Patch, PatchFaces
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.case import is_only_decomposed, regions
-from foamprb.flow.read.caveats import is_unsteady, pseudo_time, turbulence_fields
+from foamprb.flow.read.caveats import MOVING, is_unsteady, pseudo_time, turbulence_fields
 from foamprb.flow.read.describe import size_of
 from foamprb.flow.read.flows import check_region, open_case, read_flow
 from foamprb.flow.read.fluid import (
@@ -137,8 +137,11 @@ def write_template(case: Path, source: FlowSource | None = None, output: Path | 
 
 def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     """Return the text of a dictionary for the flow of a case, and log the notes of the flow."""
+    followed = _moving_times(case, flow, source)
     for note in flow.notes:
-        if isinstance(note, Caveat) or source.file:
+        if followed and isinstance(note, Caveat) and note.fault == MOVING:
+            log.info("    The mesh moves: the run follows it from time %s to %s.", followed[0], followed[-1])
+        elif isinstance(note, Caveat) or source.file:
             log.log(logging.WARNING if isinstance(note, Caveat) else logging.INFO, "%s", note)
     log.info("    %s", size_of(*flow.bounds, source.file is not None))
     scales = scales_of(flow)
@@ -154,7 +157,11 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     rotating = _rotating(case, flow, source)
     d = diameter(scales, fluid.nu or math.inf, rho0 / fluid.rho if fluid.rho and len(rotating) > 1 else 0.0)
     step, interval, end = times(scales)
+    if followed:
+        end, span = float(followed[-1]), float(followed[-1]) - float(followed[0])
+        interval = step * _nice(max(1.0, span / step / _TIMES), up=True)
     paths = rates_on_paths(flow, scales, 0.5 * d) if scales.speed > 0.0 else None
+    changes = rotating or _transient(case, source, followed)
     scale = [f"scale {source.scale:g}; // {_said('solution', 'scale')}"] if source.scale else []
     text = f"""\
 // Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{source.options}.
@@ -172,7 +179,7 @@ solution
     deltaT {step:g}; // {_said("solution", "deltaT", "a fifth of a cell in the flow")}
     endTime {end:g}; // {_said("solution", "endTime")}
     writeInterval {interval:g}; // {_said("solution", "writeInterval")}
-{_lines([*scale, *_faults(flow), *(rotating or _transient(case, source)), *fluid.options])}}}
+{_lines([*scale, *_faults(flow, followed), *changes, *fluid.options])}}}
 
 constantProperties
 {{
@@ -627,22 +634,39 @@ def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     return [f"dispersionModel none; // or stochasticDispersionRAS: {' and '.join(fields)} are available", ""]
 
 
-def _faults(flow: MeshFlow) -> list[str]:
-    """Return a hint if a flow has faults with which a run ends."""
+def _moving_times(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
+    """Return the names of the times of a mesh that moves, if a run can follow it."""
+    faults = [note.fault for note in flow.notes if isinstance(note, Caveat)]
+    names, unread = _written(case, source) if MOVING in faults else ([], [])
+    return [] if unread or len(names) < 2 else names
+
+
+def _faults(flow: MeshFlow, followed: Sequence[str]) -> list[str]:
+    """Return a hint if a flow has faults with which a run ends; a motion that is followed is none."""
     caveats = [note for note in flow.notes if isinstance(note, Caveat) and note.fault]
+    caveats = [note for note in caveats if not (followed and note.fault == MOVING)]
     faults = " ".join(dict.fromkeys(caveat.fault for caveat in caveats))
     return [f"// accept ( {faults} ); // to go on, although {caveats[0].split(':')[0]}"] if caveats else []
 
 
-def _transient(case: Path, source: FlowSource) -> list[str]:
-    """Return a hint if the flow was written at several times."""
+def _written(case: Path, source: FlowSource) -> tuple[list[str], list[str]]:
+    """Return the names of the times after 0 of a case, and why they are no transient flow; none of a file."""
+    if source.file is not None:
+        return [], []
     try:
         names, notes = transient_times(open_case(case, source), None, source.velocity)
     except InputError:
-        return []
-    names = [name for name in names if float(name) > 0.0]
+        return [], []
     faults = [note.split(":")[0] for note in notes if isinstance(note, Caveat) and note.fault]
-    if source.file is not None or len(names) < 2:
+    return [name for name in names if float(name) > 0.0], faults
+
+
+def _transient(case: Path, source: FlowSource, followed: Sequence[str]) -> list[str]:
+    """Return the entry of a transient flow, as a hint unless the mesh moves."""
+    if followed:
+        return [f"transient true; // the mesh moves, times {followed[0]} to {followed[-1]}"]
+    names, faults = _written(case, source)
+    if len(names) < 2:
         return []
     return [f"// no transient flow: {fault}" for fault in faults] or [
         f"// transient       true;   // transient flow, times {names[0]} to {names[-1]}; default: the latest"

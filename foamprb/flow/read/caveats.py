@@ -29,6 +29,8 @@ log = logging.getLogger("foamprb")
 
 _PSEUDO = ("steadyState", "localEuler", "CoEuler", "SLTS")
 """Schemes of ``ddtSchemes`` by which a time is an iteration, with a step of its own in each cell or none."""
+MOVING = "movingMesh"
+"""Fault of a flow of one time whose mesh moves."""
 _AT_REST = frozenset({"staticFvMesh", "dynamicRefineFvMesh"})
 """Types of meshes whose points keep their places."""
 _LEAST_DIFFERENCE = 0.05
@@ -326,7 +328,7 @@ def _moving(case: Path, region: str, folder: Path) -> Iterator[Caveat]:
         yield Caveat(
             f"the mesh moves ({kind}), but is read at one time: it stands still, and particles meet its "
             "walls where they are at this time.",
-            "movingMesh",
+            MOVING,
         )
 
 

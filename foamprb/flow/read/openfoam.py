@@ -38,6 +38,7 @@ from foamprb.flow.read.case import (
     select_times,
 )
 from foamprb.flow.read.caveats import (
+    MOVING,
     balanced,
     balanced_in_time,
     caveat_of_flux,
@@ -285,7 +286,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
         uniform = bool((cells == cells[0]).all())
         notes.append(Caveat(f"{initial}; it is uniform. Run the solver first.") if uniform else f"{initial}.")
     caveats = _caveats(case, name, source, relative=bool(rotations))
-    if unsteady and all(caveat.fault != "movingMesh" for caveat in caveats):
+    if unsteady and all(caveat.fault != MOVING for caveat in caveats):
         caveats += _instant(case, name, source.velocity, cells, whole.mesh)
     notes += caveats
     notes += flux
