@@ -39,3 +39,18 @@ def test_pores_open_next_to_the_wall_only(scratch: Path) -> None:
     assert 0.0 < np.mean(later > 0.0) < 0.02
     assert np.min(at_once) > 0.0
     assert 1e4 < np.mean(at_once) / np.mean(later) < 1e7
+
+
+def test_cells_that_the_rotor_shears_are_damaged(scratch: Path) -> None:
+    """Nobody sticks or is lost, and blades at 4.2 m/s shear the fluid by 1e4 1/s and more."""
+    pictures = execute(ROOT / "docs/tutorials/rotor.md", scratch)
+    assert [picture.name for picture in pictures] == ["rotor.png"]
+    run = foamprb.open_run(".")
+    fates = run.table()
+    assert (fates["fate"] == "active").all()
+    assert 50.0 < np.max(fates["maxShearStress"]) < 500.0
+    assert 0.05 < np.quantile(fates["maxD"], 0.99) < 0.3
+    near = np.hypot(fates["x0"], fates["y0"]) < 1.2e-3
+    for name in ("powerLaw", "pores"):
+        damage = run.table(f"{name}/haemolysis")["haemolysis"]
+        assert np.mean(damage[near]) > 5.0 * np.mean(damage[~near])

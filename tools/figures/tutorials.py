@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = ("openfoam", "blood")
+PAGES = ("openfoam", "blood", "rotor")
 
 
 def steps(page: Path) -> list[tuple[str, str, str]]:
@@ -31,17 +31,18 @@ def edit(file: Path, text: str) -> None:
     file.write_text(content)
 
 
-def command(words: list[str]) -> None:
-    """Execute a command of the shell; foamprb in this process, which has loaded it."""
+def command(line: str) -> None:
+    """Execute a line of the shell; foamprb in this process, which has loaded it."""
+    words = shlex.split(line, comments=True)
     if words[0] == "cd":
         os.chdir(words[1])
     elif words[0] == "foamprb":
         from foamprb.cli import main as foamprb
 
         if foamprb(words[1:]) != 0:
-            raise SystemExit(f"{shlex.join(words)} failed")
+            raise SystemExit(f"{line} failed")
     else:
-        done = subprocess.run(shlex.join(words).replace("'", ""), shell=True, capture_output=True, text=True)
+        done = subprocess.run(line, shell=True, capture_output=True, text=True)
         if done.returncode != 0:
             raise SystemExit(done.stdout + done.stderr)
 
@@ -59,7 +60,7 @@ def execute(page: Path, folder: Path, left_out: tuple[str, ...] = ()) -> list[Pa
         if language == "sh":
             for line in text.splitlines():
                 if line not in left_out:
-                    command(shlex.split(line, comments=True))
+                    command(line)
         elif language == "python":
             exec(compile(text, page, "exec"), {"__name__": "__main__"})
         elif kind == "edit":
