@@ -361,3 +361,22 @@ def wedge_patches(shape, angle=5.0):
         return "ends" if min(x[2], 1.0 - x[2]) < 1e-9 else "wall"
 
     return boundary(shape, name, {"front": "wedge", "back": "wedge", "ends": "patch", "wall": "wall"})
+
+
+SIDES = {"left": "wall", "right": "wall", "bottom": "wall", "top": "wall", "sides": "empty"}
+
+
+def layer(x, y, n, m, **types):
+    """A rectangle, one cell thick, with n by m cells, and the types of its patches."""
+    points = np.stack(np.meshgrid(np.linspace(*x, n + 1), np.linspace(*y, m + 1), [0.0, 0.1]), axis=-1)
+    points = points.transpose(2, 0, 1, 3).reshape(-1, 3)
+    j, i = np.divmod(np.arange(n * m), n)
+    a = i + (n + 1) * j
+    base = np.stack([a, a + 1, a + n + 2, a + n + 1], axis=1)
+    shape = grid(points, [(12, np.concatenate([base, base + (n + 1) * (m + 1)], axis=1))])
+
+    def name(c):
+        near = np.abs([c[0] - x[0], c[0] - x[1], c[1] - y[0], c[1] - y[1]]) < 1e-9
+        return [*SIDES][near.argmax() if near.any() else 4]
+
+    return build_mesh(shape, boundary(shape, name, {**SIDES, **types}))

@@ -347,6 +347,8 @@ def _link_once(function: Function, linkage: _Linkage, role: Role, called: str, a
             text = f"{name}={value!r}"
         elif isinstance(value, type) and issubclass(value, tuple):
             text = f"{name}={getattr(value, '_fields', '')}"
+        elif hasattr(value, "item_names"):
+            text = _register_stand_in(value)
         described.append(Keys(text, text))
     keys = Keys(*map(key_of, zip(*described, strict=True)))
     if keys.full not in _dispatchers:
@@ -362,6 +364,15 @@ def _link_once(function: Function, linkage: _Linkage, role: Role, called: str, a
             allocating(clone)
         _dispatchers[keys.full] = _compile(clone, role, keys, linkage.named)
     return Part(_dispatchers[keys.full], keys._replace(outside=key_of([called])) if called else keys)
+
+
+def _register_stand_in(cls: Any) -> str:
+    """Let compiled code make a class of :func:`~foamprb.compile.record.stand_in`; return its code."""
+    from foamprb.compile.record_type import register_stand_in
+
+    register_stand_in(cls)
+    item = getattr(cls, "item", None)
+    return f"{cls.item_names} {_fingerprint(item.__code__).hex() if item else ''}"
 
 
 def key_of(texts: Iterable[str]) -> str:

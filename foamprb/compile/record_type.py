@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import operator
 import struct
 from collections.abc import Callable
 from typing import Any
@@ -17,11 +18,12 @@ import numpy as np
 from llvmlite import ir  # type: ignore[import-untyped]
 from numba import typeof, types
 from numba.core import cgutils
-from numba.core.typing.templates import AttributeTemplate
+from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_global, signature
 from numba.extending import (
     NativeValue,
     infer_getattr,
     intrinsic,
+    lower_builtin,
     lower_getattr_generic,
     models,
     register_model,
@@ -42,6 +44,81 @@ def register_records() -> None:
         if cls not in _registered:
             _registered.add(cls)
             typeof_impl.register(cls)(_typeof_record)
+
+
+@functools.cache
+def register_stand_in(cls: Any) -> None:
+    """Make numba use a class of :func:`~foamprb.compile.record.stand_in`."""
+
+    class Template(AbstractTemplate):  # type: ignore[misc]
+        def generic(self, items: Any, _kws: Any) -> Any:
+            return signature(StandInType(cls, items), *items)
+
+    infer_global(cls)(Template)
+    lower_builtin(cls, types.VarArg(types.Any))(_made)
+
+
+class StandInType(types.Type):  # type: ignore[misc]
+    """Object that stands in for a record, or for a table, with items of these types."""
+
+    def __init__(self, cls: type[Any], items: tuple[types.Type, ...]) -> None:
+        self.cls, self.items = cls, dict(zip(cls.item_names, items, strict=True))
+        code = getattr(getattr(cls, "item", None), "__code__", None)
+        content = repr((cls.__module__, *self.items.items(), code and (code.co_code, code.co_consts)))
+        super().__init__(name=f"{cls.__name__}_{hashlib.sha256(content.encode()).hexdigest()[:12]}")
+
+
+@register_model(StandInType)
+class _StandInModel(models.StructModel):  # type: ignore[misc]
+    """Its items."""
+
+    def __init__(self, manager: Any, kind: StandInType) -> None:
+        super().__init__(manager, kind, list(kind.items.items()))
+
+
+def _made(context: Any, builder: Any, made: Any, values: Any) -> Any:
+    """Return a new object."""
+    new = cgutils.create_struct_proxy(made.return_type)(context, builder)
+    for name, value, given, kind in zip(
+        made.return_type.items, values, made.args, made.return_type.items.values(), strict=True
+    ):
+        setattr(new, name, context.cast(builder, value, given, kind))
+    return new._getvalue()
+
+
+@infer_getattr
+class _StandInItems(AttributeTemplate):  # type: ignore[misc]
+    key = StandInType
+
+    def generic_resolve(self, kind: StandInType, name: str) -> types.Type | None:
+        """Return the type of an item, or of one of its base."""
+        base = kind.items.get("base")
+        return kind.items.get(name) or (None if base is None else base.items.get(name))
+
+
+@lower_getattr_generic(StandInType)  # type: ignore[untyped-decorator]
+def _read_stand_in(context: Any, builder: Any, kind: StandInType, value: Any, name: str) -> Any:
+    items = cgutils.create_struct_proxy(kind)(context, builder, value)
+    if name in kind.items:
+        return getattr(items, name)
+    return read_item(context, builder, kind.items["base"], items.base, name)
+
+
+@infer_global(operator.getitem)
+class _Element(AbstractTemplate):  # type: ignore[misc]
+    def generic(self, args: Any, _kws: Any) -> Any:
+        """Return the types of an element of a stand-in for a table."""
+        if isinstance(args[0], StandInType):
+            return signature(types.float64, args[0], types.UniTuple(types.int64, 2))
+        return None
+
+
+@lower_builtin(operator.getitem, StandInType, types.BaseTuple)  # type: ignore[untyped-decorator]
+def _read_element(context: Any, builder: Any, asked: Any, values: Any) -> Any:
+    table, place = values
+    i, j = (builder.extract_value(place, k) for k in range(2))
+    made = types.float64(asked.args[0], types.int64, types.int64)
+    return context.compile_internal(builder, asked.args[0].cls.item, made, (table, i, j))
 
 
 class RecordType(types.Type):  # type: ignore[misc]

@@ -115,7 +115,8 @@ class Conservation:
         l: Floats,
         mass: Mass | None = CONSTANT,
         where: object = "flow",
-        frame: tuple[Floats, Floats, float] | None = None,
+        frame: tuple[Floats, Floats] | None = None,
+        fastest: float = 0.0,
     ) -> Floats:
         """Return the flux out of the owner of each face, (n_faces,), m³/s.
 
@@ -129,8 +130,10 @@ class Conservation:
         where
             Source of the velocity, for the message.
         frame
-            Velocity and its gradient at the nodes of frames in which the mesh is at rest, and their largest
-            speed at any time, m/s: the fluxes are relative to them. A frame keeps volume.
+            Velocity and its gradient at the nodes of frames in which the mesh is at rest: the fluxes are
+            relative to them. A frame keeps volume.
+        fastest
+            Largest speed of the mesh at any time, m/s, against which velocities are small.
 
         Raises
         ------
@@ -147,9 +150,9 @@ class Conservation:
         share(len(fluxes), faces)
         if not np.isfinite(fluxes).all():
             raise UnbalancedFlowError(f"the velocity of {where} is not finite at some nodes of the mesh.")
-        carried, fastest = np.zeros(self.n_faces), 0.0
+        carried = np.zeros(self.n_faces)
         if frame is not None:
-            of_frame, fastest = at._replace(u=frame[0], l=frame[1].reshape(-1, 9)), frame[2]
+            of_frame = at._replace(u=frame[0], l=frame[1].reshape(-1, 9))
             share(self.n_faces, lambda low, high: integrate(low, high, of_frame, sides, carried))
             fluxes -= carried
         outer = fluxes[mesh.n_internal :]

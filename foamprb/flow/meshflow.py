@@ -60,15 +60,14 @@ def shortest_extent(mesh: Mesh) -> float:
     return float(extents[areas > _FACING * areas.sum()].min(initial=np.inf))
 
 
-def _folds(mesh: Mesh, nodes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], Ints, Ints]:
-    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
+def _folds(mesh: Mesh, nodes: Floats, tree: Tree, boxes: Floats) -> tuple[NDArray[np.uint8], Ints, Ints]:
+    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`, by a tree over boxes of cells."""
     folds = np.zeros(mesh.n_cells, dtype=np.uint8)
     folded = np.empty((mesh.inverted, 6))
     n = link(grade)(nodes, mesh.tets, mesh.n_points, folds, folded)
     folded = folded[:n]
     start, rim = np.zeros(mesh.n_cells + 1, dtype=np.int32), np.empty(0, dtype=np.int32)
     if len(folded) > 0:
-        boxes = cell_boxes(mesh)
         folds[np.diff(pairs_near(boxes, tree, folded)[0]) > 0] = FOLDED
         corners = mesh.points[mesh.triangles]
         targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
@@ -164,7 +163,8 @@ class MeshFlow:
             )
         self.bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
         self.width = shortest_extent(mesh)
-        tree = build_tree(cell_boxes(mesh))
+        boxes = cell_boxes(mesh)
+        tree = build_tree(boxes)
         nodes = np.empty((mesh.n_points + mesh.n_cells, VELOCITY if u is None or l is None else 16))
         if u is not None and l is not None:
             nodes[:, VELOCITY:GRADIENT], nodes[:, GRADIENT:] = u, l.reshape(-1, 9)
@@ -172,7 +172,7 @@ class MeshFlow:
         nodes[:, FREE] = free_nodes(mesh)
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
-        folds, rim_start, rim = _folds(mesh, nodes, tree)
+        folds, rim_start, rim = _folds(mesh, nodes, tree, boxes)
         across, partners = triangles_across(mesh)
         self._arrays = no_mesh()._replace(
             nodes=nodes,

@@ -1,8 +1,8 @@
-"""Motion of the rigid pieces of a mesh: their poses at the times of a flow, and fields in their frames."""
+"""Motion of a mesh: poses of rigid pieces at the times of a flow, or the velocities of nodes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.patches import PatchKind
 
-_NEAR = 5
+_NEAR = 7
 """Number of times from which a rate follows: the polynomial through them is derived."""
 
 
@@ -48,13 +49,16 @@ class Motion(NamedTuple):
         v: Floats = self.velocity[index, pieces] + np.cross(self.omega[index, pieces], arm)
         return v
 
-    def frame(self, index: int, mesh: Mesh) -> tuple[Floats, Floats, float]:
-        """Return the velocity of the pieces at the nodes, its gradient, and the top speed at all times."""
+    def frame(self, index: int, mesh: Mesh) -> tuple[Floats, Floats]:
+        """Return the velocity of the pieces at the nodes, and its gradient."""
         pieces = self.nodes(mesh)
+        return self.speed(index, mesh.nodes, pieces), spins(self.omega[index])[pieces]
+
+    def fastest(self, mesh: Mesh) -> float:
+        """Return the largest speed of the mesh at any time, m/s."""
         size = float(np.ptp(mesh.points, axis=0).max())
         top = np.linalg.norm(self.velocity, axis=2) + size * np.linalg.norm(self.omega, axis=2)
-        w = self.speed(index, mesh.nodes, pieces)
-        return w, spins(self.omega[index])[pieces], float(top.max())
+        return float(top.max())
 
     def in_frames(self, index: int, mesh: Mesh, u: Floats, l: Floats) -> tuple[Floats, Floats]:
         """Return vectors and tensors at the nodes in components of the frames of their pieces."""
@@ -67,6 +71,59 @@ class Motion(NamedTuple):
         sums = [np.bincount(self.piece, mesh.volumes * cells[:, i]) for i in range(3)]
         means: Floats = np.stack(sums, axis=1) / volumes[:, None]
         return means
+
+
+_SMOOTH = 0.9
+"""Least length of the mean of unit normals at a node of a wall that is smooth there."""
+_LIKE = 0.1
+"""Largest difference between velocities of fluid and mesh across a wall, over that of the mesh."""
+
+
+class Deformation(NamedTuple):
+    """Motion of the n_points points of a mesh that deforms, given at n times."""
+
+    times: tuple[float, ...]
+    period: float | None
+    ways: Floats
+    """(n − 1,) the largest way of a point from each time to the next, m."""
+    rows: NDArray[np.int32]
+    """(n_points,) row of each point on walls and openings in ``past``, −1 for others."""
+    past: Floats
+    """(n, n_rows, 6) places, m, and velocities, m/s."""
+
+    def fastest(self, mesh: Mesh) -> float:  # noqa: ARG002
+        """Return the largest speed of the mesh at any time, m/s."""
+        return float((self.ways / np.diff(self.times)).max())
+
+    def rates(self, index: int, places: Callable[[int], Floats]) -> Floats:
+        """Return the rates of places at the time of an index, by those at up to five times."""
+        n, period = len(self.times), self.period
+        near: Sequence[int] = nearest_times(n, index)
+        if period is not None:
+            near = range(index - _NEAR // 2, index + _NEAR // 2 + 1)
+        times = [self.times[k % n] + k // n * (period or 0.0) for k in near]
+        return rates_of(times, np.stack([places(k % n) for k in near]), index - near[0])
+
+
+def match_walls(mesh: Mesh, u: Floats, w: Floats) -> None:
+    """Let velocities of fluid and mesh, u and w (n_nodes, 3), be the same across walls, in place.
+
+    It is that of the fluid, which the solver has at the time itself, unless both differ much. Along an edge
+    between walls the fluid has the velocity of the mesh.
+    """
+    walls = np.array([patch.kind is PatchKind.WALL for patch in mesh.patches], dtype=bool)
+    some = walls[mesh.triangle_patch]
+    nodes, of = np.unique(mesh.triangles[some], return_inverse=True)
+    normals, counts = np.zeros((len(nodes), 3)), np.bincount(of.ravel())
+    np.add.at(normals, of.ravel(), np.repeat(mesh.triangle_normals[some], 3, axis=0))
+    length = np.linalg.norm(normals, axis=1)
+    normals /= np.maximum(length, 1e-300)[:, None]
+    lack = u[nodes] - w[nodes]
+    across = np.einsum("ni,ni->n", normals, lack)
+    smooth, near = length > _SMOOTH * counts, np.abs(across) <= _LIKE * np.linalg.norm(w[nodes], axis=1)
+    along = normals * across[:, None]
+    w[nodes] += np.where((smooth & near)[:, None], along, 0.0)
+    u[nodes] -= np.where(smooth[:, None], np.where(near[:, None], 0.0, along), lack)
 
 
 def spins(omega: Floats) -> Floats:

@@ -149,7 +149,7 @@ def _interval(flow: MovingArrays, t: float) -> tuple[int, float, float]:
     return (flow.level + k) % flow.poses.shape[0], (t - start) / length, length
 
 
-def _any_interval(flow: MovingArrays, t: float) -> tuple[int, float, float]:
+def _any_interval(flow: Any, t: float) -> tuple[int, float, float]:
     """Return the same of any time of the flow."""
     n, whole = flow.starts.shape[0], flow.end - flow.starts[0]
     if t > flow.end:
@@ -463,7 +463,30 @@ def curvature(flow: MovingArrays, host: int, x: Vector, t: float) -> Curvature:
     )  # fmt: skip
 
 
-class MovingFlow(SeriesFlow):
+class MovingMeshFlow(SeriesFlow):
+    """Flow given at several times on a mesh that moves."""
+
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
+        """See :meth:`SeriesFlow.sample`."""
+        self.load(t, t)
+        return sample_with(self.kernels["sample"], self.arrays(), points, hosts, t)
+
+    def locate(self, points: Floats, t: ArrayLike | None = None) -> Ints:
+        """Return the hosts (n,) of points (n, 3) at times t, s, by default the first; −1 outside."""
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        times = np.broadcast_to(np.asarray(self.times[0] if t is None else t, dtype=float), len(points))
+        hosts = np.empty(len(points), dtype=np.int32)
+        for time in np.unique(times):
+            self.load(time, time)
+            rows = np.flatnonzero(times == time)
+            found = np.empty(len(rows), dtype=np.int32)
+            locate_all, flow = linked_with(self.kernels, self.arrays(), _locate_all)
+            locate_all(flow, points[rows], float(time), found)
+            hosts[rows] = found
+        return hosts
+
+
+class MovingFlow(MovingMeshFlow):
     """Flow given at several times on a mesh of rigid pieces that move.
 
     Parameters
@@ -502,16 +525,18 @@ class MovingFlow(SeriesFlow):
         nodes, pieces = mesh.nodes, motion.nodes(mesh)
         low, size = nodes.min(axis=0), float(np.ptp(nodes, axis=0).max())
         self._pitch, self._low = _APART * size, float(low[0]) - 0.5 * (_APART - 1.0) * size
-        self._apart = _apart(mesh, motion.piece, pieces, self._pitch)
-        super().__init__(self._apart, *given, **options)
+        super().__init__(_apart(mesh, motion.piece, pieces, self._pitch), *given, **options)
+        self._apart, couplings, owner = self.mesh, mesh.couplings, mesh.owner[mesh.n_internal :]
+        if self._division is not None:
+            mesh = _apart(self.mesh, motion.piece, motion.nodes(self.mesh), -self._pitch)
         self.mesh, self.bounds, self.width = mesh, (low, nodes.max(axis=0)), shortest_extent(mesh)
         self._rows = np.array([self._poses(i) for i in range(len(motion.turns))])
-        owner = mesh.owner[mesh.n_internal :]
         self._beyond = np.full(len(mesh.patches), -1, dtype=np.int32)
-        for c in mesh.couplings:
+        for c in couplings:
             if len(c.faces) and (motion.piece[owner[c.faces]] != motion.piece[owner[c.partners]]).any():
                 self._beyond[c.patch] = c.other
-        self._tree = _tree_of(self._apart, np.flatnonzero(self._beyond[mesh.triangle_patch] >= 0))
+        between = np.flatnonzero(self._beyond[self._apart.triangle_patch] >= 0)
+        self._tree = _tree_of(self._apart, between)
 
     @staticmethod
     def nothing() -> MovingArrays:  # type: ignore[override]
@@ -589,25 +614,6 @@ class MovingFlow(SeriesFlow):
     def traits(self) -> Mapping[str, ArrayLike]:
         """See :meth:`SeriesFlow.traits`; with the first pose."""
         return {**super().traits(), "poses": self._rows[0, :, :_MEANS]}
-
-    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        """See :meth:`SeriesFlow.sample`."""
-        self.load(t, t)
-        return sample_with(sample, self.arrays(), points, hosts, t)
-
-    def locate(self, points: Floats, t: ArrayLike | None = None) -> Ints:
-        """Return the hosts (n,) of points (n, 3) at times t, s, by default the first; −1 outside."""
-        points = np.ascontiguousarray(points, dtype=np.float64)
-        times = np.broadcast_to(np.asarray(self.times[0] if t is None else t, dtype=float), len(points))
-        hosts = np.empty(len(points), dtype=np.int32)
-        for time in np.unique(times):
-            self.load(time, time)
-            rows = np.flatnonzero(times == time)
-            found = np.empty(len(rows), dtype=np.int32)
-            locate_all, flow = linked_with({"recover": recover}, self.arrays(), _locate_all)
-            locate_all(flow, points[rows], float(time), found)
-            hosts[rows] = found
-        return hosts
 
     def moved(self, x: Floats, pieces: NDArray[np.int64], t: float) -> Floats:
         """Return places (n, 3) of the first time, m, moved with their pieces (n,) to the time t, s."""

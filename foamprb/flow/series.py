@@ -270,6 +270,8 @@ class SeriesFlow(Timeline, MeshFlow):
         "viscosity": viscosity,
         "cell_volume": cell_volume,
     }
+    around = 2
+    """Number of times to load for each interval, if there are so many."""
 
     def __init__(
         self,
@@ -300,7 +302,7 @@ class SeriesFlow(Timeline, MeshFlow):
         self._curvatures = np.empty((0, nodes if curved else 0, 18), dtype=np.float32)
         self._in_memory: dict[int, int] = {}
         """Row in ``_fields`` of each loaded time by its index, the least recently used first."""
-        self._levels = range(0)
+        self._levels = self._inner = range(0)
         self._sums: dict[int, Floats] = {}
         """Sums over the fields at some loaded times, by their indices."""
         self._reader = ThreadPoolExecutor(1, "foamprb-read")
@@ -322,7 +324,15 @@ class SeriesFlow(Timeline, MeshFlow):
         -------
         The last of these times, s.
         """
-        self._levels = self._levels_for(start, end)
+        self._inner = self._levels_for(start, end)
+        first, last = self._inner[0], self._inner[-1]
+        for extra in range(self.around - 2):
+            # On both sides in turn, on the other one at the ends of the flow.
+            if self._is_level(last + 1) and (extra % 2 or not self._is_level(first - 1)):
+                last += 1
+            elif self._is_level(first - 1):
+                first -= 1
+        self._levels = range(first, last + 1)
         wanted = [self._index(level) for level in self._levels]
         self._make_room(wanted)
         for index in wanted:
@@ -330,7 +340,7 @@ class SeriesFlow(Timeline, MeshFlow):
         following = self._levels[-1] + 1
         if self._is_level(following) and self._index(following) not in self._in_memory:
             self._prefetch(self._index(following))
-        return self._time_of(self._levels[-1])
+        return self._time_of(self._inner[-1])
 
     def arrays(  # type: ignore[override]
         self,

@@ -254,12 +254,44 @@ def correction_at(
     """
     if correction.shape[0] == 0:
         return 0.0, 0.0, 0.0
-    a, b, c, d = nodes_of(flow, host)
-    at, nodes = np.uint64(row), flow.nodes
+    q = fluxes_of(flow, correction, row, phi, first_face, f, k, first, host)
+    return correction_by(flow, q, f, k, first, host, w, sides, s)
+
+
+def fluxes_of(
+    flow: MeshArrays,
+    correction: NDArray[np.float32],
+    row: int,
+    phi: Floats,
+    first_face: int,
+    f: Floats,
+    k: int,
+    first: int,
+    host: int,
+) -> Weights:
+    """Return the additional fluxes through the sides of a host; see :func:`correction_at`."""
+    at = np.uint64(row)
     if not is_stored(correction, at):
         correct_cell(flow, correction, row, phi, first_face, f, k, first, host)
-    qa, qb = stored(correction, at, 0), stored(correction, at, 1)
-    qc, qd = stored(correction, at, 2), stored(correction, at, 3)
+    return (
+        stored(correction, at, 0), stored(correction, at, 1),
+        stored(correction, at, 2), stored(correction, at, 3),
+    )  # fmt: skip
+
+
+def correction_by(
+    flow: MeshArrays,
+    fluxes: Weights,
+    f: Floats,
+    k: int,
+    first: int,
+    host: int,
+    w: Weights,
+    sides: tuple[Vector, Vector, Vector],
+    s: float,
+) -> Vector:
+    """Return the correction by the additional fluxes of a host; see :func:`correction_at`."""
+    (a, b, c, d), nodes, (qa, qb, qc, qd) = nodes_of(flow, host), flow.nodes, fluxes
     free = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
     fa, fb, fc, fd = abs(free[0]), abs(free[1]), abs(free[2]), abs(free[3])
     q, count, flat = qa + qb + qc + qd, fa + fb + fc + fd, flow.layer.shape[0] > 0

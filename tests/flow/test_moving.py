@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from foam_writer import write_case
-from mesh_shapes import block, box_patches, rings
+from mesh_shapes import block, box_patches, layer, rings
 from scipy.spatial.transform import Rotation
 
 from foamprb import Cloud, Medium, Rebound, Status, Stick, spheres
-from foamprb.cloud.patches import Cyclic
+from foamprb.cloud.patches import Cyclic, Mirror
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.moving import MovingFlow
@@ -30,11 +30,11 @@ def no_walls(_index, cells):
     """No wall shows how fast a piece turns."""
 
 
-def moved_by(mesh, motion, u, l=None, period=None):
+def moved_by(mesh, motion, u, l=None, period=None, times=TIMES):
     """Return the flow u(x, t), with the gradient l, on a mesh that ``motion(points, t)`` moves."""
-    t = [float(name) for name in TIMES]
+    t = [float(name) for name in times]
     fit = rigid_motion(
-        Path("case"), TIMES, lambda name: motion(mesh.points, float(name)), mesh, {}, no_walls, period
+        Path("case"), times, lambda name: motion(mesh.points, float(name)), mesh, {}, no_walls, period
     )
     means = {}
 
@@ -42,7 +42,7 @@ def moved_by(mesh, motion, u, l=None, period=None):
         x = np.einsum("nij,nj->ni", fit.Q[index, fit.nodes(mesh)], mesh.nodes - fit.c[fit.nodes(mesh)])
         x += fit.y[index, fit.nodes(mesh)]
         gradient = np.zeros((3, 3)) if l is None else l
-        _, W, _ = fit.frame(index, mesh)
+        _, W = fit.frame(index, mesh)
         means[index] = fit.means(mesh, u(x, t[index])[mesh.n_points :])
         v = u(x, t[index]) - fit.speed(index, x, fit.nodes(mesh))
         return fit.in_frames(index, mesh, v, gradient - W)
@@ -139,6 +139,25 @@ def test_tracers_cross_the_interface_of_a_turning_ring(stirred):
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     assert np.all(bodies.status == Status.ACTIVE)
     assert bodies.x[:, :2] == pytest.approx(centre + (x[:, :2] - centre) @ turn.T, abs=2e-4)
+
+
+@pytest.mark.parametrize(("writes", "limit"), [(6, 3.5e-3), (12, 8e-4)])
+def test_a_fluid_that_is_shaken_with_its_box_stays_in_place(writes, limit):
+    """In two dimensions; nothing that begins close to a wall touches it."""
+    way = 0.3 * np.array([1.0, 0.4, 0.0])
+    flow = moved_by(
+        layer((0.0, 1.0), (0.0, 1.0), 10, 10),
+        lambda x, t: x + np.sin(2.0 * np.pi * t) * way,
+        lambda x, t: np.broadcast_to(2.0 * np.pi * np.cos(2.0 * np.pi * t) * way, x.shape),
+        times=[f"{t:.12g}" for t in np.linspace(0.0, 0.7, writes + 1)],
+    )
+    x = np.column_stack([*np.random.default_rng(0).uniform(0.001, 0.999, (2, 100)), np.full(100, 0.05)])
+    bodies = spheres(x, d=1e-6, rho=1000.0, mu=1e3)
+    patches = [Mirror() if patch.type == "empty" else Stick() for patch in flow.patches]
+    Cloud(bodies, flow, WATER, patches, 0.007, threads=1).advance(100)
+    assert np.all(bodies.status == Status.ACTIVE)
+    off = bodies.x - x - np.sin(1.4 * np.pi) * way
+    assert np.sqrt(np.mean(np.sum(off[:, :2] ** 2, axis=1))) < limit
 
 
 def shaken(interaction, speed=1.0):

@@ -9,7 +9,7 @@ linear on them.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -170,6 +170,20 @@ def assemble(poly: PolyMesh, source: str) -> Mesh:
         f"{source}: the faces of {len(astray)} cells do not turn alike (the first is cell {astray[0]}); "
         "is the mesh damaged?"
     )
+
+
+def with_points(mesh: Mesh, points: Floats) -> Mesh:
+    """Return a mesh with its points at other places, (n_points, 3), m, and the same tetrahedra."""
+    given = mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour
+    faces, n = Faces(*given, mesh.cell_face_start, mesh.cell_faces), mesh.n_internal
+    face_centres, face_areas = measured(points, faces)
+    _, centres, volumes = cell_geometry(faces, face_centres, face_areas)
+    areas = face_areas[n:].copy()
+    normals = inward_normals(points, mesh.triangles, areas[mesh.triangle_face])
+    return replace(
+        mesh, points=points, centres=centres, volumes=volumes, boundary_centres=face_centres[n:].copy(),
+        boundary_areas=areas, triangle_normals=normals,
+    )  # fmt: skip
 
 
 def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Mesh, Index]:

@@ -84,16 +84,21 @@ def with_openings(whole: CaseMesh, field: FoamField, boundary: Floats) -> CaseMe
     return whole._replace(mesh=replace(mesh, patches=tuple(patches)), notes=(*whole.notes, *notes))
 
 
-def with_walls(whole: CaseMesh, field: FoamField) -> CaseMesh:
-    """Return the mesh with the patches as walls that are none by their type, but by the velocity on them."""
+def with_walls(whole: CaseMesh, field: FoamField, *later: FoamField) -> CaseMesh:
+    """Return the mesh with the patches as walls that are none by their type, but by the velocity on them.
+
+    Values on a wall have no component across it at ``later`` times either: a fluid may start from rest.
+    """
     patches, names = list(whole.mesh.patches), []
     for index, patch in enumerate(whole.patches[: len(patches)]):
         entry = field.of(patch)
         if entry is None or patch.type in CONSTRAINTS or patches[index].kind not in _MAY_BE_WALLS:
             continue
         areas = whole.mesh.boundary_areas[whole.mesh.patch_start[index] :][: patch.faces]
-        values = entry.fields.get("value") if entry.type in VALUE_CONDITIONS else None
-        if entry.type in WALL_CONDITIONS or (values is not None and not _passes(values, areas)):
+        values = [given.fields.get("value") for f in (field, *later) if (given := f.of(patch)) is not None]
+        given_everywhere = entry.type in VALUE_CONDITIONS and all(v is not None for v in values)
+        closed = given_everywhere and not any(_passes(v, areas) for v in values if v is not None)
+        if entry.type in WALL_CONDITIONS or closed:
             patches[index] = patches[index]._replace(type="wall", groups=patch.groups | {"wall"})
             names.append(f"{patch.name} ({patch.type}, {entry.type})")
     if not names:

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats
+from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.motion import Motion, nearest_times, rates_of
+from foamprb.flow.motion import Deformation, Motion, nearest_times, rates_of
+from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.boundary import CaseMesh
-from foamprb.flow.read.case import available_times
+from foamprb.flow.read.case import available_times, find_dictionary, word_of
 from foamprb.flow.read.field import FoamField
 from foamprb.flow.read.times import listed
 from foamprb.flow.timeline import one_period
@@ -28,6 +29,10 @@ _STILL = 1e-6
 _QUARTER = 0.5 * np.pi
 _LIKE = 0.1
 """Largest difference between the turn by the points and that by a rate, over half a radian and the turn."""
+
+
+class DeformsError(InputError):
+    """A piece of the mesh does not move as a rigid body."""
 
 
 class Spin(Protocol):
@@ -89,8 +94,10 @@ def rigid_motion(
 
     Raises
     ------
+    DeformsError
+        A piece deforms.
     InputError
-        A piece deforms; a piece turns by more than 90 degrees between two times, and no wall shows how fast;
+        A piece turns by more than 90 degrees between two times, and no wall shows how fast;
         or a period does not return the points.
     """
     piece = pieces_of(mesh)
@@ -113,12 +120,10 @@ def rigid_motion(
     names = tuple(_name(p, np.flatnonzero(piece == p), zones) for p in range(count))
     of_points = np.zeros(mesh.n_points, dtype=np.int64)
     of_points[mesh.cell_points] = np.repeat(piece, np.diff(mesh.cell_point_start))
-    first = mesh.points
+    first, n_points = mesh.points, len(points(times[0]))
     R, s = np.tile(np.eye(3), (n, count, 1, 1)), np.zeros((n, count, 3))
     for j, name in enumerate(times[1:], 1):
-        now = points(name)
-        if len(now) > len(first):
-            raise InputError(f"{source}: the mesh has {len(now)} points at {name} s and {len(first)} before.")
+        now = _same_points(source, name, points(name), n_points)
         for p in range(count):
             own = np.flatnonzero(of_points[: len(now)] == p)
             a, b = first[own], now[own]
@@ -127,10 +132,9 @@ def rigid_motion(
                 continue
             R[j, p], s[j, p], miss = _fit(a, b, _STILL * size)
             if miss > _RIGID * size:
-                raise InputError(
+                raise DeformsError(
                     f"{source}: {names[p]} of the mesh deforms: its points at {name} s are up to "
-                    f"{miss:.3g} m off a rigid motion. Allowed: meshes at rest, and pieces that move as "
-                    "rigid bodies."
+                    f"{miss:.3g} m off a rigid motion."
                 )
     c = np.stack([_quiet_point(first[of_points == p], R[:, p], s[:, p]) for p in range(count)])
     y = np.einsum("jpab,pb->jpa", R, c) + s
@@ -153,6 +157,52 @@ def rigid_motion(
             turn = turn if known is None else known
             turns[k, p], rate = turn, turn / h
     return _with_rates(Motion(piece, names, c, R, y, turns, np.zeros_like(y), np.zeros_like(y)), t, period)
+
+
+def _same_points(source: Path, time: str, now: Floats, n: int) -> Floats:
+    """Return points; InputError if their number is not n."""
+    if len(now) != n:
+        raise InputError(
+            f"{source}: the mesh has {len(now)} points at {time} s and {n} before, with the same faces. "
+            "Allowed: the same number of points at all times."
+        )
+    return now
+
+
+def deformation_of(
+    source: Path, times: Sequence[str], points: Callable[[str], Floats], mesh: Mesh, period: float | None
+) -> Deformation:
+    """Read the motion of a mesh that deforms; see :func:`rigid_motion`.
+
+    Raises
+    ------
+    InputError
+        The number of points changes, or coupled patches may not move alike.
+    """
+    coupled = [mesh.patches[c.patch] for c in mesh.couplings if mesh.patches[c.patch].type != "wedge"]
+    if coupled:
+        raise InputError(
+            f"{source}: the mesh deforms, and its patch {coupled[0].name} ({coupled[0].type}) is coupled. "
+            "Allowed: coupled patches of meshes at rest, and of pieces that move as rigid bodies."
+        )
+    ends = (PatchKind.WALL, PatchKind.OPENING)
+    kinds = np.array([patch.kind in ends for patch in mesh.patches], dtype=bool)
+    own = np.unique(mesh.triangles[kinds[mesh.triangle_patch]])
+    rows = np.full(mesh.n_points, -1, dtype=np.int32)
+    rows[own] = np.arange(len(own))
+    given = [float(name) for name in times]
+    times = times if period is None else times[: len(one_period(given, period))]
+    past, ways, before = np.empty((len(times), len(own), 6)), np.empty(len(times) - 1), mesh.points
+    for j, name in enumerate(times):
+        now = _same_points(source, name, points(name), mesh.n_points)
+        past[j, :, :3] = now[own]
+        if j > 0:
+            ways[j - 1] = np.linalg.norm(now - before, axis=1).max()
+        before = now
+    motion = Deformation(tuple(given[: len(times)]), period, ways, rows, past)
+    for j in range(len(times)):
+        past[j, :, 3:] = motion.rates(j, lambda k: past[k, :, :3])
+    return motion
 
 
 def _with_whole_turns(
@@ -248,6 +298,24 @@ def _name(p: int, cells: NDArray[np.int64], zones: Mapping[str, NDArray[np.int64
     ]
     inside = f"{same[0]}, " if same else ""
     return f"piece {p + 1} ({inside}{len(cells)} cells)"
+
+
+def moves_rigidly(case: Path, region: str) -> bool:
+    """Return whether the dictionary of a case moves pieces of its mesh as rigid bodies."""
+    root = find_dictionary(case, region, "dynamicMeshDict")
+    keys = ("dynamicFvMesh", "motionSolver", "solver")
+    return root is not None and any("olidBody" in word_of(root, key) for key in keys)
+
+
+def note_of_deformation(motion: Deformation, mesh: Mesh) -> str | Caveat:
+    """Return a sentence about the motion of the mesh, a warning if points pass many cells a write."""
+    most, size = float(motion.ways.max()), float(np.cbrt(np.median(mesh.volumes)))
+    note = (
+        f"the mesh deforms: points move by up to {most:.3g} m from time to time, {most / size:.2g} times the "
+        "width of a cell"
+    )
+    hint = ". Errors decrease with the fourth power of the time between writes."
+    return Caveat(note + hint) if most > size else f"T{note[1:]}."
 
 
 def notes_of(motion: Motion, size: float) -> str:

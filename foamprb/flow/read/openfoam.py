@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.curvatures import mean_curvatures
+from foamprb.flow.deforming import DeformingFlow
 from foamprb.flow.fields import FieldColumns
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
-from foamprb.flow.mesh.mesh import Mesh, assemble
+from foamprb.flow.mesh.mesh import Mesh, assemble, with_points
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.motion import Motion
+from foamprb.flow.motion import Deformation, Motion, match_walls
 from foamprb.flow.moving import MovingFlow
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
 from foamprb.flow.read.boundary_values import boundary_values, with_openings, with_walls
@@ -61,8 +62,12 @@ from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
 from foamprb.flow.read.motion import (
+    DeformsError,
+    deformation_of,
+    moves_rigidly,
     moving_times,
     nodes_of_moving_walls,
+    note_of_deformation,
     notes_of,
     require_points,
     rigid_motion,
@@ -321,7 +326,9 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     field = case.field(names[0], source.velocity, VELOCITY_FIELD)
     whole = case.mesh(names[0])
-    whole = with_walls(whole, field)
+    if (closed := with_walls(whole, field)) is not whole:
+        closed = with_walls(whole, field, case.field(names[len(names) // 2], source.velocity, VELOCITY_FIELD))
+    whole = closed
     first = velocities(field, whole)
     last = case.field(names[-1], source.velocity, VELOCITY_FIELD)
     # A flow that starts from rest does not show its openings.
@@ -330,17 +337,25 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, first[0])
     motion, means = _motion(case, names, whole, period, source), {}
+    shapes: dict[int, Floats] = {}
     operators = _Operators(whole.mesh)
     prepared = PreparedTimes(source.cache, whole.mesh)
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators.reconstruct)
 
+    fastest = 0.0 if motion is None else motion.fastest(whole.mesh)
+
+    @lru_cache(maxsize=10)
+    def deformed(index: int) -> Mesh:
+        return with_points(whole.mesh, _points_at(case, names[index], whole.mesh))
+
     def read(name: str) -> tuple[Any, ...]:
         reads = [partial(case.field, name) for name in names]
-        here, own, index = whole, operators, names.index(name)
+        here, own, index, rates = whole, operators, names.index(name), None
         if motion is not None:
-            here = _mesh_at(case, name, whole)
+            deforms = isinstance(motion, Deformation)
+            here = whole._replace(mesh=deformed(index)) if deforms else _mesh_at(case, name, whole)
             own = _Operators(here.mesh)
         field = case.field(name, source.velocity, VELOCITY_FIELD)
         values = velocities(field, here)
@@ -349,23 +364,31 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
         def make() -> tuple[Floats, Floats, Floats]:
             u, l = own.reconstruct(*values)
-            frame = None if motion is None else motion.frame(index, here.mesh)
+            frame = motion.frame(index, here.mesh) if isinstance(motion, Motion) else None
+            # Means of the values of the faces around are not quite those of the wall.
             if frame is not None:
-                # Means of the values of the faces around are not quite those of the wall.
                 nodes = nodes_of_moving_walls(here, field)
                 u[nodes] = frame[0][nodes]
-            fluxes = balanced_in_time(own.conserve, u, l, mass, where, frame, accept=source.accept)
-            if motion is not None and frame is not None:
+            if rates is not None:
+                match_walls(here.mesh, u, rates)
+            fluxes = balanced_in_time(own.conserve, u, l, mass, where, frame, fastest, accept=source.accept)
+            if isinstance(motion, Motion) and frame is not None:
                 u, l = motion.in_frames(index, here.mesh, u - frame[0], l - frame[1])
             return u, l, fluxes
 
         key = (*values, mass)
-        if motion is not None:
+        if isinstance(motion, Deformation):
+            rates = motion.rates(index, lambda k: deformed(k).nodes)
+            key = (*values, mass, here.mesh.points, rates.copy())
+        elif motion is not None:
             values = values[0], with_moving_walls(motion, index, here, field, values[1])
             means[index] = motion.means(here.mesh, values[0])
             pose = (array[index] for array in (motion.Q, motion.y, motion.omega, motion.velocity))
             key = (*values, mass, here.mesh.points, *pose)
         u, l, fluxes = prepared.get(key, make)
+        if rates is not None:
+            match_walls(here.mesh, u, rates)
+            shapes[index] = np.concatenate([here.mesh.nodes, rates], axis=1)
         more = _further(case, name, source, here, own)
         curvatures = [mean_curvatures(whole.mesh, l)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
@@ -381,13 +404,18 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             )
         )
     zones = partial(case.zones, names[0])
-    notes += (
-        flux if motion is None else [*flux, notes_of(motion, float(np.ptp(whole.mesh.points, axis=0).max()))]
-    )
+    notes += flux
+    flow: Any = SeriesFlow
+    if isinstance(motion, Deformation):
+        notes.append(note_of_deformation(motion, whole.mesh))
+        flow = partial(DeformingFlow, motion, shapes)
+    elif motion is not None:
+        notes.append(notes_of(motion, float(np.ptp(whole.mesh.points, axis=0).max())))
+        flow = partial(MovingFlow, motion, means)
     return series_of(
         case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
-        curved=source.curved, flow=SeriesFlow if motion is None else partial(MovingFlow, motion, means),
+        curved=source.curved, flow=flow,
     )  # fmt: skip
 
 
@@ -397,9 +425,15 @@ def _mesh_at(case: Case, time: str, whole: CaseMesh) -> CaseMesh:
     return whole._replace(mesh=replace(mesh, patches=whole.mesh.patches))
 
 
+def _points_at(case: Case, time: str, mesh: Mesh) -> Floats:
+    """Return the points at a time in the order of a mesh, in which points of baffles may be parted."""
+    points = case.points(time)
+    return points if len(points) == mesh.n_points else case.mesh(time).mesh.points
+
+
 def _motion(
     case: Case, names: Sequence[str], whole: CaseMesh, period: float | None, source: FlowSource
-) -> Motion | None:
+) -> Motion | Deformation | None:
     """Return the motion of the mesh of a case; None if it is at rest."""
     folders = {name: case.folder(name) for name in names[1:]}
     moved = moving_times(folders, "points")
@@ -425,7 +459,15 @@ def _motion(
         raise InputError(
             f"{case.root}: cyclicACMI patches are read on meshes at rest only. Allowed: cyclicAMI."
         )
-    motion = rigid_motion(case.root, names, case.points, whole.mesh, case.zones(names[0]), spin, period)
+    try:
+        motion = rigid_motion(case.root, names, case.points, whole.mesh, case.zones(names[0]), spin, period)
+    except DeformsError as error:
+        if moves_rigidly(case.root, case.region):
+            raise InputError(
+                f"{error} Its dynamicMeshDict names rigid motions only. Allowed: points of such a motion."
+            ) from None
+        read = partial(_points_at, case, mesh=whole.mesh)
+        return deformation_of(case.root, names, read, whole.mesh, period)
     return motion if motion.turns.any() or np.ptp(motion.y, axis=0).any() else None
 
 

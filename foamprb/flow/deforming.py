@@ -1,0 +1,690 @@
+"""Flow on a mesh that deforms: tanks that slosh, pistons, valves, bodies that float.
+
+Between two times each node moves on Hermite's cubic. The kernels of :mod:`foamprb.flow.walk` see the mesh at
+a time through :class:`MeshAt`, whose nodes are computed where they are read. A way from (x0, t0) to (x1, t1)
+begins where the mesh has carried x0 until t1, and is straight in the mesh at t1: a wall is met if and only if
+the way relative to it crosses it.
+
+The velocity is interpolated in time at fixed weights of the tetrahedron's nodes, by the polynomial through up
+to four times. On walls it has the velocity of the wall at all times: that of the nodes is added in which
+their motion differs from the polynomial. The fluxes of the correction are linear in time, so that it stays
+continuous across the sides of tetrahedra.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.faxen import Curvature
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    dot,
+    dot_vector,
+    inner,
+    minus,
+    norm,
+    plus,
+    plus_scaled,
+    scale_vector,
+    transpose,
+    vector_product,
+)
+from foamprb.compile.link import link
+from foamprb.compile.record import record, stand_in
+from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra, Turbulence
+from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, frame, point
+from foamprb.flow.mesh.locator import cell_boxes
+from foamprb.flow.mesh.locator import locate as locate_mesh
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.tree import build_tree
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.meshflow import _folds as folds_of
+from foamprb.flow.motion import Deformation
+from foamprb.flow.moving import MovingMeshFlow
+from foamprb.flow.moving import _any_interval as any_interval
+from foamprb.flow.sampling import with_velocity
+from foamprb.flow.series import _OF_VELOCITY as OF_VELOCITY
+from foamprb.flow.series import _OF_VISCOSITY as OF_VISCOSITY
+from foamprb.flow.series import SeriesArrays, SeriesFlow
+from foamprb.flow.series import _interval as interval
+from foamprb.flow.series import cell_volume as cell_volume_series
+from foamprb.flow.viscosity import blend_scalar
+from foamprb.flow.walk import (
+    FAILED,
+    Weights,
+    blend_curvature,
+    blend_turbulence,
+    corners,
+    correction_by,
+    curvature_in,
+    fluxes_of,
+    follow,
+    interpolate,
+    inward,
+    nearest_point,
+    shape,
+    shape_and_sides,
+)
+from foamprb.flow.walk import _blend_vector as blend_vector
+from foamprb.flow.walk import cross as cross_mesh
+from foamprb.flow.walk import walk as walk_mesh
+from foamprb.flow.walk import walk_on as walk_on_mesh
+from foamprb.flow.wall_lists import near_walls, wall_tree
+from foamprb.flow.walls import gap as gap_mesh
+
+_SAME: Tensor = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+Corners: TypeAlias = tuple[Vector, Vector, Vector]
+_SHORT = 0.25
+"""A neighbouring interval that is shorter than this share of an interval is left out: it extrapolates."""
+_BULGE = 4.0 / 27.0
+"""Largest value of s (1 − s)²."""
+
+
+@record
+class DeformingArrays(NamedTuple):
+    """Arrays of a flow on a mesh that deforms, for the kernels."""
+
+    mesh: MeshArrays
+    """The mesh of the first time, with trees, folds and lists of walls that hold at all loaded times."""
+    series: SeriesArrays
+    shapes: Floats
+    """(rows, 6): places of the nodes, m, and their velocities, m/s, as the rows of ``series.fields``."""
+    past: Floats
+    """(rows, 6): the same of points on walls and openings, at all times of the flow."""
+    n_past: int
+    """Number of these points."""
+    past_rows: Ints
+    """(n_nodes,) row of each node among those of a time in ``past``, −1 for others."""
+    starts: Floats
+    """(n,) the starts of the intervals between times, s."""
+    end: float
+    """End of the last interval, s: there the first one follows, if the flow has a period."""
+
+    def pulled(self, x: Floats, hosts: Ints, t: Floats, apart: bool = True) -> Floats:
+        """Return where places (n, 3) at times (n,) were on the mesh of the first time.
+
+        They are carried with their hosts at loaded times; if not ``apart``, with the boundary at any time.
+        Without a host they stay.
+        """
+        X = np.array(x, dtype=np.float64)
+        link(_pull_all)(self, np.ascontiguousarray(hosts, dtype=np.int64), np.ascontiguousarray(t), X, apart)
+        return X
+
+
+@stand_in
+class NodesAt:
+    """Nodes at a time in place of :attr:`MeshArrays.nodes`: Hermite's cubic, or its derivative."""
+
+    flow: DeformingArrays
+    first: int
+    """Row of ``shapes`` at which the nodes begin at the start of the interval, and at its end."""
+    last: int
+    a: float
+    """Weights of place and velocity at the start, then at the end."""
+    b: float
+    c: float
+    d: float
+
+    @staticmethod
+    def item(at: NodesAt, i: int, k: int) -> float:
+        """Return coordinate k of node i, or what does not change in time."""
+        if k >= FREE:
+            return at.flow.mesh.nodes[np.uint64(i), k]  # type: ignore[no-any-return]
+        f, i0, i1 = at.flow.shapes, np.uint64(at.first + i), np.uint64(at.last + i)
+        return at.a * f[i0, k] + at.b * f[i0, k + 3] + at.c * f[i1, k] + at.d * f[i1, k + 3]  # type: ignore[no-any-return]
+
+
+@stand_in
+class NormalsAt:
+    """Inward normals of boundary triangles at a time."""
+
+    triangles: Ints
+    nodes: NodesAt
+
+    @staticmethod
+    def item(at: NormalsAt, i: int, k: int) -> float:
+        """Return component k of the normal of triangle i."""
+        nodes, row = at.nodes, np.uint64(i)
+        a, b, c = at.triangles[row, 0], at.triangles[row, 1], at.triangles[row, 2]
+        x, y, z = nodes[a, 0], nodes[a, 1], nodes[a, 2]
+        p0, p1, p2 = nodes[b, 0] - x, nodes[b, 1] - y, nodes[b, 2] - z
+        q0, q1, q2 = nodes[c, 0] - x, nodes[c, 1] - y, nodes[c, 2] - z
+        n0, n1, n2 = p2 * q1 - p1 * q2, p0 * q2 - p2 * q0, p1 * q0 - p0 * q1
+        size = max(math.sqrt(n0 * n0 + n1 * n1 + n2 * n2), 1e-300)
+        return (n0 if k == 0 else n1 if k == 1 else n2) / size
+
+
+@stand_in
+class MeshAt:
+    """The mesh at a time, in place of :class:`MeshArrays`."""
+
+    base: MeshArrays
+    nodes: NodesAt
+    triangle_normals: NormalsAt
+
+
+@stand_in
+class FieldsAt:
+    """A table with a row for each node at a time: the sum of those of four times, with weights."""
+
+    values: Floats
+    i: int
+    j: int
+    k: int
+    l: int
+    a: float
+    b: float
+    c: float
+    d: float
+
+    @staticmethod
+    def item(at: FieldsAt, row: int, k: int) -> float:
+        """Return column k of a node."""
+        f = at.values
+        early = at.a * f[np.uint64(at.i + row), k] + at.b * f[np.uint64(at.j + row), k]
+        return early + at.c * f[np.uint64(at.k + row), k] + at.d * f[np.uint64(at.l + row), k]  # type: ignore[no-any-return]
+
+
+def nodes_at(flow: DeformingArrays, k: int, t: float) -> NodesAt:
+    """Return the nodes at a time, s, in the loaded interval k."""
+    h = flow.series.times[k + 1] - flow.series.times[k]
+    a, b, c, d = _hermite((t - flow.series.times[k]) / h, h)
+    return NodesAt(flow, flow.series.first[k], flow.series.first[k + 1], a, b, c, d)
+
+
+def rates_at(flow: DeformingArrays, k: int, t: float) -> NodesAt:
+    """Return the velocities of the nodes, as places, at a time, s, in the loaded interval k."""
+    h = flow.series.times[k + 1] - flow.series.times[k]
+    a, b, c, d = _hermite_rate((t - flow.series.times[k]) / h, h)
+    return NodesAt(flow, flow.series.first[k], flow.series.first[k + 1], a, b, c, d)
+
+
+def _hermite(s: float, h: float) -> Weights:
+    """Return the weights of value and rate at the start of an interval, h s long, and at its end."""
+    g = 1.0 - s
+    return g * g * (1.0 + 2.0 * s), h * s * g * g, s * s * (3.0 - 2.0 * s), -h * s * s * g
+
+
+def _hermite_rate(s: float, h: float) -> Weights:
+    """Return the derivatives of :func:`_hermite`, 1/s."""
+    g, w = 1.0 - s, 6.0 * s * (1.0 - s) / h
+    return -w, g * (1.0 - 3.0 * s), w, s * (3.0 * s - 2.0)
+
+
+def with_nodes(flow: DeformingArrays, nodes: NodesAt) -> MeshAt:
+    """Return the mesh with these nodes."""
+    return MeshAt(flow.mesh, nodes, NormalsAt(flow.mesh.triangles, nodes))
+
+
+def mesh_at(flow: DeformingArrays, t: float) -> MeshAt:
+    """Return the mesh at a time, s."""
+    return with_nodes(flow, nodes_at(flow, interval(flow.series, t), t))
+
+
+def window(times: Floats, k: int) -> tuple[int, int]:
+    """Return the first of up to four loaded times from which values in interval k follow, and the end."""
+    h, n = _SHORT * (times[k + 1] - times[k]), times.shape[0]
+    first, end = k, k + 2
+    while first > max(min(k - 1, n - 4), 0) and times[first] - times[first - 1] > h:
+        first -= 1
+    while end < min(max(k + 3, 4), n) and times[end] - times[end - 1] > h:
+        end += 1
+    return first, end
+
+
+def basis(times: Floats, first: int, end: int, j: int, t: float) -> tuple[float, float]:
+    """Return Lagrange's polynomial of time j at t, and its rate, 1/s."""
+    value, rate = 1.0, 0.0
+    for m in range(first, end):
+        if m != j:
+            s = 1.0 / (times[j] - times[m])
+            rate = s * (rate * (t - times[m]) + value)
+            value = s * value * (t - times[m])
+    return value, rate
+
+
+def blended(flow: SeriesArrays, values: Floats, k: int, t: float) -> tuple[FieldsAt, FieldsAt]:
+    """Return a table of nodes at a time in the loaded interval k, and its rate at fixed nodes."""
+    first, end = window(flow.times, k)
+    j, m, n = first + 1, min(first + 2, end - 1), min(first + 3, end - 1)
+    a, b = basis(flow.times, first, end, first, t), basis(flow.times, first, end, j, t)
+    c, d = (0.0, 0.0), (0.0, 0.0)
+    if first + 2 < end:
+        c = basis(flow.times, first, end, m, t)
+    if first + 3 < end:
+        d = basis(flow.times, first, end, n, t)
+    i, j, m, n = flow.first[first], flow.first[j], flow.first[m], flow.first[n]
+    return (
+        FieldsAt(values, i, j, m, n, a[0], b[0], c[0], d[0]),
+        FieldsAt(values, i, j, m, n, a[1], b[1], c[1], d[1]),
+    )
+
+
+def sample(flow: DeformingArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Return velocity, gradient and rate; see :func:`foamprb.flow.kernels.sample`.
+
+    At fixed weights the velocity changes at the rate u_w = u_t + l·w, with the velocity w of the mesh.
+    """
+    series = flow.series
+    k = interval(series, t)
+    at, moving = with_nodes(flow, nodes_at(flow, k, t)), rates_at(flow, k, t)
+    sides, scale, w = shape_and_sides(at, host, x)
+    now, rate = blended(series, series.fields, k, t)
+    u, l = interpolate(at, host, now, 0, 0, w)
+    u_w, _ = interpolate(at, host, rate, 0, 0, w)
+    rows = corners(flow.mesh, host, 0)
+    u = plus(u, _lack(flow, k, t, moving, rows, w))
+    c = _correction(flow, at, k, t, now, host, w, sides, scale)
+    v = plus(blend_vector(moving, 0, rows, w), c)
+    return plus(u, c), l, minus(u_w, dot_vector(l, v))
+
+
+def _lack(flow: DeformingArrays, k: int, t: float, moving: NodesAt, rows: Any, w: Weights) -> Vector:
+    """Return the velocity of walls less that of the polynomial through their times, weighted by nodes."""
+    nodes, slopes, lack = flow.mesh.nodes, blended(flow.series, flow.shapes, k, t)[0], (0.0, 0.0, 0.0)
+    for n in range(4):
+        i = rows[n]
+        if nodes[i, FREE] < 1.0:
+            d = moving[i, 0] - slopes[i, 3], moving[i, 1] - slopes[i, 4], moving[i, 2] - slopes[i, 5]
+            lack = plus_scaled(lack, w[n], d)
+    return lack
+
+
+def _correction(
+    flow: DeformingArrays,
+    at: MeshAt,
+    k: int,
+    t: float,
+    f: FieldsAt,
+    host: int,
+    w: Weights,
+    sides: tuple[Vector, Vector, Vector],
+    scale: float,
+) -> Vector:
+    """Return the correction of the velocity, m/s, see :func:`foamprb.flow.walk.correction_at`."""
+    times = flow.series.times
+    if flow.series.correction.shape[0] == 0:
+        return 0.0, 0.0, 0.0
+    s = (t - times[k]) / (times[k + 1] - times[k])
+    # Stored are fluxes over volumes, of which that at t is 1 / scale.
+    (a, V), (b, W) = _fluxes(flow, k, host), _fluxes(flow, k + 1, host)
+    V, W = scale * (1.0 - s) * V, scale * s * W
+    q = V * a[0] + W * b[0], V * a[1] + W * b[1], V * a[2] + W * b[2], V * a[3] + W * b[3]
+    return correction_by(at, q, f, 0, 0, host, w, sides, scale)
+
+
+def _fluxes(flow: DeformingArrays, j: int, host: int) -> tuple[Weights, float]:
+    """Return the fluxes of the correction in a host at loaded time j, and six times its volume, m³."""
+    series, first = flow.series, flow.series.first[j]
+    then = with_nodes(flow, NodesAt(flow, first, first, 1.0, 0.0, 0.0, 0.0))
+    row, first_face = series.first_tet[j] + host, series.first_face[j]
+    q = fluxes_of(then, series.correction, row, series.phi, first_face, series.fields, 0, first, host)
+    return q, frame(then, host)[4]
+
+
+def carried(flow: DeformingArrays, host: int, x: Vector, t0: float, t1: float) -> Vector:
+    """Return where the mesh has moved at t1 what was at x in a host at t0."""
+    if t0 == t1:
+        return x
+    w = shape(mesh_at(flow, t0), host, x)
+    return blend_vector(nodes_at(flow, interval(flow.series, t1), t1), 0, corners(flow.mesh, host, 0), w)
+
+
+def sample_ahead(
+    flow: DeformingArrays, host: int, x0: Vector, t0: float, x1: Vector, t1: float
+) -> tuple[int, float, int, Vector, Tensor, Vector]:
+    """See :func:`foamprb.flow.walk.sample_ahead`."""
+    last, _, patch, _, entered = follow(mesh_at(flow, t1), host, carried(flow, host, x0, t0, t1), x1)
+    last = host if patch == FAILED else last
+    u, l, u_t = sample(flow, last, x1, t1)
+    return last, 0.0, entered, u, l, u_t
+
+
+def walk(
+    flow: DeformingArrays, host: int, x0: Vector, t0: float, x1: Vector, t1: float
+) -> tuple[int, float, int, int]:
+    """See :func:`foamprb.flow.walk.walk`: the way is that relative to the mesh."""
+    return walk_mesh(mesh_at(flow, t1), host, carried(flow, host, x0, t0, t1), x1)
+
+
+def walk_on(
+    flow: DeformingArrays, host: int, ahead: int, x0: Vector, t0: float, x1: Vector, t1: float
+) -> tuple[int, float, int, int]:
+    """See :func:`foamprb.flow.walk.walk_on` and :func:`walk`."""
+    return walk_on_mesh(mesh_at(flow, t1), host, ahead, carried(flow, host, x0, t0, t1), x1)
+
+
+def gap(
+    flow: DeformingArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = (), t: float = 0.0
+) -> tuple[float, int, int]:
+    """See :func:`foamprb.flow.walls.gap`."""
+    return gap_mesh(mesh_at(flow, t), host, x, F, R, mode)
+
+
+def normal(flow: DeformingArrays, triangle: int, x: Vector, t: float) -> Vector:  # noqa: ARG001
+    """See :func:`foamprb.flow.walk.normal`."""
+    return inward(mesh_at(flow, t), triangle)
+
+
+def wall_velocity(flow: DeformingArrays, triangle: int, x: Vector, t: float) -> Vector:
+    """Return the velocity of a triangle of the boundary at x, m/s."""
+    k = interval(flow.series, t)
+    now, moving, at = nodes_at(flow, k, t), rates_at(flow, k, t), flow.mesh.triangles
+    a, b, c = at[triangle, 0], at[triangle, 1], at[triangle, 2]
+    w = in_triangle(arm(now, a, x), arm(now, b, x), arm(now, c, x))
+    return _mean(w, (point(moving, a), point(moving, b), point(moving, c)))
+
+
+def in_triangle(a: Vector, b: Vector, c: Vector) -> Vector:
+    """Return the barycentric weights of the origin's foot in the plane of a triangle."""
+    p, q = minus(b, a), minus(c, a)
+    n = vector_product(p, q)
+    s = 1.0 / max(inner(n, n), 1e-300)
+    v, w = s * inner(vector_product(q, a), n), s * inner(vector_product(a, p), n)
+    return 1.0 - v - w, v, w
+
+
+def ride(flow: DeformingArrays, host: int, x: Vector, t0: float, t1: float) -> tuple[Vector, Tensor, Vector]:
+    """Return place, turn and velocity at t1 of what sticks to the boundary and was at x at t0."""
+    triangle = _touched(flow, host, x, t0)
+    if triangle < 0:
+        return x, _SAME, (0.0, 0.0, 0.0)
+    (a, b, c), _ = _boundary(flow, triangle, t0)
+    w = in_triangle(minus(a, x), minus(b, x), minus(c, x))
+    Q, foot = _axes(a, b, c), _mean(w, (a, b, c))
+    (a, b, c), rates = _boundary(flow, triangle, t1)
+    turn = dot(_axes(a, b, c), transpose(Q))
+    return plus(_mean(w, (a, b, c)), dot_vector(turn, minus(x, foot))), turn, _mean(w, rates)
+
+
+def _touched(flow: DeformingArrays, host: int, x: Vector, t: float) -> int:
+    """Return the triangle of walls and openings that is nearest to x, one of the host if there is one."""
+    mesh, best, found = flow.mesh, math.inf, -1
+    for k in range(4):
+        own = -1 - mesh.neighbours[host, k]
+        if own >= 0 and _is_past(flow, own):
+            return int(own)
+    for triangle in range(mesh.triangle_tet.shape[0]):
+        if _is_past(flow, triangle):
+            a, b, c = _boundary(flow, triangle, t)[0]
+            p = nearest_point(minus(a, x), minus(b, x), minus(c, x))
+            if inner(p, p) < best:
+                best, found = inner(p, p), triangle
+    return found
+
+
+def _is_past(flow: DeformingArrays, triangle: int) -> bool:
+    at, rows = flow.mesh.triangles, flow.past_rows
+    return bool(min(rows[at[triangle, 0]], rows[at[triangle, 1]], rows[at[triangle, 2]]) >= 0)
+
+
+def _boundary(flow: DeformingArrays, triangle: int, t: float) -> tuple[Corners, Corners]:
+    """Return the corners of a triangle at any time of the flow, and their velocities."""
+    k, s, h = any_interval(flow, t)
+    n = flow.past.shape[0] // flow.n_past
+    first, last = k * flow.n_past, (k + 1) % n * flow.n_past
+    w, w_t, f, at = _hermite(s, h), _hermite_rate(s, h), flow.past, flow.mesh.triangles
+    a, b, c = at[triangle, 0], at[triangle, 1], at[triangle, 2]
+    i, j, m = first + flow.past_rows[a], first + flow.past_rows[b], first + flow.past_rows[c]
+    step = last - first
+    places = _cubic(f, i, i + step, w), _cubic(f, j, j + step, w), _cubic(f, m, m + step, w)
+    return places, (_cubic(f, i, i + step, w_t), _cubic(f, j, j + step, w_t), _cubic(f, m, m + step, w_t))
+
+
+def _cubic(f: Floats, i: int, j: int, w: Weights) -> Vector:
+    start, end = plus_scaled(scale_vector(w[0], point(f, i)), w[1], (f[i, 3], f[i, 4], f[i, 5])), point(f, j)
+    return plus_scaled(plus_scaled(start, w[2], end), w[3], (f[j, 3], f[j, 4], f[j, 5]))
+
+
+def _mean(w: Vector, of: Corners) -> Vector:
+    return plus_scaled(plus_scaled(scale_vector(w[0], of[0]), w[1], of[1]), w[2], of[2])
+
+
+def _axes(a: Vector, b: Vector, c: Vector) -> Tensor:
+    """Return the matrix of columns along an edge of a triangle, along its normal, and across both."""
+    n, p = vector_product(minus(b, a), minus(c, a)), minus(b, a)
+    n, p = scale_vector(1.0 / max(norm(n), 1e-300), n), scale_vector(1.0 / max(norm(p), 1e-300), p)
+    q = vector_product(n, p)
+    return p[0], n[0], q[0], p[1], n[1], q[1], p[2], n[2], q[2]
+
+
+def cross(flow: DeformingArrays, triangle: int, x: Vector, t: float) -> tuple[int, Vector, Tensor]:
+    """See :func:`foamprb.flow.walk.cross`."""
+    return cross_mesh(mesh_at(flow, t), triangle, x)
+
+
+def recover(flow: DeformingArrays, x: Vector, t: float) -> int:
+    """See :func:`foamprb.flow.walk.recover`."""
+    return locate_mesh(mesh_at(flow, t), x)
+
+
+def cell_volume(flow: DeformingArrays, host: int) -> float:
+    """See :func:`foamprb.flow.walk.cell_volume`; at the first time."""
+    return cell_volume_series(flow.series, host)
+
+
+def turbulence(flow: DeformingArrays, host: int, x: Vector, t: float) -> Turbulence:
+    """See :func:`foamprb.flow.walk.turbulence`."""
+    series, w = flow.series, shape(mesh_at(flow, t), host, x)
+    if series.fields.shape[1] <= OF_VELOCITY:
+        return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    f = blended(series, series.fields, interval(series, t), t)[0]
+    return blend_turbulence(f, OF_VELOCITY, corners(flow.mesh, host, 0), w)
+
+
+def viscosity(flow: DeformingArrays, host: int, x: Vector, t: float) -> tuple[float, Vector]:
+    """See :func:`foamprb.flow.series.viscosity`."""
+    series, w = flow.series, shape(mesh_at(flow, t), host, x)
+    f = blended(series, series.fields, interval(series, t), t)[0]
+    return blend_scalar(f, series.fields.shape[1] - OF_VISCOSITY, corners(flow.mesh, host, 0), w)
+
+
+def curvature(flow: DeformingArrays, host: int, x: Vector, t: float) -> Curvature:
+    """See :func:`foamprb.flow.walk.curvature`."""
+    series, at = flow.series, mesh_at(flow, t)
+    k = interval(series, t)
+    if series.curvatures.shape[0] == 0:
+        return curvature_in(at, host, blended(series, series.fields, k, t)[0], 3, 0)
+    f = blended(series, series.curvatures, k, t)[0]
+    return blend_curvature(f, corners(flow.mesh, host, 0), shape(at, host, x))
+
+
+class DeformingFlow(MovingMeshFlow):
+    """Flow given at several times on a mesh that deforms.
+
+    Parameters
+    ----------
+    motion
+        Motion of the mesh.
+    shapes
+        Places and velocities of the nodes, (n_nodes, 6), m and m/s, at the times that have been read, by
+        their indices.
+    mesh
+        The mesh at the first time.
+    given, options
+        Those of :class:`SeriesFlow`.
+    """
+
+    kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
+        "sample": sample,
+        "sample_ahead": sample_ahead,
+        "curvature": curvature,
+        "walk": walk,
+        "walk_on": walk_on,
+        "gap": gap,
+        "normal": normal,
+        "wall_velocity": wall_velocity,
+        "cross": cross,
+        "recover": recover,
+        "ride": ride,
+        "turbulence": turbulence,
+        "viscosity": viscosity,
+        "cell_volume": cell_volume,
+    }
+    around = 4
+
+    def __init__(
+        self, motion: Deformation, shapes: dict[int, Floats], mesh: Mesh, *given: Any, **options: Any
+    ) -> None:
+        super().__init__(mesh, *given, **options)
+        self.motion, self._read_shapes = motion, shapes
+        self._shapes = np.empty((0, len(self._arrays.nodes), 6))
+        # Centres of faces in the planes of a layer keep their distance from those of the cells.
+        added = (self.mesh.n_points - mesh.n_points) // mesh.n_cells
+        self._depths = self.mesh.points[mesh.n_points :] - np.tile(mesh.centres, (added, 1))
+        self._covered: tuple[int, ...] = ()
+        self._past_rows = np.full(len(self._arrays.nodes), -1, dtype=np.int32)
+        self._past_rows[: mesh.n_points] = motion.rows
+
+    @staticmethod
+    def nothing() -> DeformingArrays:  # type: ignore[override]
+        """See :meth:`MeshFlow.nothing`."""
+        series = SeriesFlow.nothing()
+        none, rows = np.empty((0, 6)), np.empty(0, dtype=np.int32)
+        return DeformingArrays(series.mesh, series, none, none, 0, rows, np.empty(0), 0.0)
+
+    def arrays(  # type: ignore[override]
+        self,
+        reach: float = 0.0,
+        touchable: Sequence[int] | None = None,
+        sight: float = 0.0,
+        seen: Sequence[int] = (),
+    ) -> DeformingArrays:
+        """Return the arrays for the kernels; see :meth:`SeriesFlow.arrays`."""
+        self._cover()
+        series = super().arrays(reach, touchable, sight, seen)
+        past, times = self.motion.past, self.times
+        starts = np.array(times if self.period is not None else times[:-1])
+        end = times[-1] if self.period is None else times[0] + self.period
+        return DeformingArrays(
+            series.mesh, series, self._shapes.reshape(-1, 6), past.reshape(-1, 6), past.shape[1],
+            self._past_rows, starts, end,
+        )  # fmt: skip
+
+    def _cover(self) -> None:
+        """Let trees and folds hold at all loaded times."""
+        rows = [self._in_memory[self._index(level)] for level in self._inner]
+        key = *self._inner, *rows
+        if not rows or key == self._covered:
+            return
+        self._covered, self._near, n = key, None, self.mesh.n_points
+        x, w = self._shapes[rows, :, :3], self._shapes[rows, :, 3:]
+        h = np.diff([self._time_of(level) for level in self._inner])[:, None, None]
+        off = np.linalg.norm(x - x[0], axis=2).max(axis=0)
+        chord = np.diff(x, axis=0)
+        bulge = np.linalg.norm(h * w[:-1] - chord, axis=2) + np.linalg.norm(h * w[1:] - chord, axis=2)
+        off += _BULGE * bulge.max(axis=0)
+        meshes = [replace(self.mesh, points=p[:n], centres=p[n:], inverted=len(self.mesh.tets)) for p in x]
+        start = self.mesh.cell_point_start[:-1]
+        of_cells = np.maximum(np.maximum.reduceat(off[self.mesh.cell_points], start), off[n:])[:, None]
+        boxes = cell_boxes(meshes[0]) + of_cells * np.repeat([-1.0, 1.0], 3)
+        tree = build_tree(boxes)
+        folds = [folds_of(mesh, p, tree, boxes) for mesh, p in zip(meshes, x, strict=True)]
+        self._arrays = self._arrays._replace(tree_boxes=tree.boxes, tree_cells=tree.leaves, **_joined(folds))
+        self._reference, self._boxes, self._off = meshes[0], boxes, off
+
+    def _with_walls(
+        self,
+        reach: float,
+        touchable: Sequence[int],
+        _sight: float,
+        _seen: Sequence[int],
+    ) -> MeshArrays:
+        mesh = self._reference
+        names = np.flatnonzero(np.isin(mesh.triangle_patch, touchable)).astype(np.int32)
+        if len(names) == 0:
+            return self._arrays
+        triangles = mesh.triangles[names]
+        # Without normals no triangle stands for others in its plane.
+        tree = wall_tree(mesh.points[triangles], np.zeros((len(names), 3)))
+        off = float(self._off[triangles].max())
+        tree = tree._replace(boxes=tree.boxes + off * np.repeat([-1.0, 1.0], 3))
+        size = float(np.cbrt(np.median(mesh.volumes)))
+        start, near = near_walls(tree, self._boxes, reach + off, names, size)
+        leaves = np.where(tree.leaves < 0, np.int32(-1), names[tree.leaves])
+        return self._arrays._replace(near_start=start, near=near, wall_boxes=tree.boxes, wall_leaves=leaves)
+
+    def _make_room(self, wanted: Sequence[int]) -> None:
+        super()._make_room(wanted)
+        if len(self._fields) > len(self._shapes):
+            self._shapes = self._grown(self._shapes, len(self._fields))
+
+    def _fetch(self, index: int) -> None:
+        super()._fetch(index)
+        if index in self._read_shapes:
+            self._shapes[self._in_memory[index]] = self._placed(self._read_shapes.pop(index))
+
+    def _placed(self, shapes: Floats) -> Floats:
+        """Return places and velocities of the nodes of the flow's mesh, by those of the given one."""
+        wide, n = self.widened(shapes), len(self._depths)
+        wide[self.mesh.n_points - n : self.mesh.n_points, :3] += self._depths
+        return wide
+
+    def nodes_at(self, t: float) -> Floats:
+        """Load a time, s, and return the nodes then, (n_nodes, 3), m."""
+        self.load(t, t)
+        arrays = self.arrays()
+        at = nodes_at(arrays, int(interval(arrays.series, t)), t)
+        n, rows = len(self._arrays.nodes), (at.first, at.last)
+        (x, v), (y, w) = (np.split(arrays.shapes[row : row + n], 2, axis=1) for row in rows)
+        nodes: Floats = at.a * x + at.b * v + at.c * y + at.d * w
+        return nodes
+
+    @contextmanager
+    def _moved(self, t: float) -> Iterator[Floats]:
+        """Let the mesh be that of a time, s; return its nodes."""
+        mesh, x = self.mesh, self.nodes_at(t)
+        a, b, c = (x[mesh.triangles[:, k]] for k in range(3))
+        normals = np.cross(c - a, b - a)
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+        self.mesh = replace(
+            mesh, points=x[: mesh.n_points], centres=x[mesh.n_points :], triangle_normals=normals
+        )
+        try:
+            yield x
+        finally:
+            self.mesh = mesh
+
+    def patch_faces(self, name: str, t: float) -> PatchFaces:
+        """See :meth:`SeriesFlow.patch_faces`; at their places at t."""
+        with self._moved(t):
+            faces = MeshFlow.patch_faces(self, name, t)
+        return with_velocity(faces, self, t)
+
+    def cell_zone(self, name: str | None, t: float | None = None) -> Tetrahedra:
+        """See :meth:`MeshFlow.cell_zone`; at the time t, s, by default the first."""
+        zone, x = super().cell_zone(name), self.nodes_at(self.times[0] if t is None else t)
+
+        def vertices(hosts: Ints) -> Floats:
+            return x[self.mesh.tets[hosts]]
+
+        corners = vertices(zone.hosts)
+        return Tetrahedra(np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6.0, zone.hosts, vertices)
+
+
+def _pull_all(flow: DeformingArrays, hosts: NDArray[np.int64], t: Floats, x: Floats, apart: bool) -> None:
+    for i in range(len(hosts)):
+        if hosts[i] >= 0:
+            y = x[i, 0], x[i, 1], x[i, 2]
+            if apart:
+                w, rows = shape(mesh_at(flow, t[i]), hosts[i], y), corners(flow.mesh, hosts[i], 0)
+                x[i, 0], x[i, 1], x[i, 2] = blend_vector(flow.mesh.nodes, 0, rows, w)
+            else:
+                x[i, 0], x[i, 1], x[i, 2] = ride(flow, hosts[i], y, t[i], flow.starts[0])[0]
+
+
+def _joined(folds: Sequence[tuple[NDArray[np.uint8], Ints, Ints]]) -> dict[str, Any]:
+    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays` that hold at several times."""
+    marks = np.max([marks for marks, *_ in folds], axis=0)
+    pairs = [np.stack([np.repeat(np.arange(len(marks)), np.diff(start)), rim]) for _, start, rim in folds]
+    cells, rim = np.unique(np.concatenate(pairs, axis=1), axis=1)
+    start = np.concatenate([[0], np.cumsum(np.bincount(cells, minlength=len(marks)))])
+    return {"folds": marks, "rim_start": start.astype(np.int32), "rim": rim.astype(np.int32)}

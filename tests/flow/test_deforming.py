@@ -1,0 +1,226 @@
+"""Flows on meshes that deform, against flows that are known in closed form."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mesh_shapes import cyclic_row, layer
+
+from foamprb import Cloud, Escape, Medium, Rebound, Status, Stick, spheres
+from foamprb.cloud.patches import Mirror
+from foamprb.errors import InputError
+from foamprb.flow.deforming import DeformingFlow
+from foamprb.flow.fluxes import Conservation
+from foamprb.flow.mesh.mesh import with_points
+from foamprb.flow.motion import match_walls
+from foamprb.flow.read.motion import deformation_of, note_of_deformation
+from foamprb.flow.reconstruct import Reconstruction
+
+WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
+
+
+def deforming(mesh, motion, u, times, period=None):
+    """Return the flow u(x, t) on a mesh that ``motion(points, t)`` moves, as a case would give it."""
+    names = [f"{t:.12g}" for t in times]
+    fit = deformation_of(Path("case"), names, lambda n: motion(mesh.points, float(n)), mesh, period)
+    shapes = {}
+
+    def at(k):
+        return with_points(mesh, motion(mesh.points, times[k]))
+
+    def read(k):
+        here = at(k)
+        v, l = Reconstruction(here)(u(here.centres, times[k]), u(here.boundary_centres, times[k]))
+        w = fit.rates(k, lambda j: at(j).nodes)
+        match_walls(here, v, w)
+        shapes[k] = np.concatenate([here.nodes, w], axis=1)
+        return v, l, Conservation(here)(v, l, fastest=fit.fastest(here))
+
+    return DeformingFlow(fit, shapes, mesh, times, read, period, conservative=True)
+
+
+def followed(flow, start, interactions, dt, steps, **body):
+    """Return tracers after some steps in a flow."""
+    bodies = spheres(start, **{"d": 1e-6, "rho": 1000.0, "mu": 1e3, **body})
+    patches = [interactions.get(patch.name, Mirror()) for patch in flow.patches]
+    cloud = Cloud(bodies, flow, WATER, patches, dt, threads=1)
+    cloud.advance(steps)
+    return cloud, bodies
+
+
+def rms(x, expected):
+    return float(np.sqrt(np.mean(np.sum((x[:, :2] - expected[:, :2]) ** 2, axis=1))))
+
+
+def spread(n, low, high):
+    """n places in a rectangle, even but in no lines."""
+    i = np.arange(n)
+    parts = np.stack([(i * 0.618) % 1.0, (i * 0.382) % 1.0], axis=1)
+    return np.column_stack([np.array(low) + parts * (np.array(high) - low), np.full(n, 0.05)])
+
+
+OMEGA = 2.0 * np.pi
+
+
+def h(t):
+    return 0.6 + 0.4 * np.cos(OMEGA * t)
+
+
+def strain_rate(t):
+    return -0.4 * OMEGA * np.sin(OMEGA * t) / h(t)
+
+
+def squeezed(writes):
+    """Fluid between a plate and another one that comes nearer: x h and y / h stay."""
+
+    def u(x, t):
+        s = strain_rate(t)
+        return np.stack([-s * x[:, 0], s * x[:, 1], 0.0 * x[:, 0]], axis=1)
+
+    mesh = layer((0.0, 1.0), (0.0, 1.0), 16, 10, right="patch")
+    times = np.linspace(0.0, 0.5, writes + 1)
+    return deforming(mesh, lambda x, t: x * [1.0, h(t), 1.0], u, times), np.array([h(0.0) / h(0.5), h(0.5)])
+
+
+@pytest.mark.parametrize(("writes", "limit"), [(10, 1.5e-3), (20, 3e-4)])
+def test_fluid_is_pressed_out_between_plates(writes, limit):
+    flow, ratio = squeezed(writes)
+    x = spread(100, (0.02, 0.0005), (0.18, 0.9995))
+    stick = dict.fromkeys(("left", "bottom", "top"), Stick())
+    _, p = followed(flow, x, {**stick, "right": Escape()}, 0.005, 100)
+    assert np.all(p.status == Status.ACTIVE)
+    assert rms(p.x, x[:, :2] * ratio) < limit
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.5])
+def test_walls_that_wave_touch_no_tracer_of_a_fluid_that_moves_with_them(speed):
+    """The fluid rests in a channel whose walls are a running wave, or slides through it."""
+
+    def u(x, t):
+        c = np.cos(np.pi * x[:, 0] - OMEGA * t)
+        return np.stack([speed + 0.0 * c, 0.15 * (np.pi * speed - OMEGA) * c, 0.0 * c], axis=1)
+
+    def wave(x, t):
+        return 0.15 * np.sin(np.pi * x[:, 0] - OMEGA * t)
+
+    def motion(x, t):
+        return x + np.stack([0.0 * x[:, 0], wave(x, t), 0.0 * x[:, 0]], axis=1)
+
+    mesh = layer((0.0, 4.0), (-0.5, 0.5), 48, 12, left="patch", right="patch")
+    flow = deforming(mesh, motion, u, np.linspace(0.0, 0.75, 10))
+    y = spread(100, (0.4, -0.498), (3.1, 0.498))
+    end = y + np.array([0.75 * speed, 0.0, 0.0])
+    walls = dict.fromkeys(("bottom", "top"), Stick())
+    ends = dict.fromkeys(("left", "right"), Escape())
+    _, p = followed(flow, motion(y, 0.0), {**walls, **ends}, 0.00625, 120)
+    assert np.all(p.status == Status.ACTIVE)
+    assert rms(p.x, motion(end, 0.75)) < 1e-3
+
+
+@pytest.fixture(scope="module")
+def piston():
+    """A box of which one side moves in as 0.2 t + 0.1 t², and the fluid leaves by the other one."""
+
+    def motion(x, t):
+        return x + np.stack([(1.0 - x[:, 0]) * place(t), 0.0 * x[:, 0], 0.0 * x[:, 0]], axis=1)
+
+    def u(x, t):
+        return np.broadcast_to([speed(t), 0.0, 0.0], x.shape)
+
+    mesh = layer((0.0, 1.0), (0.0, 1.0), 8, 6, right="patch")
+    return deforming(mesh, motion, u, np.linspace(0.0, 1.0, 6))
+
+
+def place(t):
+    return 0.2 * t + 0.1 * t * t
+
+
+def speed(t):
+    return 0.2 + 0.2 * t
+
+
+HEAVY = {"d": 0.02, "rho": 1e9, "mu": 1e9}
+
+
+def contact_time():
+    return (-0.2 + np.sqrt(0.04 + 0.4 * 0.09)) / 0.2
+
+
+@pytest.mark.parametrize("e", [1.0, 0.5])
+def test_a_body_at_rest_that_a_piston_hits_leaves_with_its_speed_and_e_times_it(piston, e):
+    hit = contact_time()
+    walls = dict.fromkeys(("left", "bottom", "top"), Rebound(e=e))
+    _, p = followed_at_rest(piston, walls, 0.01, 60)
+    v = (1.0 + e) * speed(hit)
+    assert p.v == pytest.approx(np.broadcast_to([v, 0.0, 0.0], (2, 3)), abs=2e-4)
+    assert p.x[:, 0] == pytest.approx(0.1 + v * (0.6 - hit), abs=2e-4)
+
+
+def followed_at_rest(flow, walls, dt, steps):
+    bodies = spheres([[0.1, 0.5, 0.05], [0.1, 0.43, 0.05]], **HEAVY)
+    bodies.v[:] = 0.0
+    thin = Medium(1e-9, 1e-9, (0.0, 0.0, 0.0))
+    patches = [{**walls, "right": Escape()}.get(patch.name, Mirror()) for patch in flow.patches]
+    cloud = Cloud(bodies, flow, thin, patches, dt, threads=1)
+    cloud.advance(steps)
+    return cloud, bodies
+
+
+def test_a_body_that_sticks_to_a_piston_rides_along(piston):
+    walls = dict.fromkeys(("left", "bottom", "top"), Stick())
+    cloud, p = followed_at_rest(piston, walls, 0.01, 90)
+    assert np.all(p.status == Status.STUCK)
+    assert p.t == pytest.approx(contact_time(), abs=1e-4)
+    now = cloud.comm.rank.at_instant(0.9, False)
+    assert now.x[:, 0] == pytest.approx(place(0.9) + 0.01, abs=1e-4)
+    assert now.v == pytest.approx(np.broadcast_to([speed(0.9), 0.0, 0.0], (2, 3)), abs=1e-6)
+
+
+def test_patches_zones_and_hosts_are_where_they_are_at_a_time(piston):
+    """Off the times of the flow, too."""
+    for t in (0.0, 0.5, 0.9):
+        faces = piston.patch_faces("left", t)
+        assert faces.vertices[:, :, 0] == pytest.approx(place(t), abs=1e-9)
+        assert faces.velocity[:, :, 0] == pytest.approx(speed(t), abs=1e-6)
+        assert faces.normals == pytest.approx(np.broadcast_to([1.0, 0.0, 0.0], faces.normals.shape))
+        zone = piston.cell_zone(None, t)
+        assert zone.volumes.sum() == pytest.approx(0.1 * (1.0 - place(t)))
+        assert zone.vertices(zone.hosts)[:, :, 0].min() == pytest.approx(place(t))
+        beside = np.array([[place(t) - 1e-3, 0.5, 0.05], [place(t) + 1e-3, 0.5, 0.05]])
+        assert np.array_equal(piston.locate(beside, t) >= 0, [False, True])
+
+
+def test_acceleration_is_that_at_a_fixed_point():
+    """Of a moving mesh, by the kernel as it runs in the interpreter."""
+    flow, _ = squeezed(20)
+    x, t = np.array([[0.2, 0.1, 0.05], [0.5, 0.3, 0.05]]), 0.112
+    hosts = flow.locate(x, t)
+    s, s_t = strain_rate(t), (strain_rate(t + 1e-4) - strain_rate(t - 1e-4)) / 2e-4
+    for host, at in zip(hosts, x, strict=True):
+        u, l, u_t = flow.kernels["sample"](flow.arrays(), int(host), tuple(at), t)
+        assert u[:2] == pytest.approx([-s * at[0], s * at[1]], abs=2e-3)
+        assert l[0] == pytest.approx(-s, rel=1e-3)
+        assert u_t[:2] == pytest.approx([-s_t * at[0], s_t * at[1]], rel=2e-2, abs=0.05)
+
+
+def test_the_log_tells_how_far_points_move(piston):
+    note = note_of_deformation(piston.motion, piston.mesh)
+    assert note.startswith("The mesh deforms: points move by up to 0.076 m from time to time, 0.6 t")
+
+
+def test_another_number_of_points_is_reported():
+    mesh = layer((0.0, 1.0), (0.0, 1.0), 2, 2)
+
+    def points(name):
+        return mesh.points[: 18 if name == "0" else 17]
+
+    with pytest.raises(InputError, match="the mesh has 17 points at 1 s and 18 before, with the same faces"):
+        deformation_of(Path("case"), ("0", "1"), points, mesh, None)
+
+
+def test_coupled_patches_of_a_mesh_that_deforms_are_reported():
+    mesh = cyclic_row(0.0, 2)
+    with pytest.raises(InputError, match=r"the mesh deforms, and its patch .* is coupled"):
+        deformation_of(Path("case"), ("0", "1"), lambda _: mesh.points, mesh, None)
