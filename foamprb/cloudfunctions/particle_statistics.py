@@ -113,8 +113,9 @@ def _in_frames(arrays: Any, steps: Steps) -> Steps:
         return steps
     tables = steps.tables.copy()
     first, last = (tables[:, row].astype(np.int64).ravel() for row in (step.host0, step.host1))
-    host = np.where(first < 0, last, first)
-    for x, t in ((step.x0, step.t0), (step.x1, step.t1)):
+    # A step that a coupled patch divides has a host at one of its ends only.
+    hosts = np.where(first < 0, last, first), np.where(last < 0, first, last)
+    for x, t, host in zip((step.x0, step.x1), (step.t0, step.t1), hosts, strict=True):
         places = np.moveaxis(tables[:, x : x + 3], 1, 2)
         pulled = arrays.pulled(places.reshape(-1, 3), host, tables[:, t].ravel())
         tables[:, x : x + 3] = np.moveaxis(pulled.reshape(places.shape), 2, 1)
@@ -192,7 +193,7 @@ def _stuck_on_faces(cloud: ObservedCloud, mesh: Mesh) -> Floats:
 
     counts = np.zeros(len(mesh.boundary_areas))
     trees: dict[int, cKDTree] = {}
-    arrays: Any = cloud.cloud.flow.arrays
+    arrays: Any = cloud.cloud.flow.arrays()
     for x, patch, host, t in cloud.map(_stuck):
         x = arrays.pulled(x, host, t, False) if hasattr(arrays, "pulled") else x
         for index in np.unique(patch):

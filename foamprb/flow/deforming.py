@@ -147,7 +147,7 @@ class NormalsAt:
     """Inward normals of boundary triangles at a time."""
 
     triangles: Ints
-    nodes: NodesAt
+    nodes: Any
 
     @staticmethod
     def item(at: NormalsAt, i: int, k: int) -> float:
@@ -159,7 +159,7 @@ class NormalsAt:
         q0, q1, q2 = nodes[c, 0] - x, nodes[c, 1] - y, nodes[c, 2] - z
         n0, n1, n2 = p2 * q1 - p1 * q2, p0 * q2 - p2 * q0, p1 * q0 - p0 * q1
         size = max(math.sqrt(n0 * n0 + n1 * n1 + n2 * n2), 1e-300)
-        return (n0 if k == 0 else n1 if k == 1 else n2) / size
+        return float(n0 if k == 0 else n1 if k == 1 else n2) / size
 
 
 @stand_in
@@ -193,14 +193,14 @@ class FieldsAt:
         return early + at.c * f[np.uint64(at.k + row), k] + at.d * f[np.uint64(at.l + row), k]  # type: ignore[no-any-return]
 
 
-def nodes_at(flow: DeformingArrays, k: int, t: float) -> NodesAt:
+def nodes_at(flow: DeformingArrays, k: int, t: float) -> Any:
     """Return the nodes at a time, s, in the loaded interval k."""
     h = flow.series.times[k + 1] - flow.series.times[k]
     a, b, c, d = _hermite((t - flow.series.times[k]) / h, h)
     return NodesAt(flow, flow.series.first[k], flow.series.first[k + 1], a, b, c, d)
 
 
-def rates_at(flow: DeformingArrays, k: int, t: float) -> NodesAt:
+def rates_at(flow: DeformingArrays, k: int, t: float) -> Any:
     """Return the velocities of the nodes, as places, at a time, s, in the loaded interval k."""
     h = flow.series.times[k + 1] - flow.series.times[k]
     a, b, c, d = _hermite_rate((t - flow.series.times[k]) / h, h)
@@ -219,12 +219,12 @@ def _hermite_rate(s: float, h: float) -> Weights:
     return -w, g * (1.0 - 3.0 * s), w, s * (3.0 * s - 2.0)
 
 
-def with_nodes(flow: DeformingArrays, nodes: NodesAt) -> MeshAt:
+def with_nodes(flow: DeformingArrays, nodes: NodesAt) -> Any:
     """Return the mesh with these nodes."""
     return MeshAt(flow.mesh, nodes, NormalsAt(flow.mesh.triangles, nodes))
 
 
-def mesh_at(flow: DeformingArrays, t: float) -> MeshAt:
+def mesh_at(flow: DeformingArrays, t: float) -> Any:
     """Return the mesh at a time, s."""
     return with_nodes(flow, nodes_at(flow, interval(flow.series, t), t))
 
@@ -251,7 +251,7 @@ def basis(times: Floats, first: int, end: int, j: int, t: float) -> tuple[float,
     return value, rate
 
 
-def blended(flow: SeriesArrays, values: Floats, k: int, t: float) -> tuple[FieldsAt, FieldsAt]:
+def blended(flow: SeriesArrays, values: Any, k: int, t: float) -> tuple[Any, Any]:
     """Return a table of nodes at a time in the loaded interval k, and its rate at fixed nodes."""
     first, end = window(flow.times, k)
     j, m, n = first + 1, min(first + 2, end - 1), min(first + 3, end - 1)
@@ -287,7 +287,7 @@ def sample(flow: DeformingArrays, host: int, x: Vector, t: float) -> tuple[Vecto
     return plus(u, c), l, minus(u_w, dot_vector(l, v))
 
 
-def _lack(flow: DeformingArrays, k: int, t: float, moving: NodesAt, rows: Any, w: Weights) -> Vector:
+def _lack(flow: DeformingArrays, k: int, t: float, moving: Any, rows: Any, w: Weights) -> Vector:
     """Return the velocity of walls less that of the polynomial through their times, weighted by nodes."""
     nodes, slopes, lack = flow.mesh.nodes, blended(flow.series, flow.shapes, k, t)[0], (0.0, 0.0, 0.0)
     for n in range(4):
@@ -300,10 +300,10 @@ def _lack(flow: DeformingArrays, k: int, t: float, moving: NodesAt, rows: Any, w
 
 def _correction(
     flow: DeformingArrays,
-    at: MeshAt,
+    at: Any,
     k: int,
     t: float,
-    f: FieldsAt,
+    f: Any,
     host: int,
     w: Weights,
     sides: tuple[Vector, Vector, Vector],

@@ -37,11 +37,12 @@ from foamprb.cloudfunctions.base import ObservedCloud
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
+from foamprb.flow.deforming import DeformingFlow
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.moving import MovingFlow
 from foamprb.flow.nodes import NodeValues
 from foamprb.flow.read.flows import check_region, read_flow, read_transient_flow, rotations_of
-from foamprb.flow.read.motion import moves
+from foamprb.flow.read.motion import moves, moves_rigidly
 from foamprb.flow.read.source import FlowSource, FlowTimes
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
@@ -245,7 +246,9 @@ def _loop(settings: Settings, rotating: bool, source: FlowSource) -> tuple[Track
         models = replace(models, surroundings=(FadingMemory(n_times=n_times), *models.surroundings))
     flow: type[MeshFlow] = RotatingFlow if rotating else MeshFlow
     if settings.solution.transient:
-        flow = MovingFlow if source.file is None and moves(settings.case, settings.region) else SeriesFlow
+        flow, where = SeriesFlow, (settings.case, settings.region)
+        if source.file is None and moves(*where):
+            flow = MovingFlow if moves_rigidly(*where) else DeformingFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
     return Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from foam_writer import header, write_case
 from mesh_shapes import cyclic_row, layer
 
 from foamprb import Cloud, Escape, Medium, Rebound, Status, Stick, spheres
@@ -16,6 +18,7 @@ from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import with_points
 from foamprb.flow.motion import match_walls
 from foamprb.flow.read.motion import deformation_of, note_of_deformation
+from foamprb.flow.read.openfoam import read_series
 from foamprb.flow.reconstruct import Reconstruction
 
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
@@ -192,6 +195,17 @@ def test_patches_zones_and_hosts_are_where_they_are_at_a_time(piston):
         assert np.array_equal(piston.locate(beside, t) >= 0, [False, True])
 
 
+def test_places_are_carried_back_to_the_mesh_of_the_first_time(piston):
+    """At loaded times with the fluid, at any time on the boundary."""
+    x = np.array([[0.3, 0.4, 0.05], [0.7, 0.2, 0.05], [0.001, 0.4, 0.05]])
+    for t, apart, rows in ((0.7, True, [0, 1]), (0.9, False, [2])):
+        now = x + (1.0 - x[:, :1]) * [place(t), 0.0, 0.0]
+        hosts = piston.locate(now, t)
+        piston.load(0.7, 0.7)
+        back = piston.arrays().pulled(now[rows], hosts[rows], np.full(len(rows), t), apart)
+        assert back == pytest.approx(x[rows], abs=3e-4)
+
+
 def test_acceleration_is_that_at_a_fixed_point():
     """Of a moving mesh, by the kernel as it runs in the interpreter."""
     flow, _ = squeezed(20)
@@ -208,6 +222,35 @@ def test_acceleration_is_that_at_a_fixed_point():
 def test_the_log_tells_how_far_points_move(piston):
     note = note_of_deformation(piston.motion, piston.mesh)
     assert note.startswith("The mesh deforms: points move by up to 0.076 m from time to time, 0.6 t")
+
+
+def stretch(case, times=("0.5", "1e1")):
+    """Let the points of a case move."""
+    points = (case / "constant/polyMesh/points").read_text()
+    for time in times:
+
+        def moved(m, factor=1.0 + 0.1 * float(time)):
+            x, y, z = (float(x) for x in m.groups())
+            return f"({factor * x:.17g} {y:.17g} {z:.17g})"
+
+        (case / time / "polyMesh").mkdir()
+        text = re.sub(r"\((\S+) (\S+) (\S+)\)", moved, points)
+        (case / time / "polyMesh/points").write_text(text)
+
+
+def test_a_case_whose_points_move_deforms(tmp_path):
+    mesh = write_case(tmp_path, perturbation=0.0)
+    stretch(tmp_path)
+    flow = read_series(tmp_path)
+    assert any("the mesh deforms: points move by up to 0.95 m" in note for note in flow.notes)
+    for t in (0.0, 0.3, 0.5, 4.0, 10.0):
+        assert flow.nodes_at(t) == pytest.approx(mesh.nodes * [1.0 + 0.1 * t, 1.0, 1.0], abs=1e-9)
+    text = "dynamicFvMesh dynamicMotionSolverFvMesh; motionSolver solidBody;"
+    (tmp_path / "constant/dynamicMeshDict").write_text(header("dictionary", "dynamicMeshDict") + text)
+    with pytest.raises(
+        InputError, match=r"m off a rigid motion\. Its dynamicMeshDict names rigid motions only"
+    ):
+        read_series(tmp_path)
 
 
 def test_another_number_of_points_is_reported():

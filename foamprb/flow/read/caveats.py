@@ -347,14 +347,15 @@ def _zones(
 
 
 def _flux(
-    read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo]
+    read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo], name: str = "phi"
 ) -> tuple[Floats, str, str, Floats] | None:
     """Return the flux out of the boundary faces (n,), its name, its unit, and the flux through inner faces.
 
-    Returns None if ``phi`` is missing.
+    Returns None if ``phi`` is missing. On a mesh that moves it is relative to the faces, whose own flux
+    ``meshPhi`` is added.
     """
     try:
-        phi = read("phi", FLUX_FIELD)
+        phi = read(name, FLUX_FIELD)
     except InputError:
         return None
     require_numbers(phi.cells, phi.path, "value", "at face")
@@ -369,4 +370,8 @@ def _flux(
         require_numbers(values_there, phi.path, "value", f"on patch {patch.name}, face")
         values.append(np.broadcast_to(values_there, (patch.faces, 1))[:, 0])
     unit = "kg/s" if phi.dimensions == MASS_FLUX else "m3/s"
-    return np.concatenate([np.empty(0), *values]), "phi", unit, phi.cells[:, 0]
+    outer, inner = np.concatenate([np.empty(0), *values]), phi.cells[:, 0]
+    carried = _flux(read, patches, "meshPhi") if name == "phi" and unit == "m3/s" else None
+    if carried is not None and len(carried[3]) == len(inner):
+        return outer + carried[0], "phi + meshPhi", unit, inner + carried[3]
+    return outer, name, unit, inner

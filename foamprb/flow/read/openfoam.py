@@ -352,7 +352,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
     def read(name: str) -> tuple[Any, ...]:
         reads = [partial(case.field, name) for name in names]
-        here, own, index, rates = whole, operators, names.index(name), None
+        here, own, index = whole, operators, names.index(name)
+        rates: Floats | None = None
         if motion is not None:
             deforms = isinstance(motion, Deformation)
             here = whole._replace(mesh=deformed(index)) if deforms else _mesh_at(case, name, whole)
@@ -504,7 +505,7 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
     if remade:
         raise InputError(
             f"{case.folder(remade[0]) / 'polyMesh'}: the faces of the mesh change in time, as by refinement "
-            "or layers. Allowed: meshes at rest, and pieces that move as rigid bodies."
+            "or layers. Allowed: meshes at rest, or of which the points move."
         )
     return names, notes
 
