@@ -14,8 +14,7 @@ continuous across the sides of tetrahedra.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple, TypeAlias
 
@@ -39,18 +38,16 @@ from foamprb.body.tensor import (
 )
 from foamprb.compile.link import link
 from foamprb.compile.record import record, stand_in
-from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra, Turbulence
+from foamprb.flow.base import Floats, Ints, Turbulence
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, frame, point
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.locator import locate as locate_mesh
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import build_tree
-from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.meshflow import _folds as folds_of
 from foamprb.flow.motion import Deformation
 from foamprb.flow.moving import MovingMeshFlow
 from foamprb.flow.moving import _any_interval as any_interval
-from foamprb.flow.sampling import with_velocity
 from foamprb.flow.series import _OF_VELOCITY as OF_VELOCITY
 from foamprb.flow.series import _OF_VISCOSITY as OF_VISCOSITY
 from foamprb.flow.series import SeriesArrays, SeriesFlow
@@ -637,37 +634,6 @@ class DeformingFlow(MovingMeshFlow):
         (x, v), (y, w) = (np.split(arrays.shapes[row : row + n], 2, axis=1) for row in rows)
         nodes: Floats = at.a * x + at.b * v + at.c * y + at.d * w
         return nodes
-
-    @contextmanager
-    def _moved(self, t: float) -> Iterator[Floats]:
-        """Let the mesh be that of a time, s; return its nodes."""
-        mesh, x = self.mesh, self.nodes_at(t)
-        a, b, c = (x[mesh.triangles[:, k]] for k in range(3))
-        normals = np.cross(c - a, b - a)
-        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-        self.mesh = replace(
-            mesh, points=x[: mesh.n_points], centres=x[mesh.n_points :], triangle_normals=normals
-        )
-        try:
-            yield x
-        finally:
-            self.mesh = mesh
-
-    def patch_faces(self, name: str, t: float) -> PatchFaces:
-        """See :meth:`SeriesFlow.patch_faces`; at their places at t."""
-        with self._moved(t):
-            faces = MeshFlow.patch_faces(self, name, t)
-        return with_velocity(faces, self, t)
-
-    def cell_zone(self, name: str | None, t: float | None = None) -> Tetrahedra:
-        """See :meth:`MeshFlow.cell_zone`; at the time t, s, by default the first."""
-        zone, x = super().cell_zone(name), self.nodes_at(self.times[0] if t is None else t)
-
-        def vertices(hosts: Ints) -> Floats:
-            return x[self.mesh.tets[hosts]]
-
-        corners = vertices(zone.hosts)
-        return Tetrahedra(np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6.0, zone.hosts, vertices)
 
 
 def _pull_all(flow: DeformingArrays, hosts: NDArray[np.int64], t: Floats, x: Floats, apart: bool) -> None:

@@ -466,6 +466,31 @@ def curvature(flow: MovingArrays, host: int, x: Vector, t: float) -> Curvature:
 class MovingMeshFlow(SeriesFlow):
     """Flow given at several times on a mesh that moves."""
 
+    def nodes_at(self, t: float) -> Floats:
+        """Load a time, s, and return the nodes then, (n_nodes, 3), m."""
+        raise NotImplementedError
+
+    def patch_faces(self, name: str, t: float) -> PatchFaces:
+        """See :meth:`SeriesFlow.patch_faces`; at their places at t."""
+        faces, x = MeshFlow.patch_faces(self, name, t), self.nodes_at(t)
+        at = self.mesh.triangle_patch == [patch.name for patch in self.patches].index(name)
+        corners = x[self.mesh.triangles[at]]
+        normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 1] - corners[:, 0])
+        areas = np.linalg.norm(normals, axis=1)
+        normals /= np.maximum(areas, 1e-300)[:, None]
+        faces = faces._replace(vertices=corners, normals=normals, areas=0.5 * areas)
+        return with_velocity(faces, self, t)
+
+    def cell_zone(self, name: str | None, t: float | None = None) -> Tetrahedra:
+        """See :meth:`MeshFlow.cell_zone`; at the time t, s, by default the first."""
+        zone, x = super().cell_zone(name), self.nodes_at(self.times[0] if t is None else t)
+
+        def vertices(hosts: Ints) -> Floats:
+            return x[self.mesh.tets[hosts]]
+
+        corners = vertices(zone.hosts)
+        return Tetrahedra(np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6.0, zone.hosts, vertices)
+
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """See :meth:`SeriesFlow.sample`."""
         self.load(t, t)
@@ -615,34 +640,14 @@ class MovingFlow(MovingMeshFlow):
         """See :meth:`SeriesFlow.traits`; with the first pose."""
         return {**super().traits(), "poses": self._rows[0, :, :_MEANS]}
 
-    def moved(self, x: Floats, pieces: NDArray[np.int64], t: float) -> Floats:
-        """Return places (n, 3) of the first time, m, moved with their pieces (n,) to the time t, s."""
+    def nodes_at(self, t: float) -> Floats:
+        """See :meth:`MovingMeshFlow.nodes_at`."""
         self.load(t, t)
-        arrays, y = self.arrays(), np.array(x)
-        for p in np.unique(pieces):
-            q, own = pose(arrays, int(p), t), pieces == p
-            y[own] = (x[own] - self.motion.c[p]) @ np.reshape(q.Q, (3, 3)).T + q.y
-        return y
-
-    def patch_faces(self, name: str, t: float) -> PatchFaces:
-        """See :meth:`SeriesFlow.patch_faces`; at their places at t."""
-        faces = MeshFlow.patch_faces(self, name, t)
-        pieces = self.motion.piece[self.cell_of(faces.hosts)]
-        vertices = self.moved(faces.vertices.reshape(-1, 3), np.repeat(pieces, 3), t).reshape(-1, 3, 3)
-        turned = self.moved(self.motion.c[pieces] + faces.normals, pieces, t)
-        turned -= self.moved(self.motion.c[pieces], pieces, t)
-        return with_velocity(faces._replace(vertices=vertices, normals=turned), self, t)
-
-    def cell_zone(self, name: str | None, t: float | None = None) -> Tetrahedra:
-        """See :meth:`MeshFlow.cell_zone`; at the time t, s, by default the first."""
-        zone, time = super().cell_zone(name), self.times[0] if t is None else t
-
-        def vertices(hosts: Ints) -> Floats:
-            x = self.mesh.nodes[self.mesh.tets[hosts]]
-            pieces = np.repeat(self.motion.piece[self.cell_of(hosts)], 4)
-            return self.moved(x.reshape(-1, 3), pieces, time).reshape(-1, 4, 3)
-
-        return zone._replace(vertices=vertices)
+        arrays, pieces, x = self.arrays(), self.motion.nodes(self.mesh), self.mesh.nodes
+        for p in range(len(self.motion.names)):
+            q, own = pose(arrays, p, t), pieces == p
+            x[own] = (x[own] - self.motion.c[p]) @ np.reshape(q.Q, (3, 3)).T + q.y
+        return x
 
 
 def _pull_all(flow: MovingArrays, hosts: NDArray[np.int64], t: Floats, x: Floats, apart: bool) -> None:
