@@ -193,7 +193,7 @@ def _stuck_on_faces(cloud: ObservedCloud, mesh: Mesh) -> Floats:
 
     counts = np.zeros(len(mesh.boundary_areas))
     trees: dict[int, cKDTree] = {}
-    arrays: Any = cloud.cloud.flow.arrays()
+    arrays: Any = cloud.cloud.flow.arrays(0.0, ())
     for x, patch, host, t in cloud.map(_stuck):
         x = arrays.pulled(x, host, t, False) if hasattr(arrays, "pulled") else x
         for index in np.unique(patch):

@@ -377,7 +377,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
                 u, l = motion.in_frames(index, here.mesh, u - frame[0], l - frame[1])
             return u, l, fluxes
 
-        key = (*values, mass)
+        key: tuple[Any, ...] = (*values, mass)
         if isinstance(motion, Deformation):
             rates = motion.rates(index, lambda k: deformed(k).nodes)
             key = (*values, mass, here.mesh.points, rates.copy())
