@@ -14,7 +14,7 @@ continuous across the sides of tetrahedra.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple, TypeAlias
 
@@ -39,6 +39,7 @@ from foamprb.body.tensor import (
 from foamprb.compile.link import link
 from foamprb.compile.record import record, stand_in
 from foamprb.flow.base import Floats, Ints, Turbulence
+from foamprb.flow.kernels import named
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, frame, point
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.locator import locate as locate_mesh
@@ -46,8 +47,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import build_tree
 from foamprb.flow.meshflow import _folds as folds_of
 from foamprb.flow.motion import Deformation
-from foamprb.flow.moving import MovingMeshFlow
-from foamprb.flow.moving import _any_interval as any_interval
+from foamprb.flow.moving import MovingMeshFlow, any_interval, hermite, hermite_rate
 from foamprb.flow.series import _OF_VELOCITY as OF_VELOCITY
 from foamprb.flow.series import _OF_VISCOSITY as OF_VISCOSITY
 from foamprb.flow.series import SeriesArrays, SeriesFlow
@@ -120,7 +120,9 @@ class DeformingArrays(NamedTuple):
 class NodesAt:
     """Nodes at a time in place of :attr:`MeshArrays.nodes`: Hermite's cubic, or its derivative."""
 
-    flow: DeformingArrays
+    shapes: Floats
+    nodes: Floats
+    """Those of the mesh, for what does not change in time."""
     first: int
     """Row of ``shapes`` at which the nodes begin at the start of the interval, and at its end."""
     last: int
@@ -134,8 +136,8 @@ class NodesAt:
     def item(at: NodesAt, i: int, k: int) -> float:
         """Return coordinate k of node i, or what does not change in time."""
         if k >= FREE:
-            return at.flow.mesh.nodes[np.uint64(i), k]  # type: ignore[no-any-return]
-        f, i0, i1 = at.flow.shapes, np.uint64(at.first + i), np.uint64(at.last + i)
+            return at.nodes[np.uint64(i), k]  # type: ignore[no-any-return]
+        f, i0, i1 = at.shapes, np.uint64(at.first + i), np.uint64(at.last + i)
         return at.a * f[i0, k] + at.b * f[i0, k + 3] + at.c * f[i1, k] + at.d * f[i1, k + 3]  # type: ignore[no-any-return]
 
 
@@ -192,28 +194,16 @@ class FieldsAt:
 
 def nodes_at(flow: DeformingArrays, k: int, t: float) -> Any:
     """Return the nodes at a time, s, in the loaded interval k."""
-    h = flow.series.times[k + 1] - flow.series.times[k]
-    a, b, c, d = _hermite((t - flow.series.times[k]) / h, h)
-    return NodesAt(flow, flow.series.first[k], flow.series.first[k + 1], a, b, c, d)
+    series, h = flow.series, flow.series.times[k + 1] - flow.series.times[k]
+    w = hermite((t - series.times[k]) / h, h)
+    return NodesAt(flow.shapes, flow.mesh.nodes, series.first[k], series.first[k + 1], *w)
 
 
 def rates_at(flow: DeformingArrays, k: int, t: float) -> Any:
     """Return the velocities of the nodes, as places, at a time, s, in the loaded interval k."""
-    h = flow.series.times[k + 1] - flow.series.times[k]
-    a, b, c, d = _hermite_rate((t - flow.series.times[k]) / h, h)
-    return NodesAt(flow, flow.series.first[k], flow.series.first[k + 1], a, b, c, d)
-
-
-def _hermite(s: float, h: float) -> Weights:
-    """Return the weights of value and rate at the start of an interval, h s long, and at its end."""
-    g = 1.0 - s
-    return g * g * (1.0 + 2.0 * s), h * s * g * g, s * s * (3.0 - 2.0 * s), -h * s * s * g
-
-
-def _hermite_rate(s: float, h: float) -> Weights:
-    """Return the derivatives of :func:`_hermite`, 1/s."""
-    g, w = 1.0 - s, 6.0 * s * (1.0 - s) / h
-    return -w, g * (1.0 - 3.0 * s), w, s * (3.0 * s - 2.0)
+    series, h = flow.series, flow.series.times[k + 1] - flow.series.times[k]
+    w = hermite_rate((t - series.times[k]) / h, h)
+    return NodesAt(flow.shapes, flow.mesh.nodes, series.first[k], series.first[k + 1], *w)
 
 
 def with_nodes(flow: DeformingArrays, nodes: NodesAt) -> Any:
@@ -321,7 +311,7 @@ def _correction(
 def _fluxes(flow: DeformingArrays, j: int, host: int) -> tuple[Weights, float]:
     """Return the fluxes of the correction in a host at loaded time j, and six times its volume, m³."""
     series, first = flow.series, flow.series.first[j]
-    then = with_nodes(flow, NodesAt(flow, first, first, 1.0, 0.0, 0.0, 0.0))
+    then = with_nodes(flow, NodesAt(flow.shapes, flow.mesh.nodes, first, first, 1.0, 0.0, 0.0, 0.0))
     row, first_face = series.first_tet[j] + host, series.first_face[j]
     q = fluxes_of(then, series.correction, row, series.phi, first_face, series.fields, 0, first, host)
     return q, frame(then, host)[4]
@@ -394,24 +384,26 @@ def ride(flow: DeformingArrays, host: int, x: Vector, t0: float, t1: float) -> t
     triangle = _touched(flow, host, x, t0)
     if triangle < 0:
         return x, _SAME, (0.0, 0.0, 0.0)
-    (a, b, c), _ = _boundary(flow, triangle, t0)
+    a, b, c = _corners(flow, _boundary(flow, t0)[0], triangle)
     w = in_triangle(minus(a, x), minus(b, x), minus(c, x))
     Q, foot = _axes(a, b, c), _mean(w, (a, b, c))
-    (a, b, c), rates = _boundary(flow, triangle, t1)
-    turn = dot(_axes(a, b, c), transpose(Q))
-    return plus(_mean(w, (a, b, c)), dot_vector(turn, minus(x, foot))), turn, _mean(w, rates)
+    now, rates = _boundary(flow, t1)
+    a, b, c = _corners(flow, now, triangle)
+    turn, y = dot(_axes(a, b, c), transpose(Q)), _mean(w, (a, b, c))
+    y = plus(y, dot_vector(turn, minus(x, foot)))
+    return y, turn, _mean(w, _corners(flow, rates, triangle))
 
 
 def _touched(flow: DeformingArrays, host: int, x: Vector, t: float) -> int:
     """Return the triangle of walls and openings that is nearest to x, one of the host if there is one."""
-    mesh, best, found = flow.mesh, math.inf, -1
+    mesh, now, best, found = flow.mesh, _boundary(flow, t)[0], math.inf, -1
     for k in range(4):
         own = -1 - mesh.neighbours[host, k]
         if own >= 0 and _is_past(flow, own):
             return int(own)
     for triangle in range(mesh.triangle_tet.shape[0]):
         if _is_past(flow, triangle):
-            a, b, c = _boundary(flow, triangle, t)[0]
+            a, b, c = _corners(flow, now, triangle)
             p = nearest_point(minus(a, x), minus(b, x), minus(c, x))
             if inner(p, p) < best:
                 best, found = inner(p, p), triangle
@@ -423,22 +415,18 @@ def _is_past(flow: DeformingArrays, triangle: int) -> bool:
     return bool(min(rows[at[triangle, 0]], rows[at[triangle, 1]], rows[at[triangle, 2]]) >= 0)
 
 
-def _boundary(flow: DeformingArrays, triangle: int, t: float) -> tuple[Corners, Corners]:
-    """Return the corners of a triangle at any time of the flow, and their velocities."""
+def _boundary(flow: DeformingArrays, t: float) -> tuple[Any, Any]:
+    """Return the points on walls and openings at any time of the flow, and their velocities."""
     k, s, h = any_interval(flow, t)
-    n = flow.past.shape[0] // flow.n_past
-    first, last = k * flow.n_past, (k + 1) % n * flow.n_past
-    w, w_t, f, at = _hermite(s, h), _hermite_rate(s, h), flow.past, flow.mesh.triangles
-    a, b, c = at[triangle, 0], at[triangle, 1], at[triangle, 2]
-    i, j, m = first + flow.past_rows[a], first + flow.past_rows[b], first + flow.past_rows[c]
-    step = last - first
-    places = _cubic(f, i, i + step, w), _cubic(f, j, j + step, w), _cubic(f, m, m + step, w)
-    return places, (_cubic(f, i, i + step, w_t), _cubic(f, j, j + step, w_t), _cubic(f, m, m + step, w_t))
+    n, fixed = flow.past.shape[0] // flow.n_past, flow.mesh.nodes
+    first, last, w, w_t = k * flow.n_past, (k + 1) % n * flow.n_past, hermite(s, h), hermite_rate(s, h)
+    return NodesAt(flow.past, fixed, first, last, *w), NodesAt(flow.past, fixed, first, last, *w_t)
 
 
-def _cubic(f: Floats, i: int, j: int, w: Weights) -> Vector:
-    start, end = plus_scaled(scale_vector(w[0], point(f, i)), w[1], (f[i, 3], f[i, 4], f[i, 5])), point(f, j)
-    return plus_scaled(plus_scaled(start, w[2], end), w[3], (f[j, 3], f[j, 4], f[j, 5]))
+def _corners(flow: DeformingArrays, past: Any, triangle: int) -> Corners:
+    at, rows = flow.mesh.triangles, flow.past_rows
+    a, b, c = rows[at[triangle, 0]], rows[at[triangle, 1]], rows[at[triangle, 2]]
+    return point(past, a), point(past, b), point(past, c)
 
 
 def _mean(w: Vector, of: Corners) -> Vector:
@@ -510,22 +498,10 @@ class DeformingFlow(MovingMeshFlow):
         Those of :class:`SeriesFlow`.
     """
 
-    kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
-        "sample": sample,
-        "sample_ahead": sample_ahead,
-        "curvature": curvature,
-        "walk": walk,
-        "walk_on": walk_on,
-        "gap": gap,
-        "normal": normal,
-        "wall_velocity": wall_velocity,
-        "cross": cross,
-        "recover": recover,
-        "ride": ride,
-        "turbulence": turbulence,
-        "viscosity": viscosity,
-        "cell_volume": cell_volume,
-    }
+    kernels = named(
+        sample, sample_ahead, curvature, walk, walk_on, gap, normal, wall_velocity, cross, recover,
+        ride, turbulence, viscosity, cell_volume
+    )  # fmt: skip
     around = 4
 
     def __init__(
@@ -558,13 +534,9 @@ class DeformingFlow(MovingMeshFlow):
         """Return the arrays for the kernels; see :meth:`SeriesFlow.arrays`."""
         self._cover()
         series = super().arrays(reach, touchable, sight, seen)
-        past, times = self.motion.past, self.times
-        starts = np.array(times if self.period is not None else times[:-1])
-        end = times[-1] if self.period is None else times[0] + self.period
-        return DeformingArrays(
-            series.mesh, series, self._shapes.reshape(-1, 6), past.reshape(-1, 6), past.shape[1],
-            self._past_rows, starts, end,
-        )  # fmt: skip
+        shapes, past = self._shapes.reshape(-1, 6), self.motion.past
+        rows = past.reshape(-1, 6), past.shape[1], self._past_rows
+        return DeformingArrays(series.mesh, series, shapes, *rows, *self.intervals())
 
     def _cover(self) -> None:
         """Let trees and folds hold at all loaded times."""

@@ -25,6 +25,7 @@ __all__ = [
     "curvature",
     "inlined",
     "linked_with",
+    "named",
     "normal",
     "recover",
     "ride",
@@ -165,7 +166,8 @@ def curvature(flow: object, host: int, x: Vector, t: float) -> Curvature:
     return _ZERO, _ZERO, _ZERO, _ZERO, _ZERO, _ZERO
 
 
-_BY_NAME = {name: globals()[name] for name in __all__ if name not in ("behind", "inlined", "linked_with")}
+_OTHERS = ("behind", "inlined", "linked_with", "named")
+_BY_NAME = {name: globals()[name] for name in __all__ if name not in _OTHERS}
 
 
 def behind(kernels: Mapping[str, Function]) -> dict[Function, Function]:
@@ -181,6 +183,11 @@ def inlined(kernels: Mapping[str, Function]) -> tuple[Function, Function]:
     own = {name: conform(_BY_NAME[name], function) for name, function in kernels.items() if name in _BY_NAME}
     start = own.get("sample", sample)
     return start, own.get("sample_ahead") or _ahead_by(own.get("walk", walk), start)
+
+
+def named(*functions: Function) -> dict[str, Function]:
+    """Return functions of a flow by their names, those of the kernels."""
+    return {function.__name__: function for function in functions}
 
 
 def linked_with(kernels: Mapping[str, Function], arrays: Any, entry: Function) -> tuple[Any, Any]:

@@ -16,6 +16,7 @@ from foamprb.flow.base import Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
 from foamprb.flow.jumps import count_jumps, relative_jumps
+from foamprb.flow.kernels import named
 from foamprb.flow.mesh.arrays import FREE, GRADIENT, VELOCITY, MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
@@ -111,21 +112,10 @@ class MeshFlow:
         (n_nodes, 18) second derivatives of u, by :func:`foamprb.flow.curvatures.mean_curvatures`.
     """
 
-    kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
-        "sample": sample,
-        "sample_ahead": sample_ahead,
-        "curvature": curvature,
-        "walk": walk,
-        "walk_on": walk_on,
-        "gap": gap,
-        "walls": walls,
-        "normal": normal,
-        "cross": cross,
-        "recover": recover,
-        "turbulence": turbulence,
-        "viscosity": viscosity,
-        "cell_volume": cell_volume,
-    }
+    kernels = named(
+        sample, sample_ahead, curvature, walk, walk_on, gap, walls, normal, cross, recover,
+        turbulence, viscosity, cell_volume
+    )  # fmt: skip
     lists_walls = True
 
     def __init__(

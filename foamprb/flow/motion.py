@@ -96,7 +96,7 @@ class Deformation(NamedTuple):
         return float((self.ways / np.diff(self.times)).max())
 
     def rates(self, index: int, places: Callable[[int], Floats]) -> Floats:
-        """Return the rates of places at the time of an index, by those at up to five times."""
+        """Return the rates of places at the time of an index, by those at up to seven times."""
         n, period = len(self.times), self.period
         near: Sequence[int] = nearest_times(n, index)
         if period is not None:

@@ -13,7 +13,7 @@ search of a cell nor that of a wall finds another piece.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -40,7 +40,7 @@ from foamprb.body.tensor import (
 from foamprb.compile.link import link
 from foamprb.compile.record import record
 from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra, Turbulence
-from foamprb.flow.kernels import linked_with
+from foamprb.flow.kernels import linked_with, named
 from foamprb.flow.kernels import recover as recover_kernel
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, nodes_of
 from foamprb.flow.mesh.coupling import Coupling
@@ -57,7 +57,7 @@ from foamprb.flow.series import curvature as curvature_series
 from foamprb.flow.series import sample as sample_series
 from foamprb.flow.series import turbulence as turbulence_series
 from foamprb.flow.series import viscosity as viscosity_series
-from foamprb.flow.walk import FAILED, follow, inward, middle_of, nearest_point, shape
+from foamprb.flow.walk import FAILED, Weights, follow, inward, middle_of, nearest_point, shape
 from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walk import walk_on as walk_on_mesh
@@ -80,9 +80,10 @@ class MovingArrays(NamedTuple):
     series: SeriesArrays
     """Fields relative to the pieces, in their frames."""
     poses: Floats
-    """(n, n_pieces, 46), for each interval of Δ s between times of the flow: y and then Δ ẏ, at both ends; Q
-    at the start, the rotation vector r to the end, and Δ dr/dt at both ends; c; the mean velocities of the
-    piece, m/s, at both ends in the inertial frame, and in that of the piece; 1 if the former are blended."""
+    """(n, n_pieces, 46), for each interval of Δ s between times of the flow: y at the start, its
+    way to the end, and Δ ẏ at both ends; Q at the start, the rotation vector r to the end, and Δ dr/dt at
+    both ends; c; the mean velocities of the piece, m/s, at both ends in the inertial frame, and in that of
+    the piece; 1 if the former are blended."""
     starts: Floats
     """(n,) the starts of the intervals, s."""
     end: float
@@ -149,7 +150,7 @@ def _interval(flow: MovingArrays, t: float) -> tuple[int, float, float]:
     return (flow.level + k) % flow.poses.shape[0], (t - start) / length, length
 
 
-def _any_interval(flow: Any, t: float) -> tuple[int, float, float]:
+def any_interval(flow: Any, t: float) -> tuple[int, float, float]:
     """Return the same of any time of the flow."""
     n, whole = flow.starts.shape[0], flow.end - flow.starts[0]
     if t > flow.end:
@@ -162,14 +163,22 @@ def _any_interval(flow: Any, t: float) -> tuple[int, float, float]:
     return k, (t - flow.starts[k]) / length, length
 
 
-def _turned(flow: MovingArrays, k: int, p: int, s: float) -> Vector:
-    """Return the rotation vector of a piece since the start of an interval, Hermite's cubic."""
+def hermite(s: float, h: float) -> Weights:
+    """Return the weights of value and rate at the start of an interval, h s long, and at its end."""
     g = 1.0 - s
-    r, a, b = _vector(flow, k, p, 21), _vector(flow, k, p, 24), _vector(flow, k, p, 27)
-    return plus(
-        scale_vector(s * s * (3.0 - 2.0 * s), r),
-        plus(scale_vector(s * g * g, a), scale_vector(-s * s * g, b)),
-    )
+    return g * g * (1.0 + 2.0 * s), h * s * g * g, s * s * (3.0 - 2.0 * s), -h * s * s * g
+
+
+def hermite_rate(s: float, h: float) -> Weights:
+    """Return the derivatives of :func:`hermite`, 1/s."""
+    g, w = 1.0 - s, 6.0 * s * (1.0 - s) / h
+    return -w, g * (1.0 - 3.0 * s), w, s * (3.0 * s - 2.0)
+
+
+def _way(w: Weights, flow: MovingArrays, k: int, p: int, column: int) -> Vector:
+    """Return the weighted sum of the way in an interval, from a column on, and the rates at its ends."""
+    way, a, b = _vector(flow, k, p, column), _vector(flow, k, p, column + 3), _vector(flow, k, p, column + 6)
+    return plus(scale_vector(w[2], way), plus(scale_vector(w[1], a), scale_vector(w[3], b)))
 
 
 def rotation(r: Vector) -> Tensor:
@@ -194,12 +203,9 @@ def pose(flow: MovingArrays, p: int, t: float) -> Pose:
 
 def _pose(flow: MovingArrays, p: int, k: int, s: float) -> Pose:
     """Return the pose of piece p after the share s of interval k."""
-    g = 1.0 - s
-    y = between(_vector(flow, k, p, 0), _vector(flow, k, p, 3), s * s * (3.0 - 2.0 * s))
-    y = plus_scaled(y, s * g * g, _vector(flow, k, p, 6))
-    y = plus_scaled(y, -s * s * g, _vector(flow, k, p, 9))
+    w = hermite(s, 1.0)
+    y, r = plus(_vector(flow, k, p, 0), _way(w, flow, k, p, 3)), _way(w, flow, k, p, 21)
     Q = _start(flow, k, p)
-    r = _turned(flow, k, p, s)
     if r[0] != 0.0 or r[1] != 0.0 or r[2] != 0.0:
         Q = dot(rotation(r), Q)
     return Pose(Q, y, _vector(flow, k, p, _CENTRE))
@@ -222,25 +228,11 @@ def _rates(flow: MovingArrays, p: int, k: int, s: float, h: float) -> Rates:
     Ω = J dr/dt with the left Jacobian J of the rotation vector r (Chirikjian 2011, Stochastic models II, 10).
     Of dΩ/dt, what changes with J is left out: it vanishes where the axis keeps its direction.
     """
-    r = _turned(flow, k, p, s)
-    r_t, r_tt = _slopes(s, h, _vector(flow, k, p, 21), _vector(flow, k, p, 24), _vector(flow, k, p, 27))
-    way = minus(_vector(flow, k, p, 3), _vector(flow, k, p, 0))
-    y_t, y_tt = _slopes(s, h, way, _vector(flow, k, p, 6), _vector(flow, k, p, 9))
+    e, w, bend = 1.0 / h, hermite_rate(s, 1.0), (0.0, 6.0 * s - 4.0, 6.0 - 12.0 * s, 6.0 * s - 2.0)
+    r = _way(hermite(s, 1.0), flow, k, p, 21)
+    r_t, r_tt = scale_vector(e, _way(w, flow, k, p, 21)), scale_vector(e * e, _way(bend, flow, k, p, 21))
+    y_t, y_tt = scale_vector(e, _way(w, flow, k, p, 3)), scale_vector(e * e, _way(bend, flow, k, p, 3))
     return Rates(_spun(r, r_t), y_t, _spun(r, r_tt), y_tt)
-
-
-def _slopes(s: float, h: float, way: Vector, a: Vector, b: Vector) -> tuple[Vector, Vector]:
-    """Return the first and the second derivative of Hermite's cubic from 0 to ``way`` in the time h."""
-    g, e = 1.0 - s, 1.0 / h
-    first = plus(
-        scale_vector(6.0 * s * g, way),
-        plus(scale_vector(g * (1.0 - 3.0 * s), a), scale_vector(s * (3.0 * s - 2.0), b)),
-    )
-    second = plus(
-        scale_vector(6.0 - 12.0 * s, way),
-        plus(scale_vector(6.0 * s - 4.0, a), scale_vector(6.0 * s - 2.0, b)),
-    )
-    return scale_vector(e, first), scale_vector(e * e, second)
 
 
 def _spun(r: Vector, v: Vector) -> Vector:
@@ -374,9 +366,9 @@ def wall_velocity(flow: MovingArrays, triangle: int, x: Vector, t: float) -> Vec
 def ride(flow: MovingArrays, host: int, x: Vector, t0: float, t1: float) -> tuple[Vector, Tensor, Vector]:
     """Return place, turn and velocity at t1 of what sticks to the host's piece and was at x at t0."""
     p = piece_of(flow, host)
-    k, s, _ = _any_interval(flow, t0)
+    k, s, _ = any_interval(flow, t0)
     old = _pose(flow, p, k, s)
-    k, s, h = _any_interval(flow, t1)
+    k, s, h = any_interval(flow, t1)
     new = _pose(flow, p, k, s)
     y = push(new, pull(old, x))
     return y, dot(new.Q, transpose(old.Q)), speed(new, _rates(flow, p, k, s, h), y)
@@ -470,6 +462,12 @@ class MovingMeshFlow(SeriesFlow):
         """Load a time, s, and return the nodes then, (n_nodes, 3), m."""
         raise NotImplementedError
 
+    def intervals(self) -> tuple[Floats, float]:
+        """Return the starts (n,) of the intervals between times, s, and the end of the last one."""
+        if self.period is None:
+            return np.array(self.times[:-1]), self.times[-1]
+        return np.array(self.times), self.times[0] + self.period
+
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """See :meth:`SeriesFlow.patch_faces`; at their places at t."""
         faces, x = MeshFlow.patch_faces(self, name, t), self.nodes_at(t)
@@ -526,22 +524,10 @@ class MovingFlow(MovingMeshFlow):
         Those of :class:`SeriesFlow`; ``read`` returns fields relative to the pieces, in their frames.
     """
 
-    kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
-        "sample": sample,
-        "sample_ahead": sample_ahead,
-        "curvature": curvature,
-        "walk": walk,
-        "walk_on": walk_on,
-        "gap": gap,
-        "normal": normal,
-        "wall_velocity": wall_velocity,
-        "cross": cross,
-        "recover": recover,
-        "ride": ride,
-        "turbulence": turbulence,
-        "viscosity": viscosity,
-        "cell_volume": cell_volume,
-    }
+    kernels = named(
+        sample, sample_ahead, curvature, walk, walk_on, gap, normal, wall_velocity, cross, recover,
+        ride, turbulence, viscosity, cell_volume
+    )  # fmt: skip
 
     def __init__(
         self, motion: Motion, means: Mapping[int, Floats], mesh: Mesh, *given: Any, **options: Any
@@ -569,18 +555,9 @@ class MovingFlow(MovingMeshFlow):
         series = SeriesFlow.nothing()
         none = np.empty((0, 1), dtype=np.int32)
         return MovingArrays(
-            series.mesh,
-            series,
-            np.empty((0, 0, 46)),
-            np.empty(0),
-            0.0,
-            0,
-            0.0,
-            1.0,
-            np.empty((0, 6)),
-            none,
-            none[:, 0].copy(),
-        )
+            series.mesh, series, np.empty((0, 0, 46)), np.empty(0), 0.0, 0, 0.0, 1.0, np.empty((0, 6)),
+            none, none[:, 0].copy(),
+        )  # fmt: skip
 
     def arrays(  # type: ignore[override]
         self,
@@ -593,19 +570,18 @@ class MovingFlow(MovingMeshFlow):
         series = super().arrays(reach, touchable, sight, seen)
         for level in self._levels[:-1]:
             self._set_means(self._index(level), self._index(level + 1))
-        end = self.times[0] + self.period if self.period is not None else self.times[-1]
         level = self._index(self._levels[0]) if len(self._levels) else 0
-        starts = np.array(self.times[: len(self._rows)])
-        rows = self._rows.copy()
         return MovingArrays(
-            series.mesh, series, rows, starts, end, level, self._low, self._pitch, *self._tree, self._beyond
-        )
+            series.mesh, series, self._rows.copy(), *self.intervals(), level, self._low, self._pitch,
+            *self._tree, self._beyond,
+        )  # fmt: skip
 
     def _poses(self, i: int) -> Floats:
         """Return the rows of :attr:`MovingArrays.poses` of an interval, without means."""
         m, j, count = self.motion, self._index(i + 1), len(self.motion.names)
         h, rows = self._time_of(i + 1) - self._time_of(i), np.zeros((count, 46))
-        rows[:, 0:12] = np.concatenate([m.y[i], m.y[j], h * m.velocity[i], h * m.velocity[j]], axis=1)
+        way = m.y[j] - m.y[i]
+        rows[:, 0:12] = np.concatenate([m.y[i], way, h * m.velocity[i], h * m.velocity[j]], axis=1)
         end = [np.linalg.solve(_jacobian(r), h * o) for r, o in zip(m.turns[i], m.omega[j], strict=True)]
         rows[:, 12:30] = np.concatenate([m.Q[i].reshape(-1, 9), m.turns[i], h * m.omega[i], end], axis=1)
         rows[:, _CENTRE:_MEANS] = m.c
@@ -654,7 +630,7 @@ def _pull_all(flow: MovingArrays, hosts: NDArray[np.int64], t: Floats, x: Floats
     for i in range(len(hosts)):
         if hosts[i] >= 0:
             p = piece_of(flow, hosts[i])
-            k, s, _ = _any_interval(flow, t[i])
+            k, s, _ = any_interval(flow, t[i])
             X = pull(_pose(flow, p, k, s), (x[i, 0], x[i, 1], x[i, 2]))
             x[i, 0], x[i, 1], x[i, 2] = X[0] - (0.0 if apart else p * flow.pitch), X[1], X[2]
 

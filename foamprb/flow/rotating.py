@@ -6,7 +6,7 @@ W·a = Ω × a, and the rotating walls are at rest. Particles that enter or leav
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +16,7 @@ from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector, dot_vector, minus, plus, vector_product
 from foamprb.compile.record import record
 from foamprb.flow.base import Floats, Ints, PatchFaces, Turbulence
+from foamprb.flow.kernels import named
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh, point
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -105,15 +106,7 @@ class RotatingFlow(MeshFlow):
         See :class:`MeshFlow`.
     """
 
-    kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
-        **SeriesFlow.kernels,
-        "sample": sample,
-        "sample_ahead": sample_ahead,
-        "curvature": curvature,
-        "turbulence": turbulence,
-        "viscosity": viscosity,
-        "rotation_at": rotation_at,
-    }
+    kernels = SeriesFlow.kernels | named(sample, sample_ahead, curvature, turbulence, viscosity, rotation_at)
 
     def __init__(self, rotating: Sequence[RotatingZone], mesh: Mesh, *given: Any, **options: Any) -> None:
         super().__init__(mesh, *given, **options)

@@ -20,6 +20,7 @@ from foamprb.compile.record import record
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Turbulence
 from foamprb.flow.fields import FieldColumns, Fields, fields_on, width
+from foamprb.flow.kernels import named
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.locator import locate
 from foamprb.flow.mesh.mesh import Mesh
@@ -255,21 +256,10 @@ class SeriesFlow(Timeline, MeshFlow):
         The times do not rise, or do not fill the period.
     """
 
-    kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
-        "sample": sample,
-        "sample_ahead": sample_ahead,
-        "curvature": curvature,
-        "walk": walk,
-        "walk_on": walk_on,
-        "gap": gap,
-        "walls": walls,
-        "normal": normal,
-        "cross": cross,
-        "recover": recover,
-        "turbulence": turbulence,
-        "viscosity": viscosity,
-        "cell_volume": cell_volume,
-    }
+    kernels = named(
+        sample, sample_ahead, curvature, walk, walk_on, gap, walls, normal, cross, recover,
+        turbulence, viscosity, cell_volume
+    )  # fmt: skip
     around = 2
     """Number of times to load for each interval, if there are so many."""
 
@@ -518,6 +508,7 @@ def series_of(
     sampled: Sequence[FieldColumns] = (),
     curved: bool = False,
     flow: Callable[..., SeriesFlow] = SeriesFlow,
+    course: str = "linear",
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
 
@@ -535,10 +526,10 @@ def series_of(
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
     period, notes, zones, turbulent, conservative, viscous, sampled, curved
         See :class:`SeriesFlow`.
-    flow
-        Class of the flow.
+    flow, course
+        Class of the flow, and how it changes between times.
     """
-    note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
+    note = f"The flow is {course} in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
     size = 8 * (_width(turbulent, viscous) + width(sampled)) * (mesh.n_points + mesh.n_cells)
     size += 16 * len(mesh.tets) if conservative else 0

@@ -101,21 +101,7 @@ def rigid_motion(
         or a period does not return the points.
     """
     piece = pieces_of(mesh)
-    given = [float(name) for name in times]
-    if period is not None:
-        # The time at which the next period begins must have the points of the first one.
-        n = len(one_period(given, period))
-        again = [times[k] for k in range(n, len(times)) if abs(given[k] - given[0] - period) < 1e-6 * period]
-        size = float(np.ptp(mesh.points, axis=0).max())
-        for name in again[:1]:
-            back = points(name)
-            off = float(np.abs(back - mesh.points[: len(back)]).max())
-            if off > _RIGID * size:
-                raise InputError(
-                    f"{source}: a period of {period:g} s does not return the points of the mesh: they are up "
-                    f"to {off:.3g} m off at {name} s. Allowed: a period of the motion, or none."
-                )
-        times = times[:n]
+    times = _of_one_period(source, times, points, mesh, period)
     n, count, t = len(times), int(piece.max()) + 1, np.array([float(name) for name in times])
     names = tuple(_name(p, np.flatnonzero(piece == p), zones) for p in range(count))
     of_points = np.zeros(mesh.n_points, dtype=np.int64)
@@ -159,6 +145,26 @@ def rigid_motion(
     return _with_rates(Motion(piece, names, c, R, y, turns, np.zeros_like(y), np.zeros_like(y)), t, period)
 
 
+def _of_one_period(
+    source: Path, times: Sequence[str], points: Callable[[str], Floats], mesh: Mesh, period: float | None
+) -> Sequence[str]:
+    """Return the times of a period; InputError if the points are others where the next one begins."""
+    if period is None:
+        return times
+    given, size = [float(name) for name in times], float(np.ptp(mesh.points, axis=0).max())
+    n = len(one_period(given, period))
+    again = [times[k] for k in range(n, len(times)) if abs(given[k] - given[0] - period) < 1e-6 * period]
+    for name in again[:1]:
+        back = points(name)
+        off = float(np.abs(back - mesh.points[: len(back)]).max())
+        if off > _RIGID * size:
+            raise InputError(
+                f"{source}: a period of {period:g} s does not return the points of the mesh: they are up "
+                f"to {off:.3g} m off at {name} s. Allowed: a period of the motion, or none."
+            )
+    return times[:n]
+
+
 def _same_points(source: Path, time: str, now: Floats, n: int) -> Floats:
     """Return points; InputError if their number is not n."""
     if len(now) != n:
@@ -177,7 +183,7 @@ def deformation_of(
     Raises
     ------
     InputError
-        The number of points changes, or coupled patches may not move alike.
+        The number of points changes, a period does not return them, or coupled patches may not move alike.
     """
     coupled = [mesh.patches[c.patch] for c in mesh.couplings if mesh.patches[c.patch].type != "wedge"]
     if coupled:
@@ -190,8 +196,7 @@ def deformation_of(
     own = np.unique(mesh.triangles[kinds[mesh.triangle_patch]])
     rows = np.full(mesh.n_points, -1, dtype=np.int32)
     rows[own] = np.arange(len(own))
-    given = [float(name) for name in times]
-    times = times if period is None else times[: len(one_period(given, period))]
+    times = _of_one_period(source, times, points, mesh, period)
     past, ways, before = np.empty((len(times), len(own), 6)), np.empty(len(times) - 1), mesh.points
     for j, name in enumerate(times):
         now = _same_points(source, name, points(name), mesh.n_points)
@@ -199,7 +204,7 @@ def deformation_of(
         if j > 0:
             ways[j - 1] = np.linalg.norm(now - before, axis=1).max()
         before = now
-    motion = Deformation(tuple(given[: len(times)]), period, ways, rows, past)
+    motion = Deformation(tuple(map(float, times)), period, ways, rows, past)
     for j in range(len(times)):
         past[j, :, 3:] = motion.rates(j, lambda k: past[k, :, :3])
     return motion

@@ -326,9 +326,9 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     field = case.field(names[0], source.velocity, VELOCITY_FIELD)
     whole = case.mesh(names[0])
-    if (closed := with_walls(whole, field)) is not whole:
-        closed = with_walls(whole, field, case.field(names[len(names) // 2], source.velocity, VELOCITY_FIELD))
-    whole = closed
+    if with_walls(whole, field) is not whole:
+        later = case.field(names[len(names) // 2], source.velocity, VELOCITY_FIELD)
+        whole = with_walls(whole, field, later)
     first = velocities(field, whole)
     last = case.field(names[-1], source.velocity, VELOCITY_FIELD)
     # A flow that starts from rest does not show its openings.
@@ -355,8 +355,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         here, own, index = whole, operators, names.index(name)
         rates: Floats | None = None
         if motion is not None:
-            deforms = isinstance(motion, Deformation)
-            here = whole._replace(mesh=deformed(index)) if deforms else _mesh_at(case, name, whole)
+            rigid = isinstance(motion, Motion)
+            here = _mesh_at(case, name, whole) if rigid else whole._replace(mesh=deformed(index))
             own = _Operators(here.mesh)
         field = case.field(name, source.velocity, VELOCITY_FIELD)
         values = velocities(field, here)
@@ -371,7 +371,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
                 nodes = nodes_of_moving_walls(here, field)
                 u[nodes] = frame[0][nodes]
             if rates is not None:
-                match_walls(here.mesh, u, rates)
+                match_walls(here.mesh, u, rates.copy())
             fluxes = balanced_in_time(own.conserve, u, l, mass, where, frame, fastest, accept=source.accept)
             if isinstance(motion, Motion) and frame is not None:
                 u, l = motion.in_frames(index, here.mesh, u - frame[0], l - frame[1])
@@ -380,7 +380,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         key: tuple[Any, ...] = (*values, mass)
         if isinstance(motion, Deformation):
             rates = motion.rates(index, lambda k: deformed(k).nodes)
-            key = (*values, mass, here.mesh.points, rates.copy())
+            key = (*values, mass, here.mesh.points, rates)
         elif motion is not None:
             values = values[0], with_moving_walls(motion, index, here, field, values[1])
             means[index] = motion.means(here.mesh, values[0])
@@ -391,7 +391,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             match_walls(here.mesh, u, rates)
             shapes[index] = np.concatenate([here.mesh.nodes, rates], axis=1)
         more = _further(case, name, source, here, own)
-        curvatures = [mean_curvatures(whole.mesh, l)] if source.curved else []
+        bent = whole.mesh if rates is None else here.mesh
+        curvatures = [mean_curvatures(bent, l)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
 
     notes = [*notes, *case.notes, *whole.notes]
@@ -416,7 +417,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     return series_of(
         case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
-        curved=source.curved, flow=flow,
+        curved=source.curved, flow=flow, course="cubic" if isinstance(motion, Deformation) else "linear",
     )  # fmt: skip
 
 
