@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import header, write_case
+from foam_writer import header, put_linear, write_case
 from mesh_shapes import cyclic_row, layer
 
 from foamprb import Cloud, Escape, Medium, Rebound, Status, Stick, spheres
@@ -18,7 +19,8 @@ from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import with_points
 from foamprb.flow.motion import match_walls
 from foamprb.flow.read.motion import deformation_of, note_of_deformation
-from foamprb.flow.read.openfoam import read_series
+from foamprb.flow.read.openfoam import Case, read_series, transient_flow
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.reconstruct import Reconstruction
 
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
@@ -243,6 +245,7 @@ def test_a_case_whose_points_move_deforms(tmp_path):
     stretch(tmp_path)
     flow = read_series(tmp_path)
     assert any("the mesh deforms: points move by up to 0.95 m" in note for note in flow.notes)
+    assert flow.notes[-1] == "The flow is cubic in time between 3 times from 0 to 1e1."
     for t in (0.0, 0.3, 0.5, 4.0, 10.0):
         assert flow.nodes_at(t) == pytest.approx(mesh.nodes * [1.0 + 0.1 * t, 1.0, 1.0], abs=1e-9)
     text = "dynamicFvMesh dynamicMotionSolverFvMesh; motionSolver solidBody;"
@@ -253,6 +256,31 @@ def test_a_case_whose_points_move_deforms(tmp_path):
         read_series(tmp_path)
 
 
+def test_a_time_that_is_read_again_from_the_cache_has_the_same_bits(tmp_path):
+    """The velocities of nodes on walls, too, which follow those of the fluid."""
+    case = tmp_path / "case"
+    mesh = write_case(case, perturbation=0.0)
+    squares = replace(mesh, centres=mesh.centres**2, boundary_centres=mesh.boundary_centres**2)
+    for time in ("0", "0.5", "1e1"):
+        put_linear(case / time, squares, "U", np.diag([0.102, 0.0, 0.0]), 0.0, "[0 1 -1 0 0 0 0]")
+    stretch(case)
+
+    def arrays():
+        flow = transient_flow(Case(case), None, None, FlowSource(cache=tmp_path / "cache", curved=True))
+        flow.load(0.0, 0.3)
+        return flow.arrays()
+
+    made, stored = arrays(), arrays()
+    assert len(list((tmp_path / "cache").iterdir())) == 3
+    assert made.shapes[:, 3].max() == pytest.approx(0.102)
+    first, second = np.split(made.series.curvatures[:, 0], 3)[:2]
+    assert second == pytest.approx(first / 1.05**2, rel=1e-3)
+    for of, to in ((made, stored), (made.series, stored.series)):
+        for name in ("shapes", "past", "fields", "phi", "curvatures"):
+            if hasattr(of, name):
+                np.testing.assert_array_equal(getattr(of, name), getattr(to, name))
+
+
 def test_another_number_of_points_is_reported():
     mesh = layer((0.0, 1.0), (0.0, 1.0), 2, 2)
 
@@ -261,6 +289,16 @@ def test_another_number_of_points_is_reported():
 
     with pytest.raises(InputError, match="the mesh has 17 points at 1 s and 18 before, with the same faces"):
         deformation_of(Path("case"), ("0", "1"), points, mesh, None)
+
+
+def test_a_period_that_does_not_return_the_points_is_reported():
+    mesh = layer((0.0, 1.0), (0.0, 1.0), 2, 2)
+
+    def points(name):
+        return mesh.points * [1.0 + 0.1 * float(name), 1.0, 1.0]
+
+    with pytest.raises(InputError, match=r"a period of 1 s does not return the points .* 0\.1 m off at 1 s"):
+        deformation_of(Path("case"), ("0", "0.5", "1"), points, mesh, 1.0)
 
 
 def test_coupled_patches_of_a_mesh_that_deforms_are_reported():
