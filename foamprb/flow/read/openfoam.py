@@ -95,6 +95,7 @@ By then the fluid must have crossed the domain.
 """
 
 
+_FACES = ("start", "points", "owner", "neighbour")
 INSTANT = "the flow of an unsteady solver (ddtSchemes) is used as a steady flow, of one instant"
 
 
@@ -502,13 +503,28 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
                 "pseudoTime",
             )
         )
-    remade = moving_times({name: case.folder(name) for name in names[1:]}, "faces")
-    if remade:
+    changed = _first_change(case, names)
+    if changed:
         raise InputError(
-            f"{case.folder(remade[0]) / 'polyMesh'}: the faces of the mesh change in time, as by refinement "
-            "or layers. Allowed: meshes at rest, or of which the points move."
+            f"{case.folder(changed) / 'polyMesh'}: the faces of the mesh are others from {changed} s on, as "
+            "by refinement or layers. Allowed: meshes at rest, or of which the points move; -time selects times "
+            "with the same faces."
         )
     return names, notes
+
+
+def _first_change(case: Case, names: Sequence[str]) -> str | None:
+    """Return the first of some times at which the faces of the mesh are others; None if they stay.
+
+    Solvers that may change faces write them at each time, changed or not.
+    """
+    written = moving_times({name: case.folder(name) for name in names[1:]}, "faces")
+    first = case.poly(names[0])[0].faces if written else None
+    for name in written:
+        now = case.poly(name)[0].faces
+        if any(not np.array_equal(getattr(first, of), getattr(now, of)) for of in _FACES):
+            return name
+    return None
 
 
 class _Operators:
