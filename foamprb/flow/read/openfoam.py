@@ -507,8 +507,8 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
     if changed:
         raise InputError(
             f"{case.folder(changed) / 'polyMesh'}: the faces of the mesh are others from {changed} s on, as "
-            "by refinement or layers. Allowed: meshes at rest, or of which the points move; -time selects times "
-            "with the same faces."
+            "by refinement or layers. Allowed: meshes at rest, or of which the points move; -time selects "
+            "times with the same faces."
         )
     return names, notes
 
