@@ -56,10 +56,12 @@ def write_case(
     perturbation: float = 0.2,
     form: Format = ASCII,
     times: tuple[str, ...] = ("0", "0.5", "1e1"),
+    mesh: Mesh | None = None,
 ) -> Mesh:
-    """A case on a block of cells, its velocity linear; floor and sides are walls."""
-    shape = block(2, perturbation, kind)
-    mesh = build_mesh(shape, box_patches(shape))
+    """A case on a mesh or a block of cells, its velocity linear; floor and sides are walls."""
+    if mesh is None:
+        shape = block(2, perturbation, kind)
+        mesh = build_mesh(shape, box_patches(shape))
     poly = folder / "constant" / "polyMesh"
     poly.mkdir(parents=True)
     (folder / "system").mkdir()

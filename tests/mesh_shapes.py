@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pyvista
 
-from foamprb.flow.mesh.boundary import PatchSurface, Transform
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, Transform
+from foamprb.flow.mesh.geometry import faces_of
+from foamprb.flow.mesh.lists import starts
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.read.boundary import PatchInfo, patches_of_mesh
 
@@ -380,3 +382,46 @@ def layer(x, y, n, m, **types):
         return [*SIDES][near.argmax() if near.any() else 4]
 
     return build_mesh(shape, boundary(shape, name, {**SIDES, **types}))
+
+
+def octants(*fine):
+    """A unit cube of eight boxes, some of which are divided into eight again; floor, lid and sides."""
+    low = np.array(list(np.ndindex(2, 2, 2)))
+    parts = [0.5 * low[[k]] + 0.25 * low if k in fine else 0.5 * low[[k]] for k in range(8)]
+    a = np.concatenate(parts)
+    b = a + np.repeat([0.25 if k in fine else 0.5 for k in range(8)], [len(part) for part in parts])[:, None]
+    sides = {-1: [], 0: [], 1: [], 2: []}
+    for i, axis, end in np.ndindex(len(a), 3, 2):
+        across = [k for k in range(3) if k != axis]
+        plane = (a, b)[end][i, axis]
+        low, high = np.maximum(a, a[i]), np.minimum(b, b[i])
+        meets = ((b, a)[end][:, axis] == plane) & np.all(low[:, across] < high[:, across], axis=1)
+        for j in np.flatnonzero(meets) if meets.any() else [-1]:
+            first, last = (low[j], high[j]) if j >= 0 else (a[i].copy(), b[i].copy())
+            rectangle = np.array([first, first, last, last])
+            rectangle[:, axis] = plane
+            rectangle[1, across[0]], rectangle[3, across[0]] = last[across[0]], first[across[0]]
+            turned = rectangle if (end == 1) == (axis != 1) else rectangle[::-1]
+            if j < 0:
+                sides[2 if axis < 2 else end].append((i, -1, turned))
+            elif i < j:
+                sides[-1].append((i, j, turned))
+    listed = [side for group in sides.values() for side in group]
+    points = np.unique(np.concatenate([c for *_, c in listed]), axis=0)
+
+    def polygon(corners):
+        for p, q in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+            s = (points - p) @ (q - p) / ((q - p) @ (q - p))
+            off = np.abs(points - p - s[:, None] * (q - p)).max(axis=1)
+            on = np.flatnonzero((off < 1e-9) & (s >= 0.0) & (s < 1.0))
+            yield from on[np.argsort(s[on])]
+
+    polygons = [list(polygon(corners)) for *_, corners in listed]
+    owner, neighbour = (np.array([side[k] for side in listed], dtype=np.int32) for k in (0, 1))
+    start = starts(np.array([len(p) for p in polygons])).astype(np.int32)
+    faces = faces_of(
+        start, np.concatenate(polygons).astype(np.int32), owner, neighbour[neighbour >= 0], len(a)
+    )
+    kinds = {"floor": "wall", "lid": "patch", "sides": "wall"}
+    surfaces = [PatchSurface(name, kind, None) for name, kind in kinds.items()]
+    return PolyMesh(points, faces, surfaces, starts([len(sides[k]) for k in range(3)]))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -23,7 +22,6 @@ from foamprb.flow.read.motion import deformation_of, note_of_deformation
 from foamprb.flow.read.openfoam import Case, read_series, transient_flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.reconstruct import Reconstruction
-from foamprb.flow.series import SeriesFlow
 
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
 
@@ -281,20 +279,6 @@ def test_a_time_that_is_read_again_from_the_cache_has_the_same_bits(tmp_path):
         for name in ("shapes", "past", "fields", "phi", "curvatures"):
             if hasattr(of, name):
                 np.testing.assert_array_equal(getattr(of, name), getattr(to, name))
-
-
-def test_the_time_at_which_faces_change_is_reported(tmp_path):
-    """Faces that are written again and are the same change nothing."""
-    write_case(tmp_path, perturbation=0.0)
-    poly = tmp_path / "constant/polyMesh"
-    for time in ("0.5", "1e1"):
-        shutil.copytree(poly, tmp_path / time / "polyMesh")
-    assert type(read_series(tmp_path)) is SeriesFlow
-    faces = tmp_path / "1e1/polyMesh/faces"
-    faces.write_text(re.sub(r"4\((\d+) (\d+ \d+ \d+)\)", r"4(\2 \1)", faces.read_text(), count=1))
-    with pytest.raises(InputError, match=r"1e1/polyMesh: the faces of the mesh are others from 1e1 s on"):
-        read_series(tmp_path)
-    assert type(read_series(tmp_path, "0:1")) is SeriesFlow
 
 
 def test_another_number_of_points_is_reported():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property, lru_cache, partial
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
+from foamprb.flow.balance import CONSTANT
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.deforming import DeformingFlow
@@ -78,6 +79,7 @@ from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_
 from foamprb.flow.read.overlap import reduced
 from foamprb.flow.read.polymesh import read_poly
 from foamprb.flow.read.prepared import PreparedTimes
+from foamprb.flow.read.refinement import Resampling, cells_at, finest, same_mesh
 from foamprb.flow.read.sampled import kinds_of, read_sampled
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.times import listed
@@ -325,20 +327,28 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         return steady_flow(case, names[0], source)
     kinds = kinds_of(source.sampled, case.fields, names)
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
-    field = case.field(names[0], source.velocity, VELOCITY_FIELD)
-    whole = case.mesh(names[0])
+    base, *others = _times_of_meshes(case, names)
+    if others and source.sampled:
+        raise InputError(
+            f"{case.root}: the faces of the mesh change, but fields of the case ({' '.join(source.sampled)}) "
+            "are read on one mesh only. Allowed: no fieldSampling, and no force that reads them."
+        )
+    field = case.field(base, source.velocity, VELOCITY_FIELD)
+    whole = case.mesh(base)
     if with_walls(whole, field) is not whole:
-        later = case.field(names[len(names) // 2], source.velocity, VELOCITY_FIELD)
-        whole = with_walls(whole, field, later)
+        later = base if others else names[len(names) // 2]
+        whole = with_walls(whole, field, case.field(later, source.velocity, VELOCITY_FIELD))
     first = velocities(field, whole)
-    last = case.field(names[-1], source.velocity, VELOCITY_FIELD)
+    last = case.field(base if others else names[-1], source.velocity, VELOCITY_FIELD)
     # A flow that starts from rest does not show its openings.
     whole = with_openings(whole, last, velocities(last, whole)[1])
-    read_first, unsteady = partial(case.field, names[0]), is_unsteady(case.root, case.region)
+    read_first, unsteady = partial(case.field, base), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, first[0])
-    motion, means = _motion(case, names, whole, period, source), {}
+    motion, means = None if others else _motion(case, names, whole, period, source), {}
     shapes: dict[int, Floats] = {}
+    if others:
+        whole = _with_finest_cells(case, whole, base, others)
     operators = _Operators(whole.mesh)
     prepared = PreparedTimes(source.cache, whole.mesh)
 
@@ -406,9 +416,16 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
                 f"-time {names[1]}:."
             )
         )
-    zones = partial(case.zones, names[0])
+    zones: Callable[[], Mapping[str, NDArray[np.int64]]] = partial(case.zones, base)
+    reader: Callable[[str], tuple[Any, ...]] = read
     notes += flux
     flow: Any = SeriesFlow
+    if others:
+        reader, zones = _resampled(case, whole, source), partial(_zones_of_finest, case, base, whole.mesh)
+        notes.append(
+            "The faces of the mesh change in time: fields are read at the nodes of a mesh of "
+            f"{whole.mesh.n_cells} cells, the finest of all times."
+        )
     if isinstance(motion, Deformation):
         notes.append(note_of_deformation(motion, whole.mesh))
         flow = partial(DeformingFlow, motion, shapes)
@@ -416,10 +433,63 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         notes.append(notes_of(motion, float(np.ptp(whole.mesh.points, axis=0).max())))
         flow = partial(MovingFlow, motion, means)
     return series_of(
-        case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
+        case.root, whole.mesh, names, reader, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
         curved=source.curved, flow=flow, course="cubic" if isinstance(motion, Deformation) else "linear",
     )  # fmt: skip
+
+
+def _with_finest_cells(case: Case, whole: CaseMesh, base: str, others: Sequence[str]) -> CaseMesh:
+    """Return a mesh with the finest cells of several times, one of which is ``base``."""
+    mesh, change = whole.mesh, sorted((base, *others), key=float)[1]
+    for time in others:
+        where = f"{case.root}, mesh at {time} s (the faces change at {change} s)"
+        mesh = finest(mesh, case.mesh(time).mesh, case.poly(time)[0], where)
+    return whole._replace(mesh=replace(mesh, patches=whole.mesh.patches))
+
+
+def _zones_of_finest(case: Case, base: str, mesh: Mesh) -> Mapping[str, NDArray[np.int64]]:
+    """Return the zones of the mesh at a time, ``base``, as cells of one with finer cells."""
+    cells = cells_at(case.mesh(base).mesh, mesh.centres)
+    return {name: np.flatnonzero(np.isin(cells, zone)) for name, zone in case.zones(base).items()}
+
+
+def _resampled(case: Case, whole: CaseMesh, source: FlowSource) -> Callable[[str], tuple[Any, ...]]:
+    """Return a reader of fields, each on the mesh of its time, at the nodes of another one."""
+    operators, prepared = _Operators(whole.mesh), PreparedTimes(source.cache, whole.mesh)
+
+    def mesh_at(name: str) -> CaseMesh:
+        here = case.mesh(name)
+        if [patch.name for patch in here.patches] != [patch.name for patch in whole.patches]:
+            raise InputError(
+                f"{case.mesh_folder(name)}: other patches than before. Allowed: the same at all times."
+            )
+        return here._replace(mesh=replace(here.mesh, patches=whole.mesh.patches))
+
+    def read(name: str) -> tuple[Any, ...]:
+        here, field = mesh_at(name), partial(case.field, name)
+        values = velocities(field(source.velocity, VELOCITY_FIELD), here)
+        where = (case.folder(name) / source.velocity).relative_to(case.root)
+        mass = mass_of(case.root, case.region, here, [name], [field], 0, source.velocity)
+        if mass is not None and mass is not CONSTANT:
+            raise InputError(
+                f"{case.root}: the density varies and the faces of the mesh change. Allowed: one of both."
+            )
+        same = same_mesh(here.mesh, whole.mesh)
+        to = None if same else Resampling(whole.mesh, here.mesh, f"{case.root}, mesh at {name} s")
+        own = operators if to is None else _Operators(here.mesh)
+
+        def make() -> tuple[Floats, Floats, Floats]:
+            u, l = own.reconstruct(*values)
+            u, l = (u, l) if to is None else to.velocities(u, l)
+            return u, l, balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
+
+        u, l, fluxes = prepared.get((*values, mass, here.mesh.points, here.mesh.face_points), make)
+        more = _further(case, name, source, here, own)
+        curvatures = [mean_curvatures(whole.mesh, l)] if source.curved else []
+        return (u, l, *(more if to is None else map(to, more)), fluxes, *curvatures)
+
+    return read
 
 
 def _mesh_at(case: Case, time: str, whole: CaseMesh) -> CaseMesh:
@@ -480,7 +550,7 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
     Raises
     ------
     InputError
-        The selection has no times, or the mesh changes in time.
+        The selection has no times.
     """
     selected, notes = case.select_times(selection), []
     damaged = case.damaged(selected, velocity)
@@ -503,28 +573,25 @@ def transient_times(case: Case, selection: str | None, velocity: str) -> tuple[l
                 "pseudoTime",
             )
         )
-    changed = _first_change(case, names)
-    if changed:
-        raise InputError(
-            f"{case.folder(changed) / 'polyMesh'}: the faces of the mesh are others from {changed} s on, as "
-            "by refinement or layers. Allowed: meshes at rest, or of which the points move; -time selects "
-            "times with the same faces."
-        )
     return names, notes
 
 
-def _first_change(case: Case, names: Sequence[str]) -> str | None:
-    """Return the first of some times at which the faces of the mesh are others; None if they stay.
+def _times_of_meshes(case: Case, names: Sequence[str]) -> list[str]:
+    """Return times between which the faces of the mesh change, that with the most cells first.
 
     Solvers that may change faces write them at each time, changed or not.
     """
     written = moving_times({name: case.folder(name) for name in names[1:]}, "faces")
-    first = case.poly(names[0])[0].faces if written else None
+    before, times = case.poly(names[0])[0].faces if written else None, [names[0]]
+    counts = [0 if before is None else len(before.first)]
     for name in written:
         now = case.poly(name)[0].faces
-        if any(not np.array_equal(getattr(first, of), getattr(now, of)) for of in _FACES):
-            return name
-    return None
+        if any(not np.array_equal(getattr(before, of), getattr(now, of)) for of in _FACES):
+            times.append(name)
+            counts.append(len(now.first))
+        before = now
+    largest = int(np.argmax(counts))
+    return [times.pop(largest), *times]
 
 
 class _Operators:
