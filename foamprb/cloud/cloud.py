@@ -54,6 +54,8 @@ from foamprb.flow.fields import columns_of
 from foamprb.flow.nodes import NodeValues
 
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
+_REACH_IN_CELLS = 0.3
+"""Least reach of lists of walls over the width of a cell at these walls."""
 _FIRST_CHECK = 4
 """Steps before the stability of ``paper`` is first checked; it is again whenever they have doubled."""
 _ROUND_OFF = 1e-6
@@ -444,9 +446,11 @@ class Cloud:
         return self.flow_arrays()
 
     def _grow_reach(self) -> None:
-        """Set the reach at the start beyond the range of the longest particle."""
+        """Set the reach at the start beyond the range of the longest particle, and to a share of a cell."""
         if self.reach == 0.0:
-            self.reach = max(self.map_ranks(first_reach))
+            reach = max(self.map_ranks(first_reach))
+            # Such lists are hardly longer, and hold while bodies stretch.
+            self.reach = max(reach, _REACH_IN_CELLS * self.flow.cell_size_at(self._touchable))
 
     def extend_reach(self) -> None:
         """List walls farther away, unless the lists would be too long: then bodies that need it fail."""

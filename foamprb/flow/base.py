@@ -181,6 +181,9 @@ class Flow(Sampled, Protocol):
     def cell_size(self, hosts: Ints) -> Floats:
         """Return the cube root of the volume of each host's cell, m; infinite without cells."""
 
+    def cell_size_at(self, patches: Sequence[int]) -> float:
+        """Return the median width of the cells at patches, given by index, m; 0 without any."""
+
     def times_within(self, start: float, end: float) -> Sequence[float]:
         """Return the times between ``start`` and ``end``, s, between which the flow is linear in time."""
 

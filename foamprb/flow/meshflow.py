@@ -405,6 +405,11 @@ class MeshFlow:
         """Return the cube root of the volume of the hosts' cells, (n,), m."""
         return np.cbrt(self.mesh.volumes[self.cell_of(hosts)])
 
+    def cell_size_at(self, patches: Sequence[int]) -> float:
+        """See :meth:`foamprb.flow.base.Flow.cell_size_at`."""
+        hosts = self.mesh.triangle_tet[np.isin(self.mesh.triangle_patch, patches)]
+        return float(np.median(self.cell_size(hosts))) if len(hosts) else 0.0
+
     def times_within(self, start: float, end: float) -> Sequence[float]:  # noqa: ARG002
         """Return no times: the flow is steady."""
         return ()

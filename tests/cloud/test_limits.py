@@ -223,12 +223,14 @@ class TestWalls:
             Stepper(cloud).advance(12)
             assert_same(cloud.particles, clouds[0].particles)
         assert clouds[2].reach > 1e-2
+        # One list, to 0.3 of a crooked cell of ½, lasts while bodies of 0.01 stretch.
+        assert clouds[0].reach == pytest.approx(0.15, rel=0.05)
         assert Status.STUCK in clouds[0].particles.status
 
     def test_where_lists_would_be_too_long_the_body_fails_and_no_other(self, monkeypatch):
         cloud, whole = box_cloud("rosenbrock"), box_cloud("rosenbrock")
         for c in (cloud, whole):
-            c.particles.mu[:], c.particles.lame[:] = 1e6, 1e8
+            c.particles.mu[:], c.particles.lame[:], c.reach = 1e6, 1e8, 0.05
         Stepper(cloud).advance(1)
         Stepper(whole).advance(12)
         monkeypatch.setattr("foamprb.flow.wall_lists._MOST_ENTRIES", 1)
