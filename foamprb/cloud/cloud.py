@@ -359,8 +359,19 @@ class Cloud:
         reach = self.reach if listed else np.inf
         return LoopLimits(
             limits.maxStretch, length, float(limits.maxSubSteps), reach, self._reach_grows,
-            limits.maxCells,
+            limits.maxCells, self.models.roughness_share * self.roughness,
         )  # fmt: skip
+
+    @property
+    def roughness(self) -> float:
+        """Roughness of the loaded flow, if it limits the tolerance of steps; else 0."""
+        adaptive = INTEGRATORS[self.models.integrator].adaptive and self.models.roughness_share > 0.0
+        return self.flow.roughness() if adaptive else 0.0
+
+    @property
+    def tolerance(self) -> float:
+        """Largest error of a step in the loaded flow."""
+        return max(self.models.tolerance, self.bounds.tolerance)
 
     def load_flow(self, steps: int) -> tuple[Any, int]:
         """Prepare the flow for the next ``steps`` steps, or as many as its loaded times cover.

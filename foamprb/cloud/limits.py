@@ -44,3 +44,5 @@ class LoopLimits(NamedTuple):
     reach_grows: bool = False
     """Whether walls farther away can be listed for a body that needs it."""
     maxCells: float = math.inf
+    tolerance: float = 0.0
+    """Least tolerance of steps, by the roughness of the flow."""

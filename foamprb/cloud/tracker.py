@@ -101,7 +101,8 @@ class Models:
     integrator: str = "auto"
     """``auto``: the cloud chooses by the largest shape Stokes number of its particles at their start."""
     tolerance: float = 1e-4
-    """Largest error of a step of ``stokes`` and ``rosenbrock``; infinite for steps of fixed size."""
+    """Largest error of a step of ``stokes`` and ``rosenbrock``, see :attr:`roughness_share`; infinite for
+    steps of fixed size."""
     forces: tuple[Force, ...] = DEFAULT
     """Forces on the barycentre beside drag."""
     surroundings: tuple[Surrounding, ...] = ()
@@ -111,6 +112,9 @@ class Models:
     stride: int | None = 1
     """Longest step of ``stokes`` or ``rosenbrock`` where its error allows it, in tracking steps Δt; None for
     any. No step goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
+    roughness_share: float = 0.05
+    """Least tolerance over the roughness of the flow (:meth:`foamprb.flow.base.Flow.roughness`); 0 for the
+    tolerance as it is, as in studies of convergence."""
     shape: InitVar[str] = "affine"
     """``affine``, or ``quadratic`` for a second mode, which is the first of the ``surroundings``."""
 

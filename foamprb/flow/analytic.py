@@ -149,6 +149,10 @@ class AnalyticFlow:
         """Return no faces: there are no cells."""
         return NO_JUMPS
 
+    def roughness(self) -> float:
+        """Return 0: the flow is exact."""
+        return 0.0
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return the parameters by name."""
         names: Mapping[str, ArrayLike] = self._parameters._asdict()
@@ -184,6 +188,10 @@ class AnalyticFlow:
     def cell_size(self, hosts: Ints) -> Floats:
         """Return infinity: there are no cells."""
         return np.full(np.shape(hosts), np.inf)
+
+    def cell_size_at(self, patches: Sequence[int]) -> float:  # noqa: ARG002
+        """Return 0: there are no cells."""
+        return 0.0
 
 
 def linear(gradient: ArrayLike, u0: ArrayLike = (0.0, 0.0, 0.0)) -> AnalyticFlow:

@@ -205,5 +205,8 @@ class Flow(Sampled, Protocol):
     def gradient_jumps(self) -> NDArray[np.int64]:
         """Return counts of faces by the jump of ∇u at the first time; see :mod:`foamprb.flow.jumps`."""
 
+    def roughness(self) -> float:
+        """Return the roughness of ∇u at the end of the loaded interval, 1; see :mod:`foamprb.flow.jumps`."""
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return the arrays and numbers by which a resumed run recognises the flow, by name."""

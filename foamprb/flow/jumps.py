@@ -1,4 +1,4 @@
-"""Jumps of ∇u between neighbouring cells: how well a mesh resolves the gradient that deforms bodies."""
+"""How well a mesh resolves the gradient that deforms bodies: jumps of ∇u between cells, and roughness."""
 
 from __future__ import annotations
 
@@ -7,10 +7,13 @@ from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.lists import Mask
+from foamprb.flow.nodes import stride_over
 
 _DECADES, _PER_DECADE = (-6.0, 1.0), 50
 _BINS = int((_DECADES[1] - _DECADES[0]) * _PER_DECADE)
 _AT_ONCE = 1 << 16
+_FEW = 0.05
+"""Share of the cells up to which those of one kind do not count."""
 NO_JUMPS: NDArray[np.int64] = np.zeros((2, _BINS), dtype=np.int64)
 """Counts of a flow without cells."""
 
@@ -57,6 +60,34 @@ def relative_jumps(l: Floats, first: Ints, second: Ints) -> Floats:
             total += np.bincount(cells, jump, n)
             faces += np.bincount(cells, minlength=n)
     return np.minimum(total / np.maximum(faces * norms, 1e-300), 1.0)
+
+
+def roughness(l: Floats, start: Ints, points: Ints, least: float) -> float:
+    """Return the relative difference of ∇u at the centres of cells from the mean at their points, a median.
+
+    It is of second order in the width of cells, as the error of interpolation is, and about as large as the
+    relative error of the strain by the mesh. Of tetrahedra and other cells it is the smaller value, if at
+    least a twentieth of the cells are of this kind, and it is at most 1. Of a large mesh it is that of some
+    cells, evenly spread over their numbers.
+
+    Parameters
+    ----------
+    l
+        (n_nodes, 9) gradients at the mesh points, then at the cell centres, 1/s.
+    start, points
+        Points of each cell, as ``cell_point_start`` and ``cell_points`` of a mesh.
+    least
+        Smallest |∇u| to which a difference is related, 1/s.
+    """
+    n = len(start) - 1
+    some = np.arange(0, n, stride_over(n))
+    count = np.diff(start)[some]
+    first = np.cumsum(count) - count
+    corners = points[np.repeat(start[some] - first, count) + np.arange(count.sum())]
+    mean = np.add.reduceat(l[corners], first) / count[:, None]
+    ratios = _norms(l[some - n] - mean) / np.maximum(_norms(mean), least + 1e-300)
+    kinds = (ratios[count == 4], ratios[count != 4])
+    return min(1.0, *(float(np.median(r)) for r in kinds if len(r) > _FEW * len(some)))
 
 
 def _norms(rows: Floats) -> Floats:

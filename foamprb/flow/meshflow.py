@@ -15,7 +15,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
-from foamprb.flow.jumps import count_jumps, relative_jumps
+from foamprb.flow.jumps import count_jumps, relative_jumps, roughness
 from foamprb.flow.kernels import named
 from foamprb.flow.mesh.arrays import FREE, GRADIENT, VELOCITY, MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade
@@ -162,6 +162,8 @@ class MeshFlow:
         nodes[:, FREE] = free_nodes(mesh)
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
+        self._roughness: dict[int, float] = {}
+        """Roughness at some times, by their indices."""
         folds, rim_start, rim = _folds(mesh, nodes, tree, boxes)
         across, partners = triangles_across(mesh)
         self._arrays = no_mesh()._replace(
@@ -330,6 +332,19 @@ class MeshFlow:
         at_walls[mesh.owner[n:][np.repeat(walls, np.diff(mesh.patch_start))]] = True
         l = self.values_at_nodes().l[mesh.n_points :]
         return count_jumps(l, mesh.owner[:n], mesh.neighbour, at_walls)
+
+    def roughness(self) -> float:
+        """See :meth:`foamprb.flow.base.Flow.roughness`."""
+        return self._roughness_at(0, *self.at_nodes()[1:])
+
+    def _roughness_at(self, index: int, u: Floats, l: Floats) -> float:
+        """Return the roughness at the time of an index, of u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s."""
+        if index not in self._roughness:
+            low, high = self.bounds
+            least = float(np.linalg.norm(u, axis=1).max() / (high - low).max())
+            rough = roughness(l, self.mesh.cell_point_start, self.mesh.cell_points, least)
+            self._roughness[index] = rough
+        return self._roughness[index]
 
     def with_jumps(self, part: float) -> Self:
         """Return the same flow with ∇u times 1 + part j, where j is the relative jump between cells there."""

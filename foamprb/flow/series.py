@@ -401,6 +401,15 @@ class SeriesFlow(Timeline, MeshFlow):
             self._slack(max(times, default=self.times[0])),
         )
 
+    def roughness(self) -> float:
+        """See :meth:`foamprb.flow.base.Flow.roughness`."""
+        if not self._levels:
+            return 0.0
+        # A step across a time loads earlier ones, too: the last one depends on the step alone.
+        index = self._index(self._levels[-1])
+        fields = self._fields[self._in_memory[index]]
+        return self._roughness_at(index, fields[:, :3], fields[:, 3:_OF_VELOCITY])
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return the arrays of the mesh, of the first time, and all times of a period, by name.
 

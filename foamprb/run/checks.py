@@ -266,7 +266,7 @@ def _count_late(p: Particles, injector: int, end: float) -> int:
 
 def costly_settings(solution: Solution, cloud: Cloud, steps: int) -> list[str]:
     """Return a sentence for each setting that more than doubles the cost of a run of ``steps`` deltaT."""
-    sentences, tolerance = [], cloud.models.tolerance
+    sentences, tolerance = [], cloud.tolerance
     longest_step = cloud.tracker.stride or cloud.tracker.stretch_steps
     if steps > _MANY_STEPS * longest_step:
         sentences.append(

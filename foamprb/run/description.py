@@ -113,6 +113,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             "integratorDescription": INTEGRATORS[models.integrator].description,
             "shapeStokesNumber": number,
             "pathStokesNumber": path_number,
+            "tolerance": cloud.tolerance,
             "longestStep": cloud.tracker.stride,
             "stepsEnd": cloud.tracker.stretch_steps,
             "interaction": settings.interaction,
@@ -195,7 +196,8 @@ def _ranges(cloud: Cloud) -> dict[str, Any]:
     """Return the time of the flow, s, and the ranges of |U|, m/s, and shear rate, 1/s, at its nodes.
 
     ``direction`` is the mean velocity of some nodes over their mean speed, ``gradientJump`` the median
-    difference of ∇u between neighbouring cells over its size: of all, and of those at walls.
+    difference of ∇u between neighbouring cells over its size: of all, and of those at walls. ``roughness`` is
+    that of the second time, if there are several.
     """
     some = cloud.flow.at_some_nodes()
     speeds, rates = cloud.flow.ends_at_nodes(_speeds_and_rates) or (None, None)
@@ -205,6 +207,7 @@ def _ranges(cloud: Cloud) -> dict[str, Any]:
         "U": speeds,
         "shearRate": rates,
         "gradientJump": medians(cloud.flow.gradient_jumps()),
+        "roughness": cloud.flow.roughness(),
         "direction": (some.u.sum(axis=0) / total).tolist() if total > 0.0 else None,
     }
 

@@ -60,8 +60,8 @@ def estimate_errors(job: Job) -> Iterator[Change]:
         what, finer = "half of deltaT", replace(solution, deltaT=0.5 * solution.deltaT)
     else:
         schemes = solution.integrationSchemes
-        what = "half of tolerance"
-        finer = replace(solution, integrationSchemes=replace(schemes, tolerance=0.5 * schemes.tolerance))
+        half = {"tolerance": 0.5 * schemes.tolerance, "roughnessShare": 0.5 * schemes.roughnessShare}
+        what, finer = "half of tolerance", replace(solution, integrationSchemes=replace(schemes, **half))
     runs = [(what, replace(job.settings, solution=finer), flow)]
     if type(flow) is MeshFlow:
         runs += [

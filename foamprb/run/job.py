@@ -283,7 +283,7 @@ def _material(settings: Settings) -> str:
 
 
 def _models(settings: Settings, integrator: str, rotating: bool = False) -> Models:
-    tolerance = settings.solution.integrationSchemes.tolerance
+    schemes = settings.solution.integrationSchemes
     # Without any force g is zero: gravity then does nothing, in a loop that is compiled already.
     forces = tuple(settings.forces.values()) or Models.forces
     frames = (RotatingFrames(),) if rotating else ()
@@ -298,10 +298,11 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
         _material(settings),
         settings.touching,
         integrator,
-        tolerance,
+        schemes.tolerance,
         forces,
         (*frames, *settings.dispersion.values(), *settings.surroundings.values(), *settings.fates.values()),
         stride=settings.solution.stride,
+        roughness_share=schemes.roughnessShare,
         shape=settings.shape,
     )
 

@@ -70,6 +70,8 @@ def log_description(job: Job) -> None:
         said = ", ".join(f"{100.0 * jump:.2g} % {where}" for jump, where in jumps if jump is not None)
         if said:
             log.info("    %-24s %s", "grad U between cells", said)
+        rough = 100.0 * flow["roughness"]
+        log.info("    %-24s %.2g %%, about the error of strains by the mesh", "roughness of grad U", rough)
     log.info("Selecting tractionModel %s", models["traction"])
     forces = {"ellipsoidDrag": models["drag"], **models["forces"], **models["surroundings"]}
     log.info(
@@ -89,6 +91,10 @@ def log_description(job: Job) -> None:
             reason = f"drops have no inertia; their Stokes numbers should be below {SMALL_STOKES:g}"
         log.info("    integrator %s, as %s: %.3g (shape), %.3g (path) at injection",
                  models["integrator"], reason, shape, path)  # fmt: skip
+    given = job.cloud.models.tolerance
+    if models["tolerance"] > given:
+        log.info("    tolerance %.2g, by the roughness of grad U; roughnessShare 0 keeps %.2g",
+                 models["tolerance"], given)  # fmt: skip
     if models["stepsEnd"] > 1:
         most = f" of up to {models['longestStep']} deltaT" if models["longestStep"] else " longer than deltaT"
         log.info("    may take steps%s, to multiples of %d deltaT", most, models["stepsEnd"])

@@ -11,6 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.limits import Limits
 from foamprb.cloud.measures import REQUESTED
+from foamprb.cloud.tracker import Models
 from foamprb.dictionary.constraints import Bounds, Choice, Fraction, Meaning, NoEffect, Only, Positive, Words
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
@@ -75,6 +76,15 @@ class IntegrationSchemes:
     tolerance: Annotated[
         float, _ERROR, Meaning("largest error of a step, for integrators with error control", "1")
     ] = 1e-4
+    roughnessShare: Annotated[
+        float,
+        Fraction,
+        Meaning(
+            "the same over [the roughness of the flow](integrators.md#roughness), where that gives more than "
+            "`tolerance`; 0: `tolerance` as it is, for studies of convergence",
+            "1",
+        ),
+    ] = Models.roughness_share
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -111,6 +112,25 @@ def test_third_order_of_path_and_shape_in_an_unsteady_gradient(integrator, numbe
         errors = [np.abs(state[k] - found[-1][k]).max(axis=1) for state in found[:-1]]
         orders = np.log2(errors[0] / errors[-1]) / 2
         assert (orders > 2.5).all(), (k, orders)
+
+
+@pytest.mark.parametrize(("integrator", "number"), [("stokes", 1e-6), ("rosenbrock", 0.05)])
+def test_the_path_by_three_velocities_is_of_third_order_and_better_than_by_two(integrator, number):
+    """Of a stiff body, in a flow that is called rough and then limits no step."""
+
+    def place(n, share):
+        tolerance = 1e-4 if share else np.inf
+        cloud = in_flow(unsteady_flow(), 1e-4, 2.0 / n, integrator, tolerance, number)
+        cloud.flow.roughness, cloud.models = lambda: 1.0, replace(cloud.models, roughness_share=share)
+        cloud.particles.x[:], cloud.particles.v[:] = (3e-6, 1e-5, 1e-6), (1.5e-5, 0.0, 0.0)
+        cloud.advance(n)
+        assert (cloud.particles.substeps == 1).all()
+        return cloud.particles.x[0]
+
+    exact = place(640, 0.0)
+    three, two = ([np.linalg.norm(place(n, share) - exact) for n in (20, 40, 80)] for share in (0.1, 0.0))
+    assert np.log2(three[0] / three[2]) / 2 > 2.5, three
+    assert three[0] < 0.6 * two[0], (three, two)
 
 
 def test_the_order_is_not_reduced_in_stiff_bodies():
@@ -330,7 +350,7 @@ def test_jumps_of_the_gradient_between_coarse_cells_do_not_shorten_steps(coarse_
         rho = 1000.0 if integrator == "rosenbrock" else 1.0
         p = spheres(x, d=2e-3, rho=rho, mu=0.35)
         p.v[:], _ = coarse_vortex.sample(x, coarse_vortex.locate(x), 0.0)
-        models = Models(integrator=integrator, tolerance=tolerance)
+        models = Models(integrator=integrator, tolerance=tolerance, roughness_share=0.0)
         walls = [Stick() for _ in coarse_vortex.patches]
         cloud = Cloud(p, coarse_vortex, Medium(0.011, 1.0, (0.0, 0.0, 0.0)), walls, 1.0 / steps, models)
         taken = []

@@ -345,6 +345,13 @@ def test_settings_that_cost_more_than_the_run_are_warned_of(case, capsys):
     edit(case, r"shape\s+paper;", "shape stokes; tolerance 1e-7;")
     edit(case, r"writeInterval\s+\S+;", "writeInterval 2e-4; maxDeltaT 2e-5;")
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    # So fine a tolerance is not worth its steps on this mesh, unless it is wanted.
+    out = capsys.readouterr().out
+    assert "    roughness of grad U      0.085 %, about the error of strains by the mesh\n" in out
+    assert "    tolerance 4.2e-05, by the roughness of grad U; roughnessShare 0 keeps 1e-07\n" in out
+    assert "with the tolerance" not in out
+    edit(case, r"tolerance 1e-7;", "tolerance 1e-7; roughnessShare 0;")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
     out = capsys.readouterr().out
     assert "Warning : solution: maxDeltaT is 1 deltaT" in out
     assert "with the tolerance 1e-07 steps are about 10 times as many" in out

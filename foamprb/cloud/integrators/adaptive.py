@@ -4,10 +4,11 @@ A tracking step Δt, or a stretch of them, is divided into steps h as the tolera
 a part of a particle's state. All lanes of a block go through the same operations.
 
 A step evaluates the body's equations at its start, at a quarter of it, and for the lanes that need order 3
-at its end. The flow is sampled at the start, at the end, and in the middle if the third evaluation is made.
+at its end. The flow is sampled at the start, at the end, and in the middle if the third evaluation is made,
+or if the mesh, and not the given tolerance, limits the steps: then the path uses the velocity there, too.
 
 The slots :func:`predict`, :func:`first_slope`, :func:`second_slope`, :func:`last_argument`,
-:func:`third_slope` and :func:`end_slope` are the stages of the integrator.
+:func:`third_slope`, :func:`correct_path` and :func:`end_slope` are the stages of the integrator.
 """
 
 from __future__ import annotations
@@ -113,7 +114,8 @@ class StepRows(NamedTuple):
     start_a: Annotated[int, Row(3, "m/s2", "acceleration ∂u/∂t + l·v at the start")]
     start_v: Annotated[int, Row(3, "m/s", "velocity of the barycentre at the start")]
     middle_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid in the middle of the step")]
-    end_l: Annotated[int, Row(9, "1/s", "the same at the end")]
+    middle_u: Annotated[int, Row(3, "m/s", "its velocity there, where the path uses it")]
+    end_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid at the end")]
     end_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the end")]
     end_ut: Annotated[int, Row(3, "m/s2", "∂u/∂t at the end")]
     third: Annotated[int, Row(1, "", "1 where the step goes to order 3, else 0")]
@@ -309,6 +311,11 @@ def third_slope(_block: Block, _medium: Medium, _tolerance: float) -> None:
 
 
 @slot
+def correct_path(_block: Block) -> None:
+    """Correct position and velocity at the end of the step by the fluid's velocity in the middle."""
+
+
+@slot
 def end_slope(_block: Block, _medium: Medium) -> None:
     """Compute the rates at the ends of calls."""
 
@@ -353,8 +360,8 @@ def sample_ends(_flow: object, _block: Block, _hosts: Any, _ahead: Any) -> None:
 
 
 @kernel
-def sample_middles(_flow: object, _block: Block, _hosts: Any) -> None:
-    """Store the fluid's gradient half-way on the steps of order 3."""
+def sample_middles(_flow: object, _block: Block, _hosts: Any, _every: bool) -> None:
+    """Store the fluid's gradient half-way on the steps of order 3; on every step also the velocity."""
 
 
 def _starts_by(sample: Function) -> Function:
@@ -387,15 +394,17 @@ def _ends_by(sample_ahead: Function) -> Function:
 
 
 def _middles_by(sample_ahead: Function) -> Function:
-    def sample_middles(flow: object, block: Block, hosts: Any) -> None:
+    def sample_middles(flow: object, block: Block, hosts: Any, every: bool) -> None:
         for i in range(LANES):
-            if needs_third(block, i):
+            if needs_third(block, i) or (every and block[at.moving * LANES + i] > 0.0):
                 half, t = 0.5 * block[at.dt * LANES + i], block[at.t * LANES + i]
                 v, a = load3(block, during.start_v, i), load3(block, during.start_a, i)
                 place = place_after(block, i, half, v, a)
                 x = load3(block, at.x, i)
-                _, _, _, _, l_f, _ = sample_ahead(flow, hosts[i], x, t, place, t + half)
+                _, _, _, u, l_f, _ = sample_ahead(flow, hosts[i], x, t, place, t + half)
                 store9(block, during.middle_l, i, l_f)
+                if every:
+                    store3(block, during.middle_u, i, u)
 
     return sample_middles
 
@@ -439,8 +448,8 @@ def track_adaptive(
     As in :func:`foamprb.cloud.integrators.paper.track_paper`, with any number of members, a block of the
     integrator's rows, and
     tolerance
-        Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, limited
-        only by :func:`foamprb.body.error_control.longest_step`.
+        Largest error of a step (:mod:`foamprb.body.error_control`), unless the bounds have a larger one.
+        Infinite for steps Δt of order 3, limited only by :func:`foamprb.body.error_control.longest_step`.
     most
         Longest step in tracking steps.
     stretch
@@ -454,6 +463,8 @@ def track_adaptive(
     ``scratch`` after it was emptied.
     """
     last = step + steps
+    rough = scratch.bounds.tolerance > tolerance
+    tolerance = scratch.bounds.tolerance if rough else tolerance
     enough = tolerance if tolerance < math.inf else 0.0
     block, current, updates_end = scratch.block, scratch.step, scratch.switches.updates_end
     begin_lanes(scratch, dt)
@@ -499,11 +510,15 @@ def track_adaptive(
         first_slope(block, medium)
         evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
-        if count_thirds(block):
-            sample_middles(flow, block, scratch.host)
+        thirds = count_thirds(block)
+        if rough or thirds:
+            sample_middles(flow, block, scratch.host, rough)
+        if thirds:
             last_argument(block, medium)
             evaluate_shape(block, medium, 1.0)
             third_slope(block, medium, enough)
+        if rough:
+            correct_path(block)
         if most > 1:
             for i in range(LANES):
                 keep_short(flow, patches, medium, scratch, i, dt, tolerance)

@@ -66,8 +66,10 @@ from foamprb.cloud.elastic import (
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE,
+    acceleration_at_end,
     add_disturbance_error,
     choose_order,
+    correct_path,
     counted_error,
     drag_rate,
     during,
@@ -296,6 +298,20 @@ def third_inertialess(block: Block, medium: Medium, tolerance: float) -> None:
 
 
 @traced
+def correct_inertialess(block: Block) -> None:
+    """Replace Hermite's cubic by Simpson's rule for the way in the fluid.
+
+    Hermite's cubic is Simpson's rule with its own velocity in the middle, ½ (u₀ + u) + h/8 (a₀ − a).
+    """
+    for i in range(LANES):
+        h = block[at.dt * LANES + i]
+        u = plus(load3(block, during.start_u, i), load3(block, during.end_u, i))
+        a = minus(load3(block, during.start_a, i), acceleration_at_end(block, i, load3(block, at.new_v, i)))
+        more = minus(load3(block, during.middle_u, i), plus_scaled(scale_vector(0.5, u), 0.125 * h, a))
+        store3(block, at.new_x, i, plus_scaled(load3(block, at.new_x, i), h * (2.0 / 3.0), more))
+
+
+@traced
 def end_inertialess(block: Block, medium: Medium) -> None:
     """Compute A and v of the balance at the end of the last step."""
     for i in range(LANES):
@@ -417,6 +433,7 @@ STOKES = Integrator(
         second_slope: second_inertialess,
         last_argument: last_inertialess,
         third_slope: third_inertialess,
+        correct_path: correct_inertialess,
         end_slope: end_inertialess,
         push_out: push_along_mobility,
     },
