@@ -60,8 +60,9 @@ def estimate_errors(job: Job) -> Iterator[Change]:
         what, finer = "half of deltaT", replace(solution, deltaT=0.5 * solution.deltaT)
     else:
         schemes = solution.integrationSchemes
-        half = {"tolerance": 0.5 * schemes.tolerance, "roughnessShare": 0.5 * schemes.roughnessShare}
-        what, finer = "half of tolerance", replace(solution, integrationSchemes=replace(schemes, **half))
+        tolerance, share_of_mesh = 0.5 * schemes.tolerance, 0.5 * schemes.roughnessShare
+        schemes = replace(schemes, tolerance=tolerance, roughnessShare=share_of_mesh)
+        what, finer = "half of tolerance", replace(solution, integrationSchemes=schemes)
     runs = [(what, replace(job.settings, solution=finer), flow)]
     if type(flow) is MeshFlow:
         runs += [
