@@ -160,7 +160,7 @@ def our_places(case: str, dictionary: str, steps: int, tolerance: float | None =
     job = prepare(case, dictionary=Path(dictionary))
     cloud = job.cloud
     if tolerance is not None:
-        models = replace(cloud.models, tolerance=tolerance)
+        models = replace(cloud.models, tolerance=tolerance, roughness_share=0.0)
         p, flow, medium, walls = cloud.particles, cloud.flow, cloud.medium, cloud.interactions
         cloud = foamprb.Cloud(p, flow, medium, walls, cloud.dt, models)
     cloud.particles.v[:] = 0.0

@@ -38,7 +38,9 @@ SURROUNDINGS: dict[str, tuple[foamprb.WallLift, ...]] = {
 
 def distances(flow, drag: str, tolerance: float) -> np.ndarray:
     """Return the landing distance over the particle's diameter, for each of CAPILLARY."""
-    models = foamprb.Models(drag=drag, touching="centre", integrator="rosenbrock", tolerance=tolerance)
+    models = foamprb.Models(
+        drag=drag, touching="centre", integrator="rosenbrock", tolerance=tolerance, roughness_share=0.0
+    )
     cloud = pipe_cloud(CAPILLARY, DT, models, flow)
     cloud.advance(round(1.0 / DT))
     particles = cloud.particles

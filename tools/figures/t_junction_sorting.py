@@ -35,7 +35,7 @@ EARLY = 0.01
 BEADS = 1000
 Z = 1.959964
 """Standard deviations of a 95 % interval."""
-TOLERANCE = foamprb.Models().tolerance
+DEFAULT = foamprb.Models()
 CASE = Path(__file__).resolve().parents[2] / "cases" / "tJunction"
 LONG = {
     "system/blockMeshDict": (
@@ -47,8 +47,9 @@ LONG = {
 """Changes of the case for a long inlet, and a quarter of the flow to the side."""
 
 
-def models(name: str, tolerance: float) -> foamprb.Models:
-    """Return the models of a set."""
+def models(name: str, part: float) -> foamprb.Models:
+    """Return the models of a set, with a part of the default tolerance."""
+    tolerance, share = part * DEFAULT.tolerance, part * DEFAULT.roughness_share
     lift = (foamprb.WallLift(),) if "lift" in name else ()
     if "quadratic" in name:
         return foamprb.Models(
@@ -57,8 +58,11 @@ def models(name: str, tolerance: float) -> foamprb.Models:
             surroundings=(foamprb.FaxenCorrection(), *lift),
             shape="quadratic",
             tolerance=tolerance,
+            roughness_share=share,
         )
-    return foamprb.Models(touching="centre", integrator="stokes", surroundings=lift, tolerance=tolerance)
+    return foamprb.Models(
+        touching="centre", integrator="stokes", surroundings=lift, tolerance=tolerance, roughness_share=share
+    )
 
 
 SETS = ("affine", "quadratic", "affine and lift", "quadratic and lift")
@@ -146,7 +150,7 @@ def main() -> None:
     for name in SETS:
         stiffest = None
         for Ca in CAPILLARY:
-            beads, finer = (send(job, x, Ca, models(name, part * TOLERANCE)) for part in (1.0, 0.5))
+            beads, finer = (send(job, x, Ca, models(name, part)) for part in (1.0, 0.5))
             side = beads.patch == "side"
             stiffest = side if stiffest is None else stiffest
             _, low, high = share_of(int(side.sum()), n)

@@ -40,7 +40,7 @@ _END = 0.4
 
 
 def _models(drag: str = "oberbeck", integrator: str = "paper") -> Models:
-    return Models(drag=drag, touching="centre", integrator=integrator, tolerance=1e-5)
+    return Models(drag=drag, touching="centre", integrator=integrator, tolerance=1e-5, roughness_share=0.0)
 
 
 def rigid(quick: bool) -> Outcome:
