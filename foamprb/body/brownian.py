@@ -24,7 +24,7 @@ import numpy as np
 
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.philox import Word, normals, philox
-from foamprb.body.tensor import Scalar, Tensor, Vector, reciprocals, select
+from foamprb.body.tensor import Scalar, Tensor, Vector, plus, reciprocals, select
 
 BOLTZMANN = 1.380649e-23
 """k_B, J/K."""
@@ -155,13 +155,32 @@ def _random_pair(
     return s - t, s + t
 
 
-def response(r: ShapeResistance, T: Tensor) -> Tensor:
+def with_inertia(r: ShapeResistance, semi_axes: Vector, inertia: Scalar) -> ShapeResistance:
+    """Return the resistance of a solid that is accelerated from rest: T gains ``inertia`` l_s·b.
+
+    ``inertia`` is ρ_s R²/5 over μ_f and the time, b = F Fᵀ has the squares of the semi-axes (over R).
+    """
+    x, y, z = (
+        0.5 * inertia * semi_axes[0] * semi_axes[0],
+        0.5 * inertia * semi_axes[1] * semi_axes[1],
+        0.5 * inertia * semi_axes[2] * semi_axes[2],
+    )
+    return ShapeResistance(
+        plus(r.normal, (2.0 * x, 2.0 * y, 2.0 * z)),
+        plus(r.shear, (y + z, x + z, x + y)),
+        plus(r.cross, (y - z, x - z, x - y)),
+        plus(r.spin, (y + z, x + z, x + y)),
+    )
+
+
+def response(r: ShapeResistance, T: Tensor, dilation: Scalar = 0.0) -> Tensor:
     """Return the velocity gradient l_s, 1/s, of a body by a stress T over μ_f, 1/s, symmetric or not.
 
     For a symmetric T it equals :func:`foamprb.body.stokes.velocity_gradient` for σ = −T and l_f = 0.
+    ``dilation`` is the rate of dilation by a unit pressure over μ_f.
     """
     m = reciprocals(r.normal)
-    pressure = (m[0] * T[0] + m[1] * T[4] + m[2] * T[8]) / (m[0] + m[1] + m[2])
+    pressure = (m[0] * T[0] + m[1] * T[4] + m[2] * T[8]) / (m[0] + m[1] + m[2] + dilation)
     l23, l32 = _response_pair(r.shear[0], r.cross[0], r.spin[0], T[5], T[7])
     l13, l31 = _response_pair(r.shear[1], r.cross[1], r.spin[1], T[2], T[6])
     l12, l21 = _response_pair(r.shear[2], r.cross[2], r.spin[2], T[1], T[3])

@@ -43,9 +43,9 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.contact import first_contact, gap_of_lane, on_cubic, record_contact, slope_on_cubic
 from foamprb.cloud.layout import LANES, Block
-from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
+from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK
 from foamprb.cloud.paths import note_passage
-from foamprb.cloud.pressing import push_out
+from foamprb.cloud.pressing import approach, push_out, redirect
 from foamprb.cloud.state import Particles, Reason, Status
 from foamprb.compile.link import separate, slot
 from foamprb.compile.record import record
@@ -81,7 +81,9 @@ _STALL = 1e-9
 """Share of a way below which a particle that goes back and forth between two patches makes no progress."""
 _HALVINGS = 40
 _CAME = 1e-3
-"""Way towards a wall in a step, in radii, up to which a body that touches it rests: else it bounces on."""
+"""Way towards a wall in a step, in radii, up to which a body that touches it rests: else it bounces on.
+
+Also the gap up to which a body rests that has no speed towards the wall at the start of a step."""
 _OFF_WALL = 1e-6
 """Share of the way into a wall at which a walk away from it begins."""
 _NO_NORMAL = (0.0, 0.0, 0.0)
@@ -651,11 +653,12 @@ def meet_wall(
         after = min(0.0, (room if room < math.inf else 0.0) + inner(minus(goal, x), n))
     if before == math.inf or after - fall > before + _OTHER_WALL * R:
         before = after - fall
-    rests = before <= _TOUCH * R
     # A step that ended on the wall, by chance, was no contact: a body at rest has no speed towards the wall.
-    towards = inner(minus(load3(block, at.v, i), W), n)
-    came = inner(minus(load3(block, at.new_v, i), W), n) < 0.5 * min(towards, 0.0) and fall < -_CAME * R
-    if bouncing > 0 and not turned and (came or not rests):
+    came, towards = approach(block, i, n)
+    came, towards = came - inner(W, n), towards - inner(W, n)
+    flew = came < 0.5 * min(towards, 0.0) and (fall < -_CAME * R or before > _TOUCH * R)
+    rests = before <= _TOUCH * R or (bouncing > 0 and before <= _CAME * R and not flew)
+    if bouncing > 0 and not turned and (flew or not rests):
         return bounce(flow, patches, s, i, way, met, n, before, after, t, h)
     f = before / (before - after) if before > 0.0 else 0.0
     if not rests:
@@ -663,11 +666,10 @@ def meet_wall(
     e = 0.0 if rests and bouncing > 0 else patches.e[patch]
     # Without inertia friction acts on the way.
     mu = patches.mu[patch] if bouncing > 0 else 0.0
-    v = minus(load3(block, at.v, i), W)
-    store3(block, at.v, i, plus(W, rebound_velocity(v, n, e, mu)))
+    redirect(block, i, n, W, e, mu, rests)
     bounce_along(block, i, n)
     undone = 2.0 if reflected else 1.0
-    if through or bouncing > 0:
+    if through:
         goal = plus_scaled(goal, -(1.0 - f) * min(fall, 0.0) * undone, n)
     else:
         goal = push_out(block, i, n, goal, -after * undone, patches.mu[patch], W)
@@ -683,7 +685,7 @@ def meet_wall(
             break
         x, n = place, normal(flow, triangle, place, t + h)
         bounce_along(block, i, n)
-        goal = plus_scaled(x, -into, n) if bouncing > 0 else push_out(block, i, n, x, -into, 0.0, W)
+        goal = push_out(block, i, n, x, -into, 0.0, W)
     return 1.0
 
 
@@ -727,7 +729,8 @@ def bounce(
     rewind(block, i, f)
     record_contact(s, i, patch, t + f * h, place, n)
     W = wall_velocity(flow, triangle, place, t + f * h)
-    v = plus(W, rebound_velocity(minus(v, W), n, patches.e[patch], patches.mu[patch]))
+    redirect(block, i, n, W, patches.e[patch], patches.mu[patch], False)
+    v = load3(block, at.v, i)
     bounce_along(block, i, n)
     x, _ = move_back(flow, patches, s, i, t + f * h, load3(block, at.x, i), place)
     store3(block, at.x, i, x)

@@ -1,4 +1,4 @@
-"""Contact of a body without inertia: how a reaction moves, turns and strains it, and pushes out of walls.
+"""Contact: how a reaction moves, turns and strains a body, and pushes it out of walls.
 
 The reaction N n of a contact acts at the point r = −R² b·n/s from the body's centre, with b = F Fᵀ and the
 reach s. It is a force on the centre and the stress (N/V) n r on the shape, whose skew part is its torque.
@@ -9,17 +9,19 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from foamprb.body.brownian import response, shape_resistance
+from foamprb.body.brownian import response, shape_resistance, with_inertia
+from foamprb.body.choice import choice
 from foamprb.body.ellipsoid import integrals, reach
 from foamprb.body.error_control import largest
 from foamprb.body.exponential_runge_kutta import group_exponential
-from foamprb.body.stokes import isochoric
 from foamprb.body.tensor import (
+    ZERO,
     Scalar,
     Tensor,
     Vector,
     add,
-    det,
+    add_identity,
+    axial,
     dot,
     dot_vector,
     from_frame,
@@ -36,17 +38,31 @@ from foamprb.body.tensor import (
     skew,
     stretches_in_frame,
     to_frame,
+    trace,
     transpose,
     vector_dot,
+    vector_product,
 )
 from foamprb.body.wall import hindered_resistance
 from foamprb.cloud.block import at, load3, load9, load_integrals, store3, store9, store_integrals
 from foamprb.cloud.elastic import hindrance_by_walls, resistances, volume_at_rest
 from foamprb.cloud.layout import LANES, Block
+from foamprb.cloud.patches import rebound_velocity
 from foamprb.compile.link import separate, slot
 
 _MOST_TURN = 0.2
 """Largest strain or angle of one push."""
+
+
+def speed_at(v: Vector, l: Tensor, r: Vector, n: Vector) -> Scalar:
+    """Return the speed along n, m/s, of the point at r from the centre of a body with v and l."""
+    return inner(n, v) + inner(n, dot_vector(l, r))
+
+
+def point_of_contact(block: Block, i: int, F: Tensor, n: Vector) -> Vector:
+    """Return the point of lane i with F that a wall of normal n touches, from the centre, m."""
+    R = block[at.R * LANES + i]
+    return scale_vector(-R * R / reach(R, F, n), dot_vector(dot(F, transpose(F)), n))
 
 
 class Push(NamedTuple):
@@ -64,28 +80,29 @@ class Push(NamedTuple):
 
 def push_of(block: Block, i: int, n: Vector, h: Scalar) -> Push:
     """Return the response of lane i to a reaction along n at its point of contact, for h, s."""
-    F, R = load9(block, at.F, i), block[at.R * LANES + i]
+    F = load9(block, at.F, i)
     # Those in the block are of the last evaluation, which may be one that other lanes needed.
     stretches, _ = stretches_in_frame(F, load9(block, at.frame, i))
     store3(block, at.stretch, i, stretches)
     store_integrals(block, i, integrals(stretches))
-    return _push_at(
-        block, i, n, scale_vector(-R * R / reach(R, F, n), dot_vector(dot(F, transpose(F)), n)), h
-    )
+    return _push_at(block, i, n, point_of_contact(block, i, F, n), h)
 
 
 def _push_at(block: Block, i: int, n: Vector, r: Vector, h: Scalar) -> Push:
     """Return the response of lane i to a unit force along n at r that lasts for h, s.
 
-    Over a time h elasticity is as stiff as a viscosity μ h.
+    Over a time h elasticity is as stiff as a viscosity μ h, and a mass m as a resistance m/h.
     """
     Q = load9(block, at.frame, i)
     K = hindered_resistance(resistances(block, i), hindrance_by_walls(block, i))
-    v = vector_dot(dot_vector(inverse(K), dot_vector(Q, n)), Q)
+    mass, inertia, dilation = inertia_over(block, i, h)
+    v = vector_dot(dot_vector(inverse(add_identity(K, mass)), dot_vector(Q, n)), Q)
     eta = (block[at.eta * LANES + i] + block[at.mu * LANES + i] * h) / block[at.fluid * LANES + i]
-    resistance = shape_resistance(load3(block, at.stretch, i), load_integrals(block, i), eta)
-    l = from_frame(Q, response(resistance, to_frame(Q, stress_of(n, r, volume_at_rest(block, i)))))
-    return Push(v, l, r, inner(n, v) + inner(n, dot_vector(l, r)))
+    stretches = load3(block, at.stretch, i)
+    resistance = with_inertia(shape_resistance(stretches, load_integrals(block, i), eta), stretches, inertia)
+    T = to_frame(Q, stress_of(n, r, volume_at_rest(block, i)))
+    l = from_frame(Q, response(resistance, T, dilation))
+    return Push(v, l, r, speed_at(v, l, r, n))
 
 
 def stress_of(f: Vector, r: Vector, volume: Scalar) -> Tensor:
@@ -96,6 +113,61 @@ def stress_of(f: Vector, r: Vector, volume: Scalar) -> Tensor:
         x[1] * r[0], x[1] * r[1], x[1] * r[2],
         x[2] * r[0], x[2] * r[1], x[2] * r[2],
     )  # fmt: skip
+
+
+@choice
+def inertia_over(_block: Block, _i: int, _h: Scalar) -> Vector:
+    """Return what inertia adds over a time h to the resistances of centre and shape; by default none.
+
+    The third number is the rate of dilation by a unit pressure. All are over μ_f.
+    """
+    return 0.0, 0.0, 0.0
+
+
+def inertia_of_solid(block: Block, i: int, h: Scalar) -> Vector:
+    """Return the same of a compressible solid."""
+    mu_f, R = block[at.fluid * LANES + i], block[at.R * LANES + i]
+    shape = 1.0 / (block[at.inertia * LANES + i] * mu_f * h)
+    mass = 5.0 / (R * R) * volume_at_rest(block, i) * shape
+    return mass, shape, mu_f / (block[at.lame * LANES + i] * h)
+
+
+@slot
+def approach(block: Block, i: int, n: Vector) -> tuple[float, float]:
+    """Return the speeds along n at start and end of a step, m/s; by default of the centre."""
+    return inner(load3(block, at.new_v, i), n), inner(load3(block, at.v, i), n)
+
+
+@slot
+def redirect(block: Block, i: int, n: Vector, W: Vector, e: float, mu: float, _rests: bool) -> None:
+    """Change the velocity of the centre by a rebound off a wall of velocity W, m/s."""
+    v = minus(load3(block, at.v, i), W)
+    store3(block, at.v, i, plus(W, rebound_velocity(v, n, e, mu)))
+
+
+@separate
+def redirect_solid(block: Block, i: int, n: Vector, W: Vector, e: float, mu: float, rests: bool) -> None:
+    """Change velocity and spin of a solid by a rebound; no-op for one that rests, which the push stops.
+
+    The impulse P = −(1 + e) ġ/(1/m + (r × n)·I⁻¹·(r × n)) acts at the point of contact, whose speed as that
+    of a rigid body is ġ. It does not strain the body. With b = F Fᵀ, I = ⅕ m R² (tr b − b), and the angular
+    momentum is ⅕ m R² times twice the axial vector of the skew part of A Fᵀ.
+    """
+    if rests:
+        return
+    F, A, v = load9(block, at.F, i), load9(block, at.A, i), minus(load3(block, at.v, i), W)
+    b, H = dot(F, transpose(F)), dot(A, transpose(F))
+    mobility, r = inverse(add_identity(scale(-1.0, b), trace(b))), point_of_contact(block, i, F, n)
+    spin = dot_vector(mobility, scale_vector(2.0, axial(skew(H))))
+    torque = vector_product(r, n)
+    turn = scale_vector(5.0 / block[at.R * LANES + i] ** 2, dot_vector(mobility, torque))
+    speed = inner(v, n) + inner(spin, torque)
+    P = -(1.0 + e) * min(speed, 0.0) / (1.0 + inner(torque, turn))
+    along = plus_scaled(v, -inner(v, n), n)
+    v = plus_scaled(plus_scaled(v, P, n), -mu if speed < 0.0 else 0.0, along)
+    store3(block, at.v, i, plus(W, v))
+    x, y, z = scale_vector(P, turn)
+    store9(block, at.A, i, add(A, dot((0.0, -z, y, z, 0.0, -x, -y, x, 0.0), F)))
 
 
 @slot
@@ -118,33 +190,62 @@ def push_along_mobility(
     -------
     The new place of its centre. The gap is linear in the width; call again for what is left.
     """
-    F, h = load9(block, at.F, i), block[at.dt * LANES + i]
-    v, l, r, rate = push_of(block, i, n, h)
-    if largest(hindrance_by_walls(block, i)) > 0.0:
-        l = skew(l)
-        rate = inner(n, v) + inner(n, dot_vector(l, r))
-    N = width / rate
-    N *= min(1.0, _MOST_TURN / (abs(N) * max(norm(l[:3]), norm(l[3:6]), norm(l[6:])) + 1e-300))
-    way, turn = scale_vector(N, v), scale(N, l)
-    if mu > 0.0:
-        l_s = dot(load9(block, at.A, i), inverse(F))
-        w = minus(plus(load3(block, at.v, i), dot_vector(l_s, r)), W)
-        w = plus_scaled(w, -inner(w, n), n)
-        slip = h * norm(w)
-        e = scale_vector(-h / (slip + 1e-300), w)
-        v, l, _, rate = _push_at(block, i, e, r, h)
-        T = min(mu * N, slip / (rate + 1e-300))
-        way, turn = plus_scaled(way, T, v), add(turn, scale(T, l))
-    F = dot(group_exponential(turn), F)
-    F = isochoric(F, det(F))
+    c = _push_of_step(block, i, n)
+    N = width / c.rate
+    N *= min(1.0, _MOST_TURN / (abs(N) * max(norm(c.l[:3]), norm(c.l[3:6]), norm(c.l[6:])) + 1e-300))
+    v, l = minus(load3(block, at.v, i), W), dot(load9(block, at.A, i), inverse(load9(block, at.F, i)))
+    slip = scale_vector(block[at.dt * LANES + i], _slip(v, l, c.r, n))
+    way, turn = _with_friction(block, i, c, N, mu, slip, (0.0, 0.0, 0.0), ZERO)
+    F = dot(group_exponential(turn), load9(block, at.F, i))
     # Frame and integrals of this lane only: those of its neighbours stay as they are.
     Q = refined_frame(F, refined_frame(F, load9(block, at.frame, i)))
     stretches, _ = stretches_in_frame(F, Q)
     block[at.length * LANES + i] = block[at.R * LANES + i] * longest_stretch(F)
     store9(block, at.F, i, F)
+    store9(block, at.A, i, dot(l, F))
     store9(block, at.new_F, i, F)
     store9(block, at.frame, i, Q)
     store9(block, at.Q, i, Q)
     store3(block, at.stretch, i, stretches)
     store_integrals(block, i, integrals(stretches))
     return plus(x, way)
+
+
+@separate
+def push_solid(block: Block, i: int, n: Vector, x: Vector, width: float, mu: float, W: Vector) -> Vector:
+    """Do so with a body with inertia, and stop its point of contact."""
+    x = push_along_mobility(block, i, n, x, width, mu, W)
+    c, F = _push_of_step(block, i, n), load9(block, at.F, i)
+    v, l = minus(load3(block, at.v, i), W), dot(load9(block, at.A, i), inverse(F))
+    P = -min(speed_at(v, l, c.r, n), 0.0) / c.rate
+    v, l = _with_friction(block, i, c, P, mu, _slip(v, l, c.r, n), v, l)
+    store3(block, at.v, i, plus(v, W))
+    store9(block, at.A, i, dot(l, F))
+    return x
+
+
+def _push_of_step(block: Block, i: int, n: Vector) -> Push:
+    c = push_of(block, i, n, block[at.dt * LANES + i])
+    if largest(hindrance_by_walls(block, i)) > 0.0:
+        l = skew(c.l)
+        return Push(c.v, l, c.r, speed_at(c.v, l, c.r, n))
+    return c
+
+
+def _slip(v: Vector, l: Tensor, r: Vector, n: Vector) -> Vector:
+    """Return the velocity of the point at r along a wall of normal n, m/s."""
+    w = plus(v, dot_vector(l, r))
+    return plus_scaled(w, -inner(w, n), n)
+
+
+def _with_friction(
+    block: Block, i: int, c: Push, N: float, mu: float, slip: Vector, v: Vector, l: Tensor
+) -> tuple[Vector, Tensor]:
+    """Return v and l with the push by N, and by friction of up to mu N against the slip."""
+    v, l = plus_scaled(v, N, c.v), add(l, scale(N, c.l))
+    if mu == 0.0:
+        return v, l
+    size = norm(slip)
+    t = _push_at(block, i, scale_vector(-1.0 / (size + 1e-300), slip), c.r, block[at.dt * LANES + i])
+    T = min(mu * N, size / (t.rate + 1e-300))
+    return plus_scaled(v, T, t.v), add(l, scale(T, t.l))

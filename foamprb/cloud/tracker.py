@@ -31,7 +31,7 @@ from foamprb.cloud.motion import SHORTEST_STEP, UNLISTED, PatchTable, interrupte
 from foamprb.cloud.needs import needed_by, reader_of
 from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, Adhere, Interaction, Rebound
 from foamprb.cloud.paths import ROOM, Observation, Steps, recorder_of
-from foamprb.cloud.pressing import push_out
+from foamprb.cloud.pressing import approach, push_out, redirect
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
@@ -210,7 +210,8 @@ class Tracker:
             or models.touching == "centre"
         ):
             # Contact moves the centre alone.
-            self.slots.pop(push_out, None)
+            for one in (approach, redirect, push_out):
+                self.slots.pop(one, None)
         self.kernels = kernels
         self.switches = integrator.switches._replace(**composed.switches)
         self.table = _patch_table(interactions, medium.mu)

@@ -52,6 +52,7 @@ from foamprb.body.tensor import (
     dot_vector,
     from_frame,
     inner,
+    inverse,
     minus,
     plus,
     plus_scaled,
@@ -107,6 +108,17 @@ from foamprb.cloud.integrators.base import Integrator, lifted
 from foamprb.cloud.layout import LANES, Block, Row, layout, offsets
 from foamprb.cloud.motion import STOPS_AT_CONTACT, rewind
 from foamprb.cloud.paths import RecordedRows
+from foamprb.cloud.pressing import (
+    approach,
+    inertia_of_solid,
+    inertia_over,
+    point_of_contact,
+    push_out,
+    push_solid,
+    redirect,
+    redirect_solid,
+    speed_at,
+)
 from foamprb.compile.link import traced
 
 
@@ -405,6 +417,15 @@ def rewind_inertial(block: Block, i: int, f: float) -> None:
     store9(block, at.A, i, scale(1.0 / h, slope))
 
 
+def approach_of_point(block: Block, i: int, n: Vector) -> tuple[float, float]:
+    """Return the speeds along n of the point of contact of lane i at start and end of a step, m/s."""
+    Q, F, A = load9(block, during.start_Q, i), load9(block, at.F, i), load9(block, at.A, i)
+    F0, l0 = dot(transpose(Q), load9(block, work.G, i)), from_frame(Q, load9(block, work.l_s, i))
+    start = speed_at(load3(block, at.new_v, i), l0, point_of_contact(block, i, F0, n), n)
+    end = speed_at(load3(block, at.v, i), dot(A, inverse(F)), point_of_contact(block, i, F, n), n)
+    return start, end
+
+
 def _shape_rate(block: Block, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:
     """Return dl_s/dt = Ȧ F⁻¹ − l_s l_s, Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², and τ, Pa, in its frame.
 
@@ -614,6 +635,10 @@ ROSENBROCK = Integrator(
         third_slope: third_inertial,
         correct_path: correct_inertial,
         rewind: rewind_inertial,
+        inertia_over: inertia_of_solid,
+        approach: approach_of_point,
+        redirect: redirect_solid,
+        push_out: push_solid,
     },
     switches=Switches(bouncing=STOPS_AT_CONTACT),
     adaptive=True,
