@@ -188,7 +188,7 @@ def push_along_mobility(
 
     Returns
     -------
-    The new place of its centre. The gap is linear in the width; call again for what is left.
+    The new place of its centre. It is so to first order; call again for what is left.
     """
     c = _push_of_step(block, i, n)
     N = width / c.rate

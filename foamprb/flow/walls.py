@@ -42,30 +42,34 @@ def gap(
     """Return the clearance between the ellipsoid {x + R F·ξ: ξ·ξ ≤ 1} and the nearest wall triangle.
 
     The map y → F⁻¹(y − x) turns the ellipsoid into a ball of radius R about the origin, and triangles into
-    triangles. The clearance is the distance of the mapped triangle (including edges and corners) from the
-    origin minus R; it is negative exactly if body and wall overlap. Over a plane wall at distance h with
-    normal n it is h/|Fᵀn| − R. With a quadratic mode the ball is swollen, by R :func:`swelling` towards the
-    triangle.
+    triangles. The nearest triangle is that whose image (including edges and corners) has the least distance d
+    from the origin. The clearance is (d − R) |Fᵀn|; it is negative exactly if body and wall overlap. Over a
+    plane wall at distance h with normal n it is h − R |Fᵀn|. With a quadratic mode the ball is swollen, by R
+    :func:`swelling` towards the triangle.
 
     Returns
     -------
     gap, patch, triangle
-        Clearance in metres of the undeformed ball; ``inf`` with −1, −1 beyond :data:`NEAR` R.
+        Clearance in metres; ``inf`` with −1, −1 where d exceeds R by more than :data:`NEAR` R.
     """
     cell = flow.tets[host, 0] - flow.n_points
     begin, end = flow.near_start[cell], flow.near_start[cell + 1]
     if begin == end:
         return np.inf, -1, NO_TRIANGLE
     if flow.near[begin] < 0:
-        return nearest_in_tree(flow, -1 - flow.near[begin], x, F, R, mode)
-    return nearest_wall(flow, begin, end, x, F, R, mode)
+        clearance, patch, triangle = nearest_in_tree(flow, -1 - flow.near[begin], x, F, R, mode)
+    else:
+        clearance, patch, triangle = nearest_wall(flow, begin, end, x, F, R, mode)
+    if patch < 0:
+        return clearance, patch, triangle
+    return clearance * norm(vector_dot(inward(flow, triangle), F)), patch, triangle
 
 
 @separate
 def nearest_wall(
     flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float, mode: Any = ()
 ) -> tuple[float, int, int]:
-    """Return the nearest wall triangle among the entries ``begin`` to ``end``; see :func:`gap`."""
+    """Return d − R, patch and index of the nearest of the entries ``begin`` to ``end``; see :func:`gap`."""
     best, nearest = NEAR * R, NO_TRIANGLE
     # Most bodies are far from all walls; the map shortens no length by more than the norm of F.
     if not _any_within(flow, begin, end, x, _NEARLY * (best + R) * np.sqrt(ddot(F, F))):
@@ -99,7 +103,7 @@ def _any_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float)
 def nearest_in_tree(
     flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float, mode: Any = ()
 ) -> tuple[float, int, int]:
-    """Return the nearest wall triangle in the tree; see :func:`gap`. ``seed`` is a triangle that may be near.
+    """Return the same of the tree; see :func:`gap`. ``seed`` is a triangle that may be near.
 
     Of several at the same distance the first counts, as in a list.
     """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mesh_shapes import block, box_patches
+from mesh_shapes import block, boundary, box_patches, grid
 from scipy.stats import kstest
 
 from foamprb.body.brownian import BOLTZMANN
@@ -135,10 +135,31 @@ def test_a_rigid_sphere_on_a_floor_rolls_in_shear(mu_W, speed, spin):
     assert np.arctan2(F[0, 2] - F[2, 0], F[0, 0] + F[2, 2]) == pytest.approx(spin, rel=2e-3)
 
 
+@pytest.mark.parametrize(
+    ("angle", "force", "lean_of", "energy"),
+    [(90.0, (-1.0, 0.0, -1.2), 0.0, 2.539842), (60.0, (-1.0, 0.0, -1.20005), 12.6608, 2.993042)],
+)
+def test_a_spheroid_in_an_edge_touches_both_walls(angle, force, lean_of, energy):
+    """2:1, at the minimum of its energy, with reactions of (1.2, 1.0) and (1.7774, 1.1547)."""
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [c, 0.0, s]])
+    corners = 40.0 * np.concatenate([corners - (0.0, 1.0, 0.0), corners])
+    shape = grid(corners, [(13, np.arange(6)[None])])
+    mesh = build_mesh(shape, boundary(shape, lambda _centre: "wall", {"wall": "wall"}))
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    F = tilted(2.0, lean_of + 4.0)
+    p = resting(F, 1e-7, rest=np.sort(np.linalg.svd(F)[1])[::-1])
+    p.x[:] = (2.1, -20.0, 0.9)
+    cloud = Cloud(p, flow, Medium(1.0, 1.0, force), [Rebound()], 0.1, Models(integrator="stokes"), threads=1)
+    cloud.advance(1000)
+    assert -p.x[0] @ force == pytest.approx(energy, abs=5e-5)
+    assert lean(p)[0] == pytest.approx(lean_of, abs=0.2)
+
+
 def box_of(n, radius, model, dt, steps):
     """Bodies uniform in the unit cube whose faces are all walls, after steps."""
-    grid = block(3)
-    mesh = build_mesh(grid, box_patches(grid))
+    shape = block(3)
+    mesh = build_mesh(shape, box_patches(shape))
     flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
     x = np.random.default_rng(3).uniform(0.01, 0.99, (n, 3))
     p = spheres(x, d=2.0 * radius, rho=1.0, mu=1e9)

@@ -68,8 +68,9 @@ def bodies(random, n=25):
         yield 0.5 * random.normal(size=3), F, random.uniform(0.02, 0.2)
 
 
-def test_the_gap_is_the_distance_from_the_ball_before_it_was_deformed(random):
-    corners, _, arrays = soup(random)
+def test_the_nearest_wall_is_that_of_the_ball_before_it_was_deformed(random):
+    """And the gap to a plane wall is that of the body, in metres."""
+    corners, normals, arrays = soup(random)
     near = 0
     for x, F, R in bodies(random, 60):
         flat = tuple(F.ravel())
@@ -79,7 +80,7 @@ def test_the_gap_is_the_distance_from_the_ball_before_it_was_deformed(random):
         found = gap(arrays, 0, tuple(x), flat, R)
         if gaps[k] < NEAR * R:
             near += 1
-            assert found[0] == pytest.approx(gaps[k], abs=1e-12)
+            assert found[0] == pytest.approx(gaps[k] * np.linalg.norm(normals[k] @ F), abs=1e-12)
             assert found[1:] == (k % 5, k)
         else:
             assert found == (np.inf, -1, -1)
@@ -106,7 +107,8 @@ def test_the_ball_of_a_quadratic_mode_is_swollen_towards_each_triangle(random, m
         swollen = [swelling(mode, inverse_F, tuple(p / d)) for p, d in zip(nearest, away, strict=True)]
         gaps = np.where(away < (1.0 + NEAR) * R, away - R - R * np.array(swollen), np.inf)
         k = int(gaps.argmin())
-        expected = (gaps[k], k % 5, k) if gaps[k] < NEAR * R else (np.inf, -1, -1)
+        clearance = gaps[k] * np.linalg.norm(normals[k] @ F)
+        expected = (clearance, k % 5, k) if gaps[k] < NEAR * R else (np.inf, -1, -1)
         changed += np.isfinite(expected[0]) and k != away.argmin()
         for seed in (None, 0, max(expected[2], 0)):
             listing = arrays
@@ -130,7 +132,7 @@ def test_a_tree_of_walls_finds_what_a_list_of_all_finds(random):
             assert nearest_in_tree(arrays, seed, place, flat, R) == expected
             # A list may hold nothing but the seed.
             short = arrays._replace(near=np.array([-1 - seed]), near_start=np.array([0, 1]))
-            assert gap(short, 0, place, flat, R) == expected
+            assert gap(short, 0, place, flat, R) == gap(arrays, 0, place, flat, R)
 
 
 def test_of_walls_that_are_equally_near_the_first_counts():
