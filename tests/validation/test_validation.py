@@ -3,7 +3,7 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
-from validation import device, main, report, tumbling
+from validation import cytometry, device, main, report, tumbling
 from validation.case import Case, Curve, Figure, Outcome, Panel, Row, worst
 from validation.references import duct, rigid, soft, tube
 from validation.references.ellipsoid import (
@@ -306,6 +306,12 @@ class TestRows:
     def test_worst_finds_the_largest_difference_or_what_is_no_number(self):
         assert worst("x", np.array([1.0, 2.0]), np.array([1.0, 1.5]), "me", 1.0).difference == 0.5
         assert worst("x", np.array([np.nan, 2.0]), np.array([1.0, 1.5]), "me", 1.0).passed is False
+
+
+def test_medians_of_samples_scatter_by_their_standard_error():
+    samples = np.random.default_rng(1).normal(size=(4000, 401))
+    low, high = np.quantile(samples[0], (0.25, 0.75))
+    assert cytometry.standard_error(low, high, 401) == pytest.approx(np.median(samples, axis=1).std(), rel=0.1)
 
 
 class TestCommand:
