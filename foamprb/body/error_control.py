@@ -31,7 +31,7 @@ import math
 import numpy as np
 
 from foamprb.body.choice import choice
-from foamprb.body.tensor import Scalar, Tensor, Vector, add, add_identity, dot, minus, norm, transpose
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, add_identity, ddot, dot, minus, norm, transpose
 
 LEAST_STRAIN = 1e-6
 """Least elastic strain to which errors are related."""
@@ -46,8 +46,8 @@ SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
 GROWTH = 1.5
 """Largest ratio of a step to the planned size of the previous one. If steps may double, errors of soft bodies
 after their release grow without a gain in time."""
-LONGEST = 0.5
-"""Longest step times the largest component of the fluid's velocity gradient.
+LONGEST = 0.55
+"""Longest step times the size |l| of the fluid's velocity gradient, which is γ̇ in a simple shear.
 
 Beyond, no estimate covers the truncation errors of the exponential and of the series of the rate of Ω, and
 three samples do not resolve a gradient that may rotate with the body.
@@ -59,6 +59,11 @@ def largest(T: Tensor) -> Scalar:
     p = np.maximum(np.maximum(abs(T[0]), abs(T[1])), np.maximum(abs(T[2]), abs(T[3])))
     q = np.maximum(np.maximum(abs(T[4]), abs(T[5])), np.maximum(abs(T[6]), abs(T[7])))
     return np.maximum(np.maximum(p, q), abs(T[8]))
+
+
+def size(T: Tensor) -> Scalar:
+    """Return √(T:T), which rotations do not change."""
+    return np.sqrt(ddot(T, T))
 
 
 @choice
@@ -96,7 +101,7 @@ def share_of_slope(h: Scalar, rho: Scalar, l_f: Tensor) -> Scalar:
     ``h`` is the step, s, ``rho`` the rate of elastic relaxation and ``l_f`` the velocity gradient of the
     fluid, 1/s.
     """
-    return SECOND_SHARE * np.minimum(1.0, h * (rho + largest(l_f)))
+    return SECOND_SHARE * np.minimum(1.0, h * (rho + size(l_f)))
 
 
 def measured_ratio(difference: Scalar, error_2: Scalar) -> Scalar:
@@ -113,7 +118,7 @@ def measured_ratio(difference: Scalar, error_2: Scalar) -> Scalar:
 
 def longest_step(l_f: Tensor) -> Scalar:
     """Return the longest step, s, for a velocity gradient of the fluid at its start, 1/s."""
-    return LONGEST / (largest(l_f) + 1e-300)
+    return LONGEST / (size(l_f) + 1e-300)
 
 
 def chord_error(h: Scalar, way: Scalar, a0: Vector, a1: Vector) -> Scalar:

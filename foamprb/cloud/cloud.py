@@ -541,7 +541,7 @@ def _stress_scale(p: Particles) -> NDArray[np.float64]:
 
 
 def _speeds_and_gradients(values: NodeValues) -> tuple[Floats, Floats]:
-    return np.linalg.norm(values.u, axis=1), np.abs(values.l).max(axis=1)
+    return np.linalg.norm(values.u, axis=1), np.linalg.norm(values.l, axis=1)
 
 
 _LEAST, _MOST = 1e-30, 1e30
