@@ -180,7 +180,11 @@ class Particles(NamedTuple):
             (0,), "f8", "1", "faded strains D of these shares, 11 22 33 12 13 23 of each", optional=True
         ),
     ]
-    """Of a solid with memory these three have columns, see :func:`with_relaxation`."""
+    modeMemory: Annotated[
+        Array,
+        Variable((0,), "f8", "", "faded quadratic modes of these shares, then displacements", optional=True),
+    ]
+    """Of a solid with memory these four have columns, see :func:`with_relaxation`."""
 
     largest: Annotated[
         Array, Variable((5,), "f4", "", "largest values on its path: D, 1/s, Pa, 1/(1 + gap/a), ε")
@@ -262,7 +266,7 @@ VARIABLES: dict[str, Variable] = {
     name: hint.__metadata__[0] for name, hint in get_type_hints(Particles, include_extras=True).items()
 }
 
-_PER_TIME = {"memoryShares": 1, "memoryRates": 1, "memory": 6}
+_PER_TIME = {"memoryShares": 1, "memoryRates": 1, "memory": 6, "modeMemory": 10}
 """Columns for each relaxation time of a solid."""
 
 CHANGING = tuple(name for name, variable in VARIABLES.items() if not variable.fixed)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
-from dataclasses import InitVar, dataclass
+from dataclasses import InitVar, dataclass, replace
 from functools import partial
 from typing import Any, Literal, NamedTuple
 
@@ -188,7 +188,10 @@ class Tracker:
         self._columns = needed[0].columns if needed else ()
         # The first of those that change the fluid's gradient, which it reads.
         largest = LargestValues(quadratic=models.has_quadratic)
-        others = (*(in_fluid(m, medium.mu) for m in models.surroundings), *((Adhesion(),) if adheres else ()))
+        n_times = max((m.n_times for m in models.surroundings if isinstance(m, FadingMemory)), default=0)
+        given = models.surroundings
+        own = (replace(m, n_times=n_times) if isinstance(m, QuadraticSolid) else m for m in given)
+        others = (*(in_fluid(m, medium.mu) for m in own), *((Adhesion(),) if adheres else ()))
         around = (*model_of(medium.mu), *needed, largest, *others)
         self.layout = layout = surroundings.with_rows(integrator.layout, around)
         composed = surroundings.compose(around, patches, integrator.inertia)
@@ -552,8 +555,6 @@ def check(models: Models, tense: bool) -> None:
     if kind.slides and (models.has_memory or models.has_quadratic):
         what = "relaxation" if models.has_memory else "stiffness in the shape model quadratic"
         raise InputError(f"the {what} is unknown for the membrane of a {models.material}")
-    if models.has_memory and models.has_quadratic:
-        raise InputError("the shape model quadratic has no relaxation: its mode is that of a solid without")
     for model in models.surroundings:
         # Those that need elasticity refuse vesicles as drops.
         elastic = isinstance(model, BrownianMotion | Fates)

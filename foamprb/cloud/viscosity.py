@@ -395,7 +395,7 @@ def model_of(mu: float | VaryingViscosity) -> tuple[VaryingViscosity, ...]:
 def in_fluid(model: Surrounding, mu: float | VaryingViscosity) -> Surrounding:
     """Return a model of the surroundings as it acts in a fluid: the mode of solids depends on it."""
     if isinstance(mu, VaryingViscosity) and type(model) is QuadraticSolid:
-        return QuadraticInVarying(fluid=mu, beside=type(mu).beside)
+        return QuadraticInVarying(fluid=mu, beside=type(mu).beside, n_times=model.n_times)
     return model
 
 

@@ -137,6 +137,4 @@ def test_the_error_is_of_third_order():
 
 def test_models_without_memory_are_refused():
     with pytest.raises(InputError, match="relaxation"):
-        cloud_of(analytic.shear(1.0), shape="quadratic")
-    with pytest.raises(InputError, match="relaxation"):
         cloud_of(analytic.shear(1.0), integrator="paper")

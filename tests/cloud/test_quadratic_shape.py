@@ -6,8 +6,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
-from foamprb.body.quadratic import bullet_amplitude, layers, turned
+from foamprb.body.quadratic import bullet_amplitude, layers, rotation, turned
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud import viscosity as carrier
 from foamprb.cloud.block import Medium, at, idle_lanes, load3, new_block, store3
@@ -15,7 +16,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.layout import LANES, layout, offsets
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Escape, Stick
-from foamprb.cloud.state import Status, drops, set_rest_shape, spheres
+from foamprb.cloud.state import Status, drops, set_rest_shape, spheres, with_relaxation
 from foamprb.cloud.surroundings import quadratic
 from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
@@ -120,6 +121,34 @@ def test_paths_by_the_mode_are_of_second_order():
     errors = [np.abs(ends[n] - ends[512]).max() for n in (16, 32)]
     assert errors[0] < 1e-4
     assert 3.5 < errors[0] / errors[1] < 6.0
+
+
+def test_a_solid_with_memory_bends_by_its_relaxing_moduli():
+    """Off the axis of a pipe, where S turns in the frame of the body: B and q of their equations."""
+    G0, G, T, eta, y = SOFT, (2.0, 1.0), (2e-3, 2e-2), 1e-3, 0.4e-4
+    p = with_relaxation(bodies((0.0, y, 0.0), mu=G0, eta=eta), G, T)
+    advanced(p, analytic.pipe(RADIUS, 0.5 * U), 400, 5e-5)
+    g = -2.0 * U / RADIUS**2
+    spin = (0.0, 0.0, -0.5 * g * y)
+    c, S = 17.5 * R * MU_F / (19.0 * MU_F + 16.0 * eta), np.array([-0.4, 0.0, 0.0, 0.2, 0.0, 0.0, 0.0]) * g
+    v = (MU_F * R**2 / 3.0) / (2.0 * MU_F + 3.0 * eta) * np.array([2.0 * g, 0.0, 0.0])
+
+    def rates(t, state):
+        """In the turning frame: B, then q, and those that have faded."""
+        past, Y = rotation(spin, -t), state.reshape(3, 10)
+        source = np.r_[c * np.array(turned(tuple(S), past)), np.reshape(past, (3, 3)) @ v]
+        stress = G0 * Y[0] + sum(g_k * (Y[0] - Y[k]) for k, g_k in enumerate(G, 1))
+        elastic = np.r_[7 * [16.0 / (19.0 * MU_F + 16.0 * eta)], 3 * [3.0 / (2.0 * MU_F + 3.0 * eta)]]
+        return np.concatenate(
+            [source - elastic * stress, *((Y[0] - Y[k]) / t_k for k, t_k in enumerate(T, 1))]
+        )
+
+    t = 400 * 5e-5
+    Y = solve_ivp(rates, (0.0, t), np.zeros(30), rtol=1e-9, atol=1e-14).y[:10, -1]
+    turn = rotation(spin, t)
+    B, q = turned(tuple(Y[:7]), turn), np.reshape(turn, (3, 3)) @ Y[7:]
+    np.testing.assert_allclose(p.B[0], B, atol=2e-3 * np.abs(B).max())
+    np.testing.assert_allclose(p.shift[0], q, atol=2e-3 * np.abs(q).max())
 
 
 def test_a_body_where_the_flow_has_no_velocity_gets_its_mode():

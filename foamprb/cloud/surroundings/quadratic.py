@@ -5,12 +5,17 @@ from the stress, by its differences over the body: where a thinning fluid has no
 product of both. The flow is sampled where steps start. Between two
 starts its S is linear in time, in a frame that turns with the fluid, and the mode is advanced exactly. On
 its way through a step a body drifts by a mode that is linear between the start and the predicted end.
+
+In a solid with memory a share g_k of the stiffness of B and q acts on what has not faded, B − D_k, with
+dD_k/dt = (B − D_k)/T_k in the turning frame. So D_k add to the sources; in a step they are exact for a
+linear B.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Annotated, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
@@ -54,6 +59,7 @@ from foamprb.body.tensor import (
     minus,
     norm,
     plus,
+    plus_scaled,
     scale,
     scale_vector,
     select,
@@ -68,6 +74,7 @@ from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import renew_clearance, turn_along
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey, add3
+from foamprb.cloud.surroundings.memory import rows_for
 from foamprb.compile.link import Slots, separate, traced
 from foamprb.flow.base import Patch
 from foamprb.flow.kernels import curvature, sample, walk
@@ -112,6 +119,8 @@ _DIRECTIONS = (
 )  # fmt: skip
 """Directions of a quadrature over a sphere, of degree 5 with their opposites, and weights, in sum 3."""
 _NOTHING: Tensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_NO_MODE: Third = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+_NO_SHIFT: Vector = (0.0, 0.0, 0.0)
 
 mode = offsets(QuadraticRows)
 second = offsets(SecondRows)
@@ -156,6 +165,125 @@ def ahead(block: Block, i: int, remaining: float) -> float:
     return float(block[at.dt * LANES + i]) if remaining > 0.0 else 0.0
 
 
+@choice
+def past_of_mode(_block: Block, _i: int, _h: float, _turn: Tensor, _rate: float) -> tuple[Third, float]:
+    """Return the source of B by faded modes after a step h, s, of a solid with memory, in two parts, 1/s.
+
+    The second is a factor of B there; both are 0 without memory. ``rate`` is the relaxation 1/τ₃, 1/s.
+    """
+    return _NO_MODE, 0.0
+
+
+@choice
+def past_of_shift(_block: Block, _i: int, _h: float, _turn: Tensor, _rate: float) -> tuple[Vector, float]:
+    """Return the source of q by faded ones, m/s, as :func:`past_of_mode` does."""
+    return _NO_SHIFT, 0.0
+
+
+@choice
+def fade_mode(_block: Block, _i: int, _h: float, _turn: Tensor, _end: Third) -> None:
+    """Advance the faded modes over a step h, s, from the stored B to that at its end."""
+
+
+@choice
+def fade_shift(_block: Block, _i: int, _h: float, _turn: Tensor, _end: Vector) -> None:
+    """Advance the faded displacements over a step h, s, from the stored q to that at its end."""
+
+
+@choice
+def turn_past(_block: Block, _i: int, _turn: Tensor) -> None:
+    """Turn or mirror the faded modes and displacements."""
+
+
+@cache
+def past_rows(n_times: int) -> Any:
+    """Return the declaration of the faded modes of a solid with so many relaxation times."""
+    row = Row(10 * n_times, "", "faded B of each time, then faded q", of="modeMemory", saved=True)
+    return NamedTuple("PastRows", [("past", Annotated[int, row])])
+
+
+@cache
+def with_past(n_times: int) -> Slots:
+    """Return the functions of faded modes for so many relaxation times."""
+    times, first = offsets(rows_for(n_times)), offsets(past_rows(n_times)).past
+
+    def rate_and_share(block: Block, i: int, k: int) -> tuple[float, float]:
+        return block[(times.memory_rate + k) * LANES + i], block[(times.memory_share + k) * LANES + i]
+
+    def source_of_mode(block: Block, i: int, h: float, turn: Tensor, rate: float) -> tuple[Third, float]:
+        B, known, own = load7(block, mode.B, i), _NO_MODE, 0.0
+        stiffness = 16.0 * block[at.mu * LANES + i]
+        share = rate * stiffness / (stiffness + (280.0 / 11.0) * block[at.tension * LANES + i])
+        for k in range(n_times):
+            r, g = rate_and_share(block, i, k)
+            w = weights(r, h)
+            D = turned(combine(w.decay, load7(block, first + 7 * k, i), w.before * r, B), turn)
+            known, own = combine(1.0, known, share * g, D), own + share * g * w.after * r
+        return known, own
+
+    def source_of_shift(block: Block, i: int, h: float, turn: Tensor, rate: float) -> tuple[Vector, float]:
+        q, known, own = load3(block, mode.shift, i), _NO_SHIFT, 0.0
+        for k in range(n_times):
+            r, g = rate_and_share(block, i, k)
+            w, row = weights(r, h), first + 7 * n_times + 3 * k
+            D = dot_vector(turn, combine_vectors(w.decay, load3(block, row, i), w.before * r, q))
+            known, own = plus_scaled(known, rate * g, D), own + rate * g * w.after * r
+        return known, own
+
+    def fade_B(block: Block, i: int, h: float, turn: Tensor, end: Third) -> None:
+        for k in range(n_times):
+            r, row = block[(times.memory_rate + k) * LANES + i], first + 7 * k
+            w = weights(r, h)
+            D = turned(combine(w.decay, load7(block, row, i), w.before * r, load7(block, mode.B, i)), turn)
+            store7(block, row, i, combine(1.0, D, w.after * r, end))
+
+    def fade_q(block: Block, i: int, h: float, turn: Tensor, end: Vector) -> None:
+        for k in range(n_times):
+            r, row = block[(times.memory_rate + k) * LANES + i], first + 7 * n_times + 3 * k
+            w = weights(r, h)
+            D = combine_vectors(w.decay, load3(block, row, i), w.before * r, load3(block, mode.shift, i))
+            store3(block, row, i, plus_scaled(dot_vector(turn, D), w.after * r, end))
+
+    def turn_all(block: Block, i: int, turn: Tensor) -> None:
+        for k in range(n_times):
+            row, rest = first + 7 * k, first + 7 * n_times + 3 * k
+            store7(block, row, i, turned(load7(block, row, i), turn))
+            store3(block, rest, i, dot_vector(turn, load3(block, rest, i)))
+
+    return {
+        past_of_mode: source_of_mode,
+        past_of_shift: source_of_shift,
+        fade_mode: fade_B,
+        fade_shift: fade_q,
+        turn_past: turn_all,
+    }
+
+
+def mode_after_step(
+    block: Block, i: int, after: Third, rate: float, turn: Tensor, h: float
+) -> tuple[Third, Third]:
+    """Return B of lane i after a step h, s, and its source there, 1/s; ``after`` is the part by the flow."""
+    w = weights(rate, h)
+    known, own = past_of_mode(block, i, h, turn, rate)
+    after = combine(1.0, after, 1.0, known)
+    end = advanced(load7(block, mode.B, i), load7(block, mode.growth, i), after, w, turn)
+    # The source grows with B itself.
+    end = combine(1.0 / (1.0 - own * w.after), end, 0.0, end)
+    return end, combine(1.0, after, own, end)
+
+
+def shift_after_step(
+    block: Block, i: int, after: Vector, rate: float, turn: Tensor, h: float
+) -> tuple[Vector, Vector]:
+    """Return q of lane i and its source, as :func:`mode_after_step` does."""
+    w = weights(rate, h)
+    known, own = past_of_shift(block, i, h, turn, rate)
+    after = plus(after, known)
+    end = advanced_vector(load3(block, mode.shift, i), load3(block, mode.pull, i), after, w, turn)
+    end = scale_vector(1.0 / (1.0 - own * w.after), end)
+    return end, plus_scaled(after, own, end)
+
+
 def advance_mode(block: Block, i: int, growth: Third, rate: float, spin: Vector, step: float) -> None:
     """Advance B of lane i to its time, and store it with a first one at the end of the next step.
 
@@ -169,10 +297,13 @@ def advance_mode(block: Block, i: int, growth: Third, rate: float, spin: Vector,
         Length of the next step, s.
     """
     h, B = elapsed(block, i), load7(block, mode.B, i)
+    turn = rotation(combine_vectors(0.5, load3(block, mode.fluid_spin, i), 0.5, spin), h)
     if h > 0.0:
-        turn = rotation(combine_vectors(0.5, load3(block, mode.fluid_spin, i), 0.5, spin), h)
-        B = advanced(B, load7(block, mode.growth, i), growth, weights(rate, h), turn)
+        B, growth = mode_after_step(block, i, growth, rate, turn, h)
+        fade_mode(block, i, h, turn, B)
         store7(block, mode.B, i, B)
+    else:
+        growth = combine(1.0, growth, 1.0, past_of_mode(block, i, 0.0, turn, rate)[0])
     store7(block, mode.end, i, advanced(B, growth, growth, weights(rate, step), rotation(spin, step)))
     store7(block, mode.growth, i, growth)
     store3(block, mode.way, i, (0.0, 0.0, 0.0))
@@ -184,23 +315,26 @@ def advance_shift(block: Block, i: int, pull: Vector, rate: float, spin: Vector,
 
     ``pull`` is the source of q, m/s; see :func:`advance_mode`.
     """
-    h, q = elapsed(block, i), load3(block, mode.shift, i)
+    h, q, flow_pull = elapsed(block, i), load3(block, mode.shift, i), pull
+    turn = rotation(combine_vectors(0.5, load3(block, mode.fluid_spin, i), 0.5, spin), h)
     if h > 0.0:
-        turn = rotation(combine_vectors(0.5, load3(block, mode.fluid_spin, i), 0.5, spin), h)
-        q = advanced_vector(q, load3(block, mode.pull, i), pull, weights(rate, h), turn)
+        q, pull = shift_after_step(block, i, pull, rate, turn, h)
+        fade_shift(block, i, h, turn, q)
         store3(block, mode.shift, i, q)
+    else:
+        pull = plus(pull, past_of_shift(block, i, 0.0, turn, rate)[0])
     store3(block, mode.pull, i, pull)
     if step > 0.0:
-        store_shift_drift(block, i, pull, rate, spin, step)
+        store_shift_drift(block, i, flow_pull, rate, spin, step)
     else:
         change = plus(combine_vectors(1.0, pull, -rate, q), vector_product(spin, q))
         store3(block, mode.shift_drift, i, drift_by_shift(spin, q, change))
 
 
 def store_shift_drift(block: Block, i: int, pull: Vector, rate: float, spin: Vector, step: float) -> None:
-    """Store the mean drift by q of lane i in a step, at whose end the source of q is ``pull``, m/s."""
+    """Store the mean drift by q of lane i in a step, at whose end the flow's source of q is ``pull``, m/s."""
     q = load3(block, mode.shift, i)
-    end = advanced_vector(q, load3(block, mode.pull, i), pull, weights(rate, step), rotation(spin, step))
+    end, _ = shift_after_step(block, i, pull, rate, rotation(spin, step), step)
     change = combine_vectors(1.0 / step, end, -1.0 / step, q)
     store3(block, mode.shift_drift, i, drift_by_shift(spin, combine_vectors(0.5, q, 0.5, end), change))
 
@@ -331,8 +465,8 @@ def advance_ahead(block: Block, i: int, mu_f: float, mu_S: Third, mu_v: Vector) 
     """Store B of lane i where the step is to lead, with μ S and μ v, Pa/m², there; the way and the drift."""
     a, mu_s, eta = block[at.R * LANES + i], block[at.mu * LANES + i], block[at.eta * LANES + i]
     h, growth = block[at.dt * LANES + i], combine(source(eta / mu_f) * a / mu_f, mu_S, 0.0, mu_S)
-    w, spin = weights(block[mode.recovery * LANES + i], h), load3(block, mode.fluid_spin, i)
-    end = advanced(load7(block, mode.B, i), load7(block, mode.growth, i), growth, w, rotation(spin, h))
+    spin = load3(block, mode.fluid_spin, i)
+    end, growth = mode_after_step(block, i, growth, block[mode.recovery * LANES + i], rotation(spin, h), h)
     rate = relaxation_of_shift(mu_f, mu_s, eta)
     first = load3(block, mode.shift_drift, i)
     store_shift_drift(block, i, scale_vector(rate, shift(a, 1.0, mu_s, mu_v)), rate, spin, h)
@@ -426,6 +560,7 @@ def turn_mode(block: Block, i: int, turn: Tensor) -> None:
     store3(
         block, mode.fluid_spin, i, scale_vector(det(turn), dot_vector(turn, load3(block, mode.fluid_spin, i)))
     )
+    turn_past(block, i, turn)
 
 
 def _stages(
@@ -443,7 +578,9 @@ def _stages(
 class QuadraticSolid(Surrounding):
     """Quadratic mode of elastic bodies: ``subModels { shapeModel quadratic; }``."""
 
-    rows: ClassVar[tuple[type[tuple[int, ...]], ...]] = (QuadraticRows,)
+    n_times: int = 0
+    """Number of relaxation times of the solid."""
+
     each_step: ClassVar = False
     kernels: ClassVar = ("curvature",)
     measures: ClassVar = ("quadraticShape", "bulletAmplitude")
@@ -451,9 +588,15 @@ class QuadraticSolid(Surrounding):
     switches: ClassVar = {"updates_end": 1}
     stages: ClassVar = _stages(update_solid, carry_solid, look_at_end)
 
+    @property
+    def rows(self) -> tuple[type[tuple[int, ...]], ...]:  # type: ignore[override]
+        """Declaration of its rows."""
+        return (QuadraticRows, past_rows(self.n_times)) if self.n_times else (QuadraticRows,)
+
     def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
-        """Return how mirrors turn the mode, and contact."""
+        """Return how mirrors turn the mode, contact, and how it fades."""
         return {
+            **(with_past(self.n_times) if self.n_times else {}),
             turn_along: turn_mode,
             mode_in: mode_of_lane,
             mode_of: mode_of_row,
