@@ -18,6 +18,7 @@ from foamprb.flow.deforming import DeformingFlow
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import with_points
 from foamprb.flow.motion import match_walls
+from foamprb.flow.read.describe import describe
 from foamprb.flow.read.motion import deformation_of, note_of_deformation
 from foamprb.flow.read.openfoam import Case, read_series, transient_flow
 from foamprb.flow.read.source import FlowSource
@@ -243,6 +244,7 @@ def stretch(case, times=("0.5", "1e1")):
 def test_a_case_whose_points_move_deforms(tmp_path):
     mesh = write_case(tmp_path, perturbation=0.0)
     stretch(tmp_path)
+    assert describe(Case(tmp_path)).lines()[-1] == "    Points of the mesh, too: 0.5, 1e1"
     flow = read_series(tmp_path)
     assert any("the mesh deforms: points move by up to 0.95 m" in note for note in flow.notes)
     assert flow.notes[-1] == "The flow is cubic in time between 3 times from 0 to 1e1."

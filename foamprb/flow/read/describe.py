@@ -12,6 +12,7 @@ import numpy as np
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.fluid import describe_viscosity
+from foamprb.flow.read.motion import moving_times
 from foamprb.flow.read.openfoam import Case
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import listed
@@ -45,6 +46,8 @@ class CaseInfo:
     """All regions."""
     viscosity: tuple[str, ...] = ()
     """Lines about the viscosity of the fluid."""
+    moving: tuple[str, ...] = ()
+    """Times with points of their own."""
 
     def lines(self) -> list[str]:
         """Return the contents as lines of text."""
@@ -62,6 +65,7 @@ class CaseInfo:
             ),
             "Times and fields",
             *self._lines_of_times(),
+            *([f"    Points of the mesh, too: {listed(self.moving)}"] * bool(self.moving)),
         ]
 
     def _lines_of_times(self) -> list[str]:
@@ -83,10 +87,12 @@ def describe(case: Case) -> CaseInfo:
     (points, faces, *_), patches, _ = case.poly(names[-1] if names else None)
     kinds = _kinds(faces.start, faces.owner, faces.neighbour, len(faces.first) - 1)
     bounds = points.min(axis=0), points.max(axis=0)
+    moving = tuple(moving_times({name: case.folder(name) for name in names[1:]}, "points"))
     viscosity = describe_viscosity(case.root, case.region, times[-1].fields if times else ())
     return CaseInfo(
-        case.root, times, patches, len(points), kinds, bounds, case.region, case.regions(), tuple(viscosity)
-    )
+        case.root, times, patches, len(points), kinds, bounds, case.region, case.regions(), tuple(viscosity),
+        moving,
+    )  # fmt: skip
 
 
 def describe_file(
