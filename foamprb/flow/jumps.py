@@ -7,13 +7,12 @@ from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.lists import Mask
-from foamprb.flow.nodes import stride_over
 
 _DECADES, _PER_DECADE = (-6.0, 1.0), 50
 _BINS = int((_DECADES[1] - _DECADES[0]) * _PER_DECADE)
 _AT_ONCE = 1 << 16
-_FEW = 0.05
-"""Share of the cells up to which those of one kind do not count."""
+_FEW, _ENOUGH = 0.05, 20_000
+"""Share of the cells up to which those of one kind do not count, and number of cells of a median."""
 NO_JUMPS: NDArray[np.int64] = np.zeros((2, _BINS), dtype=np.int64)
 """Counts of a flow without cells."""
 
@@ -80,7 +79,7 @@ def roughness(l: Floats, start: Ints, points: Ints, least: float) -> float:
         Smallest |∇u| to which a difference is related, 1/s.
     """
     n = len(start) - 1
-    some = np.arange(0, n, stride_over(n))
+    some = np.arange(0, n, max(1, n // _ENOUGH))
     count = np.diff(start)[some]
     first = np.cumsum(count) - count
     corners = points[np.repeat(start[some] - first, count) + np.arange(count.sum())]
