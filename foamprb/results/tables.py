@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from io import TextIOWrapper
 from itertools import groupby, islice
+from operator import add
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -158,14 +159,12 @@ def _texts(columns: Sequence[NDArray[Any]]) -> list[list[str]]:
         return [[]]
     # JSON's numbers are valid in tables, and orjson writes them much faster than Python does.
     numbers = np.stack(columns, axis=1, dtype=_WIDE[kind], casting="same_kind")
-    texts = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()[2:-2].split("],[")
-    finite = np.isfinite(numbers)
-    for row in np.flatnonzero(~finite.all(axis=1)):
-        cells = texts[row].split(",")
-        for k in np.flatnonzero(~finite[row]):
-            cells[k] = repr(float(numbers[row, k]))
-        texts[row] = ",".join(cells)
-    return [texts]
+    text = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()
+    # JSON has null for each number that is not finite, in the same order.
+    first, *others = text.split("null")
+    words = map(repr, numbers[~np.isfinite(numbers)].tolist())
+    text = first + "".join(map(add, words, others))
+    return [text[2:-2].split("],[")]
 
 
 def _words(values: Sequence[object]) -> list[str]:
