@@ -15,9 +15,9 @@ from foamprb.cloud.patches import Rebound
 from foamprb.cloud.pressing import push_of
 from foamprb.cloud.state import Status, set_rest_shape, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloud.surroundings.swimming import Swimming
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
-from foamprb.errors import ValidityWarning
 from foamprb.flow import analytic
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -142,11 +142,7 @@ def test_a_rigid_sphere_on_a_floor_rolls_in_shear(mu_W, speed, spin):
 def test_a_spheroid_in_an_edge_touches_both_walls(angle, force, lean_of, energy):
     """2:1, at the minimum of its energy, with reactions of (1.2, 1.0) and (1.7774, 1.1547)."""
     c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
-    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [c, 0.0, s]])
-    corners = 40.0 * np.concatenate([corners - (0.0, 1.0, 0.0), corners])
-    shape = grid(corners, [(13, np.arange(6)[None])])
-    mesh = build_mesh(shape, boundary(shape, lambda _centre: "wall", {"wall": "wall"}))
-    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    flow = closed(40.0 * np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [c, 0.0, s]]), 2)
     F = tilted(2.0, lean_of + 4.0)
     p = resting(F, 1e-7, rest=np.sort(np.linalg.svd(F)[1])[::-1])
     p.x[:] = (2.1, -20.0, 0.9)
@@ -156,29 +152,66 @@ def test_a_spheroid_in_an_edge_touches_both_walls(angle, force, lean_of, energy)
     assert lean(p)[0] == pytest.approx(lean_of, abs=0.2)
 
 
-def box_of(n, radius, model, dt, steps):
-    """Bodies uniform in the unit cube whose faces are all walls, after steps."""
+CLOSED = {
+    "wedge of 30 degrees": ([[0, 0, 0], [1, 0, 0], [0.75**0.5, 0, 0.5]], 2),
+    "tetrahedron": ([[0, 0, 0], [1, 0, 0], [0.3, 0.9, 0], [0.4, 0.3, 0.8]], 3),
+}
+"""Corners, and the number of dimensions of the simplex that they span."""
+
+
+def closed(corners, dimensions):
+    """A still flow in one cell between walls, a prism along y if the corners are those of a triangle."""
+    both = np.concatenate([corners - (0.0, corners.max(), 0.0), corners]) if dimensions == 2 else corners
+    shape = grid(both, [(13 if dimensions == 2 else 10, np.arange(len(both))[None])])
+    mesh = build_mesh(shape, boundary(shape, lambda _centre: "wall", {"wall": "wall"}))
+    return MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+
+
+def enclosed(flow, x, model, dt, steps):
+    """Points to walls at x in that flow, after steps."""
+    p = spheres(x, d=2e-3, rho=1.0, mu=1e9)
+    models = Models(integrator="stokes", surroundings=(model,), touching="centre")
+    rules = [Rebound()] * len(flow.patches)
+    Cloud(p, flow, Medium(1.0, 1.0, (0.0, 0.0, 0.0)), rules, dt, models, threads=1).advance(steps)
+    assert (p.status == Status.ACTIVE).all()
+    return p.x
+
+
+FAST = 1e-3 / (6.0 * np.pi * 1e-3)
+"""Diffusivity of spheres of 1 mm with kT of 1 mJ, which only their ratio makes fast."""
+
+
+@pytest.mark.filterwarnings("ignore:molecules move particles")
+def test_no_body_leaves_a_closed_box():
+    """Random steps of a tenth of the box meet two walls at once near each edge."""
     shape = block(3)
     mesh = build_mesh(shape, box_patches(shape))
     flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
-    x = np.random.default_rng(3).uniform(0.01, 0.99, (n, 3))
-    p = spheres(x, d=2.0 * radius, rho=1.0, mu=1e9)
-    models = Models(integrator="stokes", surroundings=(model,), touching="centre")
-    rules = [Rebound()] * len(flow.patches)
-    cloud = Cloud(p, flow, Medium(1.0, 1.0, (0.0, 0.0, 0.0)), rules, dt, models, threads=1)
-    with pytest.warns(ValidityWarning, match="molecules move particles"):
-        cloud.advance(steps)
-    return p
+    x = np.random.default_rng(3).uniform(0.01, 0.99, (600, 3))
+    x = enclosed(flow, x, BrownianMotion(T=1e-3 / BOLTZMANN, shape=False), 0.005 / FAST, 100)
+    assert ((x >= 0.0) & (x <= 1.0)).all()
+    assert min(kstest(x[:, k], "uniform").pvalue for k in range(3)) > 1e-3
 
 
-def test_no_body_leaves_a_closed_box():
-    """Random steps of a tenth of the box meet two walls at once near each edge."""
-    radius, kT = 1e-3, 1e-3
-    D = kT / (6.0 * np.pi * radius)
-    p = box_of(600, radius, BrownianMotion(T=kT / BOLTZMANN, shape=False), 0.005 / D, 100)
-    assert (p.status == Status.ACTIVE).all()
-    assert ((p.x >= 0.0) & (p.x <= 1.0)).all()
-    assert min(kstest(p.x[:, k], "uniform").pvalue for k in range(3)) > 1e-3
+@pytest.mark.filterwarnings("ignore:molecules move particles", "ignore:swimmers turn at random")
+@pytest.mark.parametrize("name", CLOSED)
+@pytest.mark.parametrize("model", ["molecules", "swimmers"])
+def test_no_body_leaves_a_sharp_corner(name, model):
+    """And they stay uniform: the share λ of a corner of an n-simplex has the distribution 1 − (1 − λ)ⁿ."""
+    corners, n = np.array(CLOSED[name][0], dtype=float), CLOSED[name][1]
+    random = np.random.default_rng(3)
+    x = 0.98 * random.dirichlet(np.ones(n + 1), 500) @ corners + 0.02 * corners.mean(axis=0)
+    x[:, 1] -= random.uniform(0.01, 0.99, 500) if n == 2 else 0.0
+    molecules, dt = BrownianMotion(T=1e-3 / BOLTZMANN, shape=False), 0.002 / FAST
+    swimmers = Swimming(speed=1.0, rotationalDiffusivity=2.0)
+    chosen = (molecules, dt) if model == "molecules" else (swimmers, 0.05)
+    x = enclosed(closed(corners, n), x, *chosen, 60)
+    axes = [0, 2] if n == 2 else [0, 1, 2]
+    shares = np.linalg.solve(
+        np.vstack([corners[:, axes].T, np.ones(n + 1)]), np.vstack([x[:, axes].T, np.ones(len(x))])
+    )
+    assert shares.min() > -1e-9
+    assert min(kstest(1.0 - (1.0 - shares.clip(0.0, 1.0)) ** n, "uniform", axis=1).pvalue) > 1e-3
 
 
 # --- Molecules over a floor ---------------------------------------------------------------------------------
@@ -188,11 +221,22 @@ D = KT / (6.0 * np.pi)
 """Of a unit sphere in a fluid of viscosity 1."""
 
 
-def over_floor(n, F, rest, around, steps, dt=0.002):
-    """Stiff bodies with kT over the weight of 1, from exponential gaps on; their gaps in the end."""
-    weight = KT / VOLUME
-    height = np.linalg.norm(F[:, 2], axis=1) + np.random.default_rng(7).exponential(size=n)
-    p = spheres(np.stack([0 * height, 0 * height, height], axis=1), d=2.0, rho=1.0 + weight, mu=1e4 * KT)
+def leaning(n, ratio, scale):
+    """F of n spheroids as Boltzmann has them with kT over the weight of ``scale``."""
+    random, angles, a = np.random.default_rng(11), [], ratio ** (2.0 / np.array([1.5, -3.0, -3.0]))
+    while len(angles) < n:
+        q = random.uniform(-1.0, 1.0)
+        if random.random() < np.exp((a[1] ** 0.5 - np.sqrt(a[0] * q * q + a[1] * (1.0 - q * q))) / scale):
+            angles.append(np.degrees(np.arcsin(q)))
+    return np.array([tilted(ratio, angle) for angle in angles]), np.sqrt(a)
+
+
+def over_floor(n, F, rest, around, steps, dt=0.002, scale=1.0, mu=1e4):
+    """Bodies of μ_s/kT with kT over the weight of ``scale``, from exponential gaps on; their gaps then."""
+    weight = KT / VOLUME / scale
+    height = np.linalg.norm(F[:, 2], axis=1) + np.random.default_rng(7).exponential(scale, size=n)
+    x = np.stack([0 * height, 0 * height, height], axis=1)
+    p = spheres(x, d=2.0, rho=1.0 + weight, mu=mu * KT, poissons_ratio=0.4999)
     if rest is not None:
         set_rest_shape(p, rest)
         p.F0[:] = F.reshape(n, 9)
@@ -206,14 +250,9 @@ MOLECULES = BrownianMotion(T=KT / BOLTZMANN)
 
 def test_molecules_keep_bodies_over_a_floor_in_boltzmanns_equilibrium():
     """2:1 spheroids: the force that is held through sub-steps is mirrored, and torque and force together."""
-    random, n = np.random.default_rng(11), 500
-    angles, a = [], np.array([2.0 ** (2.0 / 3.0), 2.0 ** (-1.0 / 3.0)]) ** 2
-    while len(angles) < n:
-        q = random.uniform(-1.0, 1.0)
-        if random.random() < np.exp(a[1] ** 0.5 - np.sqrt(a[0] * q * q + a[1] * (1.0 - q * q))):
-            angles.append(np.degrees(np.arcsin(q)))
-    F = np.array([tilted(2.0, angle) for angle in angles])
-    p, gap = over_floor(n, F, np.sqrt(a[[0, 1, 1]]), (MOLECULES,), 150)
+    n = 500
+    F, rest = leaning(n, 2.0, 1.0)
+    p, gap = over_floor(n, F, rest, (MOLECULES,), 150)
     assert (p.status == Status.ACTIVE).all()
     assert np.mean(gap < 0.05) == pytest.approx(0.0488, abs=3.0 * np.sqrt(0.0488 / n))
     assert np.mean(gap < 0.002) < 0.002 + 4.0 * np.sqrt(0.002 / n)
@@ -242,3 +281,42 @@ def test_a_body_at_rest_on_a_floor_with_wall_lift_takes_long_steps(mu):
     cloud.advance(4)
     assert p.substeps[0] <= 1.0
     assert p.F[0, 8] - 1.0 == pytest.approx(strain, rel=1e-6)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize(
+    ("scale", "k", "reach", "wide", "strain"),
+    [
+        (1.0, 20.0, 1.0155, 1.0475, 0.2489),
+        (0.1, 20.0, 0.8870, 0.7991, 0.2892),
+        (0.05, 100.0, 0.9437, 0.8935, 0.0597),
+    ],
+)
+def test_soft_spheres_over_a_floor_have_the_shapes_of_boltzmann(scale, k, reach, wide, strain):
+    """⟨s⟩, ⟨b_nn⟩, ⟨tr b − 3⟩ for k = V μ_s/kT and p(b) ∝ exp(−s/ℓ − V W/kT); to four errors."""
+    n = 4000
+    F, dt = np.tile(np.eye(3), (n, 1, 1)), {1.0: 0.002, 0.1: 5e-4, 0.05: 1e-4}[scale]
+    p, gap = over_floor(n, F, None, (MOLECULES,), 200, dt, scale, k / VOLUME)
+    b = p.F.reshape(n, 3, 3) @ p.F.reshape(n, 3, 3).transpose(0, 2, 1)
+    for values, expected, own in (
+        (gap / scale, 1.0, 0.0), (np.sqrt(b[:, 2, 2]), reach, 4e-4), (b[:, 2, 2], wide, 8e-4),
+        (np.trace(b, axis1=1, axis2=2) - 3.0, strain, 6e-4),
+    ):  # fmt: skip
+        assert values.mean() == pytest.approx(expected, abs=4.0 * np.hypot(values.std() / n**0.5, own))
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize(("scale", "cos_2", "models"), [(1.0, 0.2657, 1), (0.2, 0.1075, 1), (1.0, None, 2)])
+def test_stiff_bodies_over_a_floor_are_as_boltzmann_has_them(scale, cos_2, models):
+    """2:1 spheroids, and spheres with the hindrance by the wall; gaps are exponential."""
+    n = 2000
+    F, rest = leaning(n, 2.0, scale) if cos_2 else (np.tile(np.eye(3), (n, 1, 1)), None)
+    around = (MOLECULES, WallLift())[:models]
+    p, gap = over_floor(n, F, rest, around, 150, 0.002 if scale == 1.0 else 2.5e-4, scale)
+    assert gap.mean() / scale == pytest.approx(1.0, abs=4.0 / n**0.5)
+    for share in (0.01, 0.05, 0.2):
+        expected = 1.0 - np.exp(-share)
+        assert np.mean(gap < share * scale) == pytest.approx(expected, abs=4.0 * np.sqrt(expected / n) + 1e-3)
+    if cos_2:
+        values = np.sin(np.radians(lean(p))) ** 2
+        assert values.mean() == pytest.approx(cos_2, abs=4.0 * values.std() / n**0.5)
