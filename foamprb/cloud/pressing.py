@@ -190,25 +190,40 @@ def push_along_mobility(
     -------
     The new place of its centre. It is so to first order; call again for what is left.
     """
+    F = load9(block, at.F, i)
     c = _push_of_step(block, i, n)
-    N = width / c.rate
-    N *= min(1.0, _MOST_TURN / (abs(N) * max(norm(c.l[:3]), norm(c.l[3:6]), norm(c.l[6:])) + 1e-300))
-    v, l = minus(load3(block, at.v, i), W), dot(load9(block, at.A, i), inverse(load9(block, at.F, i)))
+    N = _least_turn(c, width)
+    # The reaction at half of the way: a body that turns is pushed along a curve.
+    _set_shape(block, i, dot(group_exponential(scale(0.5 * N, c.l)), F))
+    c = _push_of_step(block, i, n)
+    N = _least_turn(c, width)
+    v, l = minus(load3(block, at.v, i), W), dot(load9(block, at.A, i), inverse(F))
     slip = scale_vector(block[at.dt * LANES + i], _slip(v, l, c.r, n))
     way, turn = _with_friction(block, i, c, N, mu, slip, (0.0, 0.0, 0.0), ZERO)
-    F = dot(group_exponential(turn), load9(block, at.F, i))
+    F = dot(group_exponential(turn), F)
+    _set_shape(block, i, F)
+    store9(block, at.A, i, dot(l, F))
+    return plus(x, way)
+
+
+def _least_turn(c: Push, width: float) -> float:
+    """Return the reaction over μ_f and time that widens the gap, less if the body would turn by too much."""
+    N = width / c.rate
+    return N * min(1.0, _MOST_TURN / (abs(N) * max(norm(c.l[:3]), norm(c.l[3:6]), norm(c.l[6:])) + 1e-300))
+
+
+def _set_shape(block: Block, i: int, F: Tensor) -> None:
+    """Store the shape of lane i."""
     # Frame and integrals of this lane only: those of its neighbours stay as they are.
     Q = refined_frame(F, refined_frame(F, load9(block, at.frame, i)))
     stretches, _ = stretches_in_frame(F, Q)
     block[at.length * LANES + i] = block[at.R * LANES + i] * longest_stretch(F)
     store9(block, at.F, i, F)
-    store9(block, at.A, i, dot(l, F))
     store9(block, at.new_F, i, F)
     store9(block, at.frame, i, Q)
     store9(block, at.Q, i, Q)
     store3(block, at.stretch, i, stretches)
     store_integrals(block, i, integrals(stretches))
-    return plus(x, way)
 
 
 @separate

@@ -88,11 +88,11 @@ def test_a_rigid_spheroid_that_settles_on_its_tip_lies_down(integrator):
     """3:1 from 45°, against (ζ_n s'² + ζ_r) dφ/dt = −W s'(φ) with Perrin's resistances."""
     F = tilted(3.0, 45.0)
     p = resting(F, 1e-7, rest=np.sort(np.linalg.svd(F)[1])[::-1])
-    cloud, found = cloud_of(p, 0.25, integrator=integrator), []
-    for _ in range(3):
-        cloud.advance(80)
+    cloud, found = cloud_of(p, 1.0, integrator=integrator), []
+    for steps in (2, 3, 5, 10, 20, 20):
+        cloud.advance(steps)
         found.append(lean(p)[0])
-    np.testing.assert_allclose(found, [29.066, 13.627, 3.084], atol=0.06)
+    np.testing.assert_allclose(found, [43.417, 41.032, 37.041, 29.066, 13.627, 3.084], atol=0.05)
     assert p.x[0, 2] == pytest.approx(0.70134, abs=1e-3)
 
 
@@ -295,8 +295,10 @@ def test_a_body_at_rest_on_a_floor_with_wall_lift_takes_long_steps(mu):
 def test_soft_spheres_over_a_floor_have_the_shapes_of_boltzmann(scale, k, reach, wide, strain):
     """⟨s⟩, ⟨b_nn⟩, ⟨tr b − 3⟩ for k = V μ_s/kT and p(b) ∝ exp(−s/ℓ − V W/kT); to four errors."""
     n = 4000
-    F, dt = np.tile(np.eye(3), (n, 1, 1)), {1.0: 0.002, 0.1: 5e-4, 0.05: 1e-4}[scale]
-    p, gap = over_floor(n, F, None, (MOLECULES,), 200, dt, scale, k / VOLUME)
+    # Of the mean height, so that gaps hardly change while the shapes come to equilibrium.
+    F = np.tile(np.diag([reach**-0.5, reach**-0.5, reach]), (n, 1, 1))
+    dt = min(0.002, 0.005 * scale**2)
+    p, gap = over_floor(n, F, None, (MOLECULES,), 1100, dt, scale, k / VOLUME)
     b = p.F.reshape(n, 3, 3) @ p.F.reshape(n, 3, 3).transpose(0, 2, 1)
     for values, expected, own in (
         (gap / scale, 1.0, 0.0), (np.sqrt(b[:, 2, 2]), reach, 4e-4), (b[:, 2, 2], wide, 8e-4),
