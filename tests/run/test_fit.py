@@ -14,10 +14,11 @@ from foamprb.errors import InputError, RunInterrupted
 from foamprb.results.atomic import only_writer
 from foamprb.results.tables import read_table
 from foamprb.run import fit as module
-from foamprb.run.device import Bodies, Device, plane_of, view_of
+from foamprb.run.device import UNKNOWNS, Bodies, Device, plane_of, view_of
 from foamprb.run.fit import fit_job
 from foamprb.run.least_squares import gauss_newton
 from foamprb.run.measured import read_measured
+from foamprb.view.report.fits import UNITS
 
 BOTH = ("shearModulus", "viscosity")
 
@@ -51,6 +52,10 @@ def test_membranes_of_capsules_are_recovered(tmp_path):
     np.testing.assert_allclose(fits.table["viscosity"], 1.0, rtol=1e-3)
     with pytest.raises(InputError, match="Allowed: surfaceShearModulus, viscosity"):
         fit_job(job, measured, ("shearModulus",), "x=1e-3")
+
+
+def test_pages_have_a_unit_for_each_property():
+    assert UNITS.keys() >= set(UNKNOWNS)
 
 
 def test_the_interval_of_a_population_holds_its_median(job):

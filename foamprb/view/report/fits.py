@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-_UNITS = {
+UNITS = {
     "shearModulus": "Pa", "youngsModulus": "Pa", "viscosity": "Pa s", "surfaceTension": "N/m", "k": "Pa",
-    "alpha": "1", "area": "m²", "angle": "rad", "treading": "1/s",
+    "alpha": "1", "surfaceShearModulus": "N/m", "area": "m²", "angle": "rad", "treading": "1/s",
 }  # fmt: skip
 
 
@@ -41,7 +41,7 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
     axis = max("xyz", key=lambda name: float(np.ptp(columns[name][fitted])) if fitted.any() else 0.0)
     medians = _medians(fits)
     for name in fits.unknown if fitted.any() else ():
-        y = (name, _UNITS[name])
+        y = (name, UNITS[name])
         groups = {group: _of_group(fits, name, group) for group in medians[name]}
         groups = {group: values for group, values in groups.items() if len(values)}
         plot = plots.spreads(groups, medians[name], *y)
@@ -58,7 +58,7 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
         )
         over_place.append(drawn(f"{name}OverPlace", plot, f"{name} over the place in the plane."))
     for name in fits.shapes if fitted.any() else ():
-        unit = _UNITS.get(name, "1")
+        unit = UNITS.get(name, "1")
         seen, predicted = columns[name][fitted], columns[f"{name}Predicted"][fitted]
         errors = columns[f"{name}Error"][fitted]
         plot = plots.dots(
@@ -82,12 +82,12 @@ def write_fit_page(fits: Fits, target: Path) -> Path:
             area[fitted], deformation[fitted], ("area", "m²"), ("deformation", "1"),
             others=(area[~fitted], deformation[~fitted]), curves=lines,
         )  # fmt: skip
-        caption = f"All events; lines of equal {fits.unknown[0]}, {_UNITS[fits.unknown[0]]}."
+        caption = f"All events; lines of equal {fits.unknown[0]}, {UNITS[fits.unknown[0]]}."
         events.append(drawn("deformationOverArea", plot, caption))
     grouped = "group" in fits.population
     rows = [
         (
-            f"{row[0]} [{_UNITS[row[0]]}]",
+            f"{row[0]} [{UNITS[row[0]]}]",
             *row[1 : 1 + grouped],
             int(row[1 + grouped]),
             *_numbers(row[2 + grouped :]),
