@@ -224,8 +224,9 @@ def _introduction_of_others(texts: Iterable[str]) -> str:
         f"others printed (`others`, {kinds['others']} rows), or an experiment (`measured`, "
         f"{kinds['measured']} rows). An error bar of a reference is its scatter, or the accuracy of reading "
         "it; that of the median of a population is its standard error, and brackets are the quartiles. One "
-        "of ours is numerical. The allowed difference is one for each quantity, chosen from what the reference "
-        "is worth and not from the outcome: a row that exceeds it says no. Rows without one are for information."
+        "of ours is numerical. The allowed difference is one for each quantity, chosen from what the "
+        "reference is worth and not from the outcome: a row that exceeds it says no. Rows without one are "
+        "for information."
     )
 
 
