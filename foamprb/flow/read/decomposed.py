@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.dictionary.files import existing
+from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.case import (
@@ -114,6 +115,10 @@ class DecomposedCase(Case):
             self._files = ()
             return self.poly(time)
         return poly, tuple(self._patches), self._mesh_notes
+
+    def points(self, time: str) -> Floats:
+        """Return the points of the joined mesh at a time, (n_points, 3), m."""
+        return self.poly(time)[0].points
 
     def _open(self, time: str | None) -> None:
         """Read and join the mesh at a time, unless it is that of the last call."""

@@ -77,7 +77,7 @@ from foamprb.flow.read.motion import (
 )
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.overlap import reduced
-from foamprb.flow.read.polymesh import read_poly
+from foamprb.flow.read.polymesh import read_points, read_poly
 from foamprb.flow.read.prepared import PreparedTimes
 from foamprb.flow.read.refinement import Resampling, cells_at, finest, same_mesh
 from foamprb.flow.read.sampled import kinds_of, read_sampled
@@ -186,7 +186,7 @@ class Case:
 
     def points(self, time: str) -> Floats:
         """Read the points of the mesh at a time, (n_points, 3), m."""
-        return self.poly(time)[0].points
+        return read_points(mesh_files(self.root, time, self.region)[0])
 
 
 def read_case(

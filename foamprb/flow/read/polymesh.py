@@ -41,6 +41,13 @@ def read_poly(files: Sequence[Path], patches: Sequence[PatchInfo]) -> PolyMesh:
     return checked_poly(paths, points, start, lists, owner, neighbour, patches)
 
 
+def read_points(file: Path) -> Floats:
+    """Read the points of a mesh, (n_points, 3), m."""
+    points = read_vectors(shown(file))
+    require_numbers(points, shown(file), "point")
+    return points
+
+
 def count_cells(owner: Ints, neighbour: Ints) -> int:
     """Return the number of cells; the last ones without faces on the boundary own none."""
     n = int(owner.max(initial=-1)) + 1
