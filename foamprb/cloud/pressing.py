@@ -192,11 +192,11 @@ def push_along_mobility(
     """
     F = load9(block, at.F, i)
     c = _push_of_step(block, i, n)
-    N = _least_turn(c, width)
+    N = _reaction(c, width)
     # The reaction at half of the way: a body that turns is pushed along a curve.
     _set_shape(block, i, dot(group_exponential(scale(0.5 * N, c.l)), F))
     c = _push_of_step(block, i, n)
-    N = _least_turn(c, width)
+    N = _reaction(c, width)
     v, l = minus(load3(block, at.v, i), W), dot(load9(block, at.A, i), inverse(F))
     slip = scale_vector(block[at.dt * LANES + i], _slip(v, l, c.r, n))
     way, turn = _with_friction(block, i, c, N, mu, slip, (0.0, 0.0, 0.0), ZERO)
@@ -206,10 +206,11 @@ def push_along_mobility(
     return plus(x, way)
 
 
-def _least_turn(c: Push, width: float) -> float:
+def _reaction(c: Push, width: float) -> float:
     """Return the reaction over μ_f and time that widens the gap, less if the body would turn by too much."""
     N = width / c.rate
-    return N * min(1.0, _MOST_TURN / (abs(N) * max(norm(c.l[:3]), norm(c.l[3:6]), norm(c.l[6:])) + 1e-300))
+    most = abs(N) * max(norm(c.l[:3]), norm(c.l[3:6]), norm(c.l[6:]))
+    return float(N * min(1.0, _MOST_TURN / (most + 1e-300)))
 
 
 def _set_shape(block: Block, i: int, F: Tensor) -> None:
