@@ -3,7 +3,7 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
-from validation import cytometry, device, main, report, tumbling
+from validation import cytometry, device, main, margination, report, tumbling
 from validation.case import Case, Curve, Figure, Outcome, Panel, Row, worst
 from validation.references import duct, rigid, soft, tube
 from validation.references.ellipsoid import (
@@ -313,6 +313,18 @@ def test_medians_of_samples_scatter_by_their_standard_error():
     low, high = np.quantile(samples[0], (0.25, 0.75))
     scatter = np.median(samples, axis=1).std()
     assert cytometry.standard_error(low, high, 401) == pytest.approx(scatter, rel=0.1)
+
+
+def test_cells_that_drift_in_proportion_come_to_the_axis_by_e():
+    assert margination.contraction(1, -margination.PLACES / margination.LENGTH) == pytest.approx(np.exp(-1.0))
+
+
+def test_a_constant_viscosity_gives_the_velocity_on_the_axis_of_a_square():
+    """0.0736713 W² Δp/(μ L)."""
+    axis = margination.velocity_in_channel(1e5, {"mu0": 1.0, "inf": 0.0, "m": 0.0, "n": 0.64}, n=30)[0]
+    exact = 0.0736713 * margination.WIDTH**2 * 1e5 / margination.LENGTH
+    # m = 0 leaves μ₀.
+    assert axis == pytest.approx(exact, rel=1e-3)
 
 
 class TestCommand:
