@@ -1,6 +1,6 @@
 """Margination of measured cells in a channel: how far they come to the axis (beyond the paper).
 
-``PYTHONPATH=tools python -m validation.margination`` prints the numbers of docs/tutorials/shear-cytometry.md,
+``python tools/validation/margination.py`` prints the numbers of docs/tutorials/shear-cytometry.md,
 in some minutes. Cells at the inlet are those of histograms of R. Gerum et al., eLife 11 (2022) e78823, read
 from the vectors of ``figures/figure_margination_histogram.pdf`` in github.com/fabrylab/Deformation_Cytometer.
 They drift by the quadratic mode, in the middle plane of a square channel; walls are left out.
@@ -8,6 +8,9 @@ They drift by the quadratic mode, in the middle plane of a square channel; walls
 
 from __future__ import annotations
 
+import argparse
+import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,6 +27,8 @@ from foamprb.cloud.tracker import Models
 from foamprb.cloud.viscosity import CrossPowerLaw
 from foamprb.flow import analytic
 from foamprb.run.release import with_power_law
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from validation.case import Floats
 from validation.cytometry import ALGINATE, ALPHA, LENGTH, WIDTH, K
 
@@ -148,6 +153,9 @@ def contraction(pressure: int, slope: Floats) -> float:
 
 def main() -> None:
     """Print the contraction by the model beside the measured one."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
+    parser.parse_args()
     for bar, slope, deformation in zip(INLET, *drifts(), strict=True):
         ours, (measured, error) = contraction(bar, slope), MEASURED[bar]
         print(

@@ -1,16 +1,20 @@
 """Second-order deformation of cells on the axis of a channel against dclab's table of finite elements.
 
-``PYTHONPATH=tools python -m validation.tables`` prints the numbers of docs/models/quadratic.md.
+``python tools/validation/tables.py`` prints the numbers of docs/models/quadratic.md.
 """
 
 from __future__ import annotations
 
+import argparse
+import sys
 from pathlib import Path
 
 import dclab
 import numpy as np
 
 from foamprb.body.quadratic import tube_deformation
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from validation.case import Floats
 
 K, N, WIDTH, FLOW_RATE = 0.4057, 0.6039, 20e-6, 0.04e-9
@@ -32,6 +36,9 @@ def deformations(area: Floats, modulus: Floats) -> tuple[Floats, Floats]:
 
 def main() -> None:
     """Print how far the deformations are from HE-3D-FEM-22, for a/R from 0.3 to 0.6."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
+    parser.parse_args()
     file = Path(dclab.__file__).parent / "features/emodulus/lut_HE-3D-FEM-22.txt"
     area, deformation, modulus = np.loadtxt(file).T
     ours, b = deformations(1e-12 * area, 1e3 * modulus)
