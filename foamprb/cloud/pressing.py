@@ -145,21 +145,33 @@ def redirect(block: Block, i: int, n: Vector, W: Vector, e: float, mu: float, _r
     store3(block, at.v, i, plus(W, rebound_velocity(v, n, e, mu)))
 
 
+def spin_of(F: Tensor, A: Tensor) -> tuple[Vector, Tensor]:
+    """Return the spin, 1/s, by which a rigid body has the angular momentum of F and A, and (tr b − b)⁻¹.
+
+    With b = F Fᵀ, I = ⅕ m R² (tr b − b), and the angular momentum is ⅕ m R² times twice the axial vector of
+    the skew part of A Fᵀ.
+    """
+    b, H = dot(F, transpose(F)), dot(A, transpose(F))
+    mobility = inverse(add_identity(scale(-1.0, b), trace(b)))
+    return dot_vector(mobility, scale_vector(2.0, axial(skew(H)))), mobility
+
+
+def rigid_speed_at_contact(block: Block, i: int, v: Vector, F: Tensor, A: Tensor, n: Vector) -> float:
+    """Return the speed along n, m/s, of the point of contact of lane i as a rigid body with v, F and A."""
+    return float(inner(v, n) + inner(spin_of(F, A)[0], vector_product(point_of_contact(block, i, F, n), n)))
+
+
 @separate
 def redirect_solid(block: Block, i: int, n: Vector, W: Vector, e: float, mu: float, rests: bool) -> None:
     """Change velocity and spin of a solid by a rebound; no-op for one that rests, which the push stops.
 
     The impulse P = −(1 + e) ġ/(1/m + (r × n)·I⁻¹·(r × n)) acts at the point of contact, whose speed as that
-    of a rigid body is ġ. It does not strain the body. With b = F Fᵀ, I = ⅕ m R² (tr b − b), and the angular
-    momentum is ⅕ m R² times twice the axial vector of the skew part of A Fᵀ.
+    of a rigid body is ġ. It does not strain the body.
     """
     if rests:
         return
     F, A, v = load9(block, at.F, i), load9(block, at.A, i), minus(load3(block, at.v, i), W)
-    b, H = dot(F, transpose(F)), dot(A, transpose(F))
-    mobility, r = inverse(add_identity(scale(-1.0, b), trace(b))), point_of_contact(block, i, F, n)
-    spin = dot_vector(mobility, scale_vector(2.0, axial(skew(H))))
-    torque = vector_product(r, n)
+    (spin, mobility), torque = spin_of(F, A), vector_product(point_of_contact(block, i, F, n), n)
     turn = scale_vector(5.0 / block[at.R * LANES + i] ** 2, dot_vector(mobility, torque))
     speed = inner(v, n) + inner(spin, torque)
     P = -(1.0 + e) * min(speed, 0.0) / (1.0 + inner(torque, turn))

@@ -55,9 +55,9 @@ solution
 {
     deltaT 2e-5; maxDeltaT 4e-5; endTime 1; writeInterval 0.01; writeFields (Uc); writePrecision double;
     startFrom startTime; maxFailedFraction 0.4; maxStretch 50; maxSize 0.5; maxSubSteps 1e5; maxCells 100;
-    accept (unbalanced); transient no; scale 1; mixture no; rotatingZones relative;
+    accept (unbalanced); transient no; tracers no; scale 1; mixture no; rotatingZones relative;
     interpolationSchemes { U linear; }
-    integrationSchemes { U Euler; shape rosenbrock; tolerance 1e-4; }
+    integrationSchemes { U Euler; shape rosenbrock; tolerance 1e-4; roughnessShare 0.05; }
 }
 constantProperties
 {
@@ -112,6 +112,7 @@ OTHER = {
     "solution/writePrecision": "single",
     "solution/startFrom": "latestTime",
     "solution/accept": "()",
+    "solution/tracers": "yes",
     "solution/rotatingZones": "absolute",
     "solution/interpolationSchemes/U": "cellPoint",
     "constantProperties/shape/orientation": "random",
@@ -139,6 +140,7 @@ WITHOUT_EFFECT = {
     "solution/startFrom": "is about the beginning of a run",
     "solution/maxFailedFraction": "a run that ended with too many failures may go on",
     "solution/accept": "lets a run begin, or not",
+    "solution/tracers": "points of the fluid follow after the bodies",
     "solution/interpolationSchemes/U": "both words are the same interpolation",
     "solution/rotatingZones": "the case has none",
 }

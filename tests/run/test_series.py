@@ -272,7 +272,7 @@ MISTAKES = {
     "points at some times": (
         moving, [], ["the mesh moves, but polyMesh/points is missing at the times 1.5. Allowed: points"],
     ),
-    "other faces": (remade, [], ["0.5/polyMesh: the faces of the mesh change in time"]),
+    "points at one time": (remade, [], ["polyMesh/points is missing at the times 1.5"]),
     "several times of a steady flow": (
         lambda c: edit(c, "transient yes; ", ""), ["-time", "0:0.5"],
         ["solution/transient is no", "-time '0:0.5' selects several times"],

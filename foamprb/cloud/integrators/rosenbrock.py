@@ -52,7 +52,6 @@ from foamprb.body.tensor import (
     dot_vector,
     from_frame,
     inner,
-    inverse,
     minus,
     plus,
     plus_scaled,
@@ -112,12 +111,11 @@ from foamprb.cloud.pressing import (
     approach,
     inertia_of_solid,
     inertia_over,
-    point_of_contact,
     push_out,
     push_solid,
     redirect,
     redirect_solid,
-    speed_at,
+    rigid_speed_at_contact,
 )
 from foamprb.compile.link import traced
 
@@ -418,12 +416,14 @@ def rewind_inertial(block: Block, i: int, f: float) -> None:
 
 
 def approach_of_point(block: Block, i: int, n: Vector) -> tuple[float, float]:
-    """Return the speeds along n of the point of contact of lane i at start and end of a step, m/s."""
+    """Return the speeds along n of the point of contact of lane i at start and end of a step, m/s.
+
+    They are those of a rigid body, which a bounce reverses: a strain that presses it on is no approach.
+    """
     Q, F, A = load9(block, during.start_Q, i), load9(block, at.F, i), load9(block, at.A, i)
     F0, l0 = dot(transpose(Q), load9(block, work.G, i)), from_frame(Q, load9(block, work.l_s, i))
-    start = speed_at(load3(block, at.new_v, i), l0, point_of_contact(block, i, F0, n), n)
-    end = speed_at(load3(block, at.v, i), dot(A, inverse(F)), point_of_contact(block, i, F, n), n)
-    return start, end
+    start = rigid_speed_at_contact(block, i, load3(block, at.new_v, i), F0, dot(l0, F0), n)
+    return start, rigid_speed_at_contact(block, i, load3(block, at.v, i), F, A, n)
 
 
 def _shape_rate(block: Block, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:

@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
@@ -65,7 +64,7 @@ def finest(a: Mesh, b: Mesh, poly: PolyMesh, where: str) -> Mesh:
     kept[in_a[finer]] = False
     volume = float(a.volumes[kept].sum() + b.volumes[finer].sum())
     total, other = float(a.volumes.sum()), float(b.volumes.sum())
-    distance, nearest = cKDTree(a.points).query(b.points)
+    distance, nearest = _tree(a.points).query(b.points)
     new = distance > _CLOSE * float(np.cbrt(min(a.volumes.min(), b.volumes.min())))
     of_finer = np.zeros(b.n_points, dtype=bool)
     of_finer[b.cell_points[np.repeat(finer, np.diff(b.cell_point_start))]] = True
@@ -138,6 +137,13 @@ def _means(points: Floats, start: NDArray[np.intp], lists: NDArray[np.integer[An
     return means
 
 
+def _tree(points: Floats) -> Any:
+    """Return a tree by which the nearest points are found."""
+    from scipy.spatial import cKDTree
+
+    return cKDTree(points)
+
+
 def _taken(
     side: _Side, rows: NDArray[np.bool_], owner: NDArray[np.int64], neighbour: NDArray[np.int64]
 ) -> _Side:
@@ -152,7 +158,7 @@ def _with_hanging_points(
 ) -> tuple[NDArray[np.intp], NDArray[np.integer[Any]]]:
     """Return faces with the points that lie in the middle of their edges."""
     used = np.unique(lists)
-    tree = cKDTree(points[used])
+    tree = _tree(points[used])
     for _ in range(_MOST_LEVELS):
         following = np.arange(1, len(lists) + 1)
         following[start[1:] - 1] = start[:-1]
