@@ -52,6 +52,8 @@ from foamprb.compile.link import separate, slot
 
 _MOST_TURN = 0.2
 """Largest strain or angle of one push."""
+_FLATTEST = 0.2
+"""Reach to a wall, in radii, below which a solid is pressed no flatter: it would not keep its volume."""
 
 
 def speed_at(v: Vector, l: Tensor, r: Vector, n: Vector) -> Scalar:
@@ -241,7 +243,12 @@ def _set_shape(block: Block, i: int, F: Tensor) -> None:
 
 @separate
 def push_solid(block: Block, i: int, n: Vector, x: Vector, width: float, mu: float, W: Vector) -> Vector:
-    """Do so with a body with inertia, and stop its point of contact."""
+    """Do so with a body with inertia, and stop its point of contact; a flat one is only moved and stopped."""
+    R = block[at.R * LANES + i]
+    if reach(R, load9(block, at.F, i), n) < _FLATTEST * R:
+        v = minus(load3(block, at.v, i), W)
+        store3(block, at.v, i, plus(W, rebound_velocity(v, n, 0.0, 0.0)))
+        return plus_scaled(x, width, n)
     x = push_along_mobility(block, i, n, x, width, mu, W)
     c, F = _push_of_step(block, i, n), load9(block, at.F, i)
     v, l = minus(load3(block, at.v, i), W), dot(load9(block, at.A, i), inverse(F))
