@@ -38,6 +38,7 @@ def points_of(job: Job) -> Cloud:
         Models(
             touching=models.touching, integrator="stokes", tolerance=models.tolerance,
             surroundings=(*frames, *job.settings.dispersion.values()), stride=models.stride,
+            roughness_share=models.roughness_share,
         ),
         cloud.threads,
         start=cloud.start,

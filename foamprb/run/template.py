@@ -161,7 +161,7 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
         end, span = float(followed[-1]), float(followed[-1]) - float(followed[0])
         interval = step * _nice(max(1.0, span / step / _TIMES), up=True)
     paths = rates_on_paths(flow, scales, 0.5 * d) if scales.speed > 0.0 else None
-    changes = rotating or _transient(case, source, followed)
+    changes = [*rotating, *([] if rotating and not followed else _transient(case, source, followed))]
     scale = [f"scale {source.scale:g}; // {_said('solution', 'scale')}"] if source.scale else []
     text = f"""\
 // Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{source.options}.

@@ -14,6 +14,7 @@ from transient_case import SCALE, write_transient_case
 import foamprb
 from foamprb.cli import main
 from foamprb.errors import RunStopped
+from foamprb.run.points import points_of
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +80,9 @@ def test_points_in_a_flow_that_changes_follow_its_velocity(tmp_path):
     """It is linear in time and space, and the bodies, which have inertia, end elsewhere."""
     case = write_transient_case(tmp_path)
     edit(case, r"transient yes;", "transient yes; tracers yes;")
+    edit(case, r"shape stokes;", "shape stokes; roughnessShare 0.01;")
     job = foamprb.prepare(case, threads=1)
+    assert points_of(job).models.roughness_share == 0.01
     foamprb.execute(job)
     flow, x = job.cloud.flow, np.array([[0.5, 0.5, 0.5], [0.45, 0.5, 0.55]])
     flow.load(0.0, 0.0)

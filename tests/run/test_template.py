@@ -586,3 +586,23 @@ def test_iterations_of_a_steady_solver_are_no_times(tmp_path):
         hint = f"// no transient flow: the times of the flow are iterations (ddtSchemes {scheme})\n"
         assert hint in file.read_text()
         file.unlink()
+
+
+@pytest.mark.parametrize("zones", [False, True])
+def test_a_mesh_that_moves_is_followed(tmp_path, zones):
+    """Also beside a rotating zone, whose entries alone would leave a run at one time, which is refused."""
+    mesh = write_box(tmp_path)
+    if zones:
+        put_zones(tmp_path, upper=np.flatnonzero(mesh.centres[:, 2] > 0.5))
+        entry = "rotor { cellZone upper; origin (0.5 0.5 0); axis (0 0 1); omega 3; }"
+        text = header("dictionary", "MRFProperties") + entry
+        (tmp_path / "constant/MRFProperties").write_text(text)
+    (tmp_path / "constant/dynamicMeshDict").write_text("dynamicFvMesh dynamicMotionSolverFvMesh;")
+    for time in ("0.5", "1e1"):
+        (tmp_path / time / "polyMesh").mkdir()
+        shutil.copy(tmp_path / "constant/polyMesh/points", tmp_path / time / "polyMesh")
+    text = " ".join(write_template(tmp_path).read_text().split())
+    assert "endTime 10; " in text
+    assert "transient true; // the mesh moves, times 0.5 to 1e1" in text
+    assert "movingMesh" not in text
+    assert ("rotatingZones" in text) == zones
