@@ -46,7 +46,7 @@ SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
 GROWTH = 1.5
 """Largest ratio of a step to the planned size of the previous one. If steps may double, errors of soft bodies
 after their release grow without a gain in time."""
-LONGEST = 0.55
+LONGEST = 1.1
 """Longest step times the size |l| of the fluid's velocity gradient, which is γ̇ in a simple shear.
 
 Beyond, no estimate covers the truncation errors of the exponential and of the series of the rate of Ω, and

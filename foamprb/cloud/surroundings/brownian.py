@@ -132,7 +132,7 @@ def hold_of_molecules(block: Block, i: int, medium: Medium, coefficients: Any) -
     R, kT = block[at.R * LANES + i], coefficients[0]
     D = kT / (6.0 * math.pi * medium.mu * R)
     room = _SHARE_OF_GAP * min(block[at.clearance * LANES + i], NEAR * R)
-    longest = min(0.5 * room * room / D, longest_step(load9(block, during.start_l, i)))
+    longest = 0.5 * min(room * room / D, longest_step(load9(block, during.start_l, i)))
     if coefficients[2] > 0.0:
         longest = min(longest, _HELD_TURN * 8.0 * math.pi * medium.mu * R * R * R / kT)
     # A viscosity that varies is not known before a step.
