@@ -44,8 +44,8 @@ from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, frame, point
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.locator import locate as locate_mesh
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.tree import build_tree
-from foamprb.flow.meshflow import _folds as folds_of
+from foamprb.flow.mesh.tree import tree_with
+from foamprb.flow.meshflow import folds_of, graded
 from foamprb.flow.motion import Deformation
 from foamprb.flow.moving import MovingMeshFlow, any_interval, hermite, hermite_rate
 from foamprb.flow.series import _OF_VELOCITY as OF_VELOCITY
@@ -514,6 +514,8 @@ class DeformingFlow(MovingMeshFlow):
         added = (self.mesh.n_points - mesh.n_points) // mesh.n_cells
         self._depths = self.mesh.points[mesh.n_points :] - np.tile(mesh.centres, (added, 1))
         self._covered: tuple[int, ...] = ()
+        self._graded: dict[int, tuple[NDArray[np.uint8], Floats]] = {}
+        """Folds at the covered times, by their indices."""
         self._past_rows = np.full(len(self._arrays.nodes), -1, dtype=np.int32)
         self._past_rows[: mesh.n_points] = motion.rows
 
@@ -551,14 +553,19 @@ class DeformingFlow(MovingMeshFlow):
         chord = np.diff(x, axis=0)
         bulge = np.linalg.norm(h * w[:-1] - chord, axis=2) + np.linalg.norm(h * w[1:] - chord, axis=2)
         off += _BULGE * bulge.max(axis=0)
-        meshes = [replace(self.mesh, points=p[:n], centres=p[n:], inverted=len(self.mesh.tets)) for p in x]
-        start = self.mesh.cell_point_start[:-1]
-        of_cells = np.maximum(np.maximum.reduceat(off[self.mesh.cell_points], start), off[n:])[:, None]
-        boxes = cell_boxes(meshes[0]) + of_cells * np.repeat([-1.0, 1.0], 3)
-        tree = build_tree(boxes)
-        folds = [folds_of(mesh, p, tree, boxes) for mesh, p in zip(meshes, x, strict=True)]
-        self._arrays = self._arrays._replace(tree_boxes=tree.boxes, tree_cells=tree.leaves, **_joined(folds))
-        self._reference, self._boxes, self._off = meshes[0], boxes, off
+        mesh = replace(self.mesh, points=x[0, :n], centres=x[0, n:])
+        start = mesh.cell_point_start[:-1]
+        of_cells = np.maximum(np.maximum.reduceat(off[mesh.cell_points], start), off[n:])[:, None]
+        boxes = cell_boxes(mesh) + of_cells * np.repeat([-1.0, 1.0], 3)
+        tree = tree_with(self._arrays.tree_cells, boxes)
+        known, most, at = self._graded, len(mesh.tets), [self._index(level) for level in self._inner]
+        self._graded = {
+            k: known[k] if k in known else graded(mesh, p, most) for k, p in zip(at, x, strict=True)
+        }
+        marks, folded = zip(*self._graded.values(), strict=True)
+        folds = folds_of(mesh, np.max(marks, axis=0), np.concatenate(folded), tree, boxes, float(off.max()))
+        self._arrays = self._arrays._replace(tree_boxes=tree.boxes, **folds)
+        self._reference, self._boxes, self._off = mesh, boxes, off
 
     def _with_walls(
         self,
@@ -573,7 +580,7 @@ class DeformingFlow(MovingMeshFlow):
             return self._arrays
         triangles = mesh.triangles[names]
         # Without normals no triangle stands for others in its plane.
-        tree = wall_tree(mesh.points[triangles], np.zeros((len(names), 3)))
+        tree = wall_tree(mesh.points[triangles], np.zeros((len(names), 3)), seen=False)
         off = float(self._off[triangles].max())
         tree = tree._replace(boxes=tree.boxes + off * np.repeat([-1.0, 1.0], 3))
         size = float(np.cbrt(np.median(mesh.volumes)))
@@ -617,12 +624,3 @@ def _pull_all(flow: DeformingArrays, hosts: NDArray[np.int64], t: Floats, x: Flo
                 x[i, 0], x[i, 1], x[i, 2] = blend_vector(flow.mesh.nodes, 0, rows, w)
             else:
                 x[i, 0], x[i, 1], x[i, 2] = ride(flow, hosts[i], y, t[i], flow.starts[0])[0]
-
-
-def _joined(folds: Sequence[tuple[NDArray[np.uint8], Ints, Ints]]) -> dict[str, Any]:
-    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays` that hold at several times."""
-    marks = np.max([marks for marks, *_ in folds], axis=0)
-    pairs = [np.stack([np.repeat(np.arange(len(marks)), np.diff(start)), rim]) for _, start, rim in folds]
-    cells, rim = np.unique(np.concatenate(pairs, axis=1), axis=1)
-    start = np.concatenate([[0], np.cumsum(np.bincount(cells, minlength=len(marks)))])
-    return {"folds": marks, "rim_start": start.astype(np.int32), "rim": rim.astype(np.int32)}

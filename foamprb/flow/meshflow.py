@@ -61,22 +61,30 @@ def shortest_extent(mesh: Mesh) -> float:
     return float(extents[areas > _FACING * areas.sum()].min(initial=np.inf))
 
 
-def _folds(mesh: Mesh, nodes: Floats, tree: Tree, boxes: Floats) -> tuple[NDArray[np.uint8], Ints, Ints]:
-    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`, by a tree over boxes of cells."""
-    folds = np.zeros(mesh.n_cells, dtype=np.uint8)
-    folded = np.empty((mesh.inverted, 6))
+def graded(mesh: Mesh, nodes: Floats, most: int) -> tuple[NDArray[np.uint8], Floats]:
+    """Return the marks of cells, and the boxes of up to ``most`` inverted tetrahedra; see :func:`grade`."""
+    folds, folded = np.zeros(mesh.n_cells, dtype=np.uint8), np.empty((most, 6))
     n = link(grade)(nodes, mesh.tets, mesh.n_points, folds, folded)
-    folded = folded[:n]
+    return folds, folded[:n].copy()
+
+
+def folds_of(
+    mesh: Mesh, marks: NDArray[np.uint8], folded: Floats, tree: Tree, boxes: Floats, off: float = 0.0
+) -> dict[str, Any]:
+    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`, by a tree over boxes of cells.
+
+    Boundary triangles are up to ``off``, m, from their places in the mesh.
+    """
     start, rim = np.zeros(mesh.n_cells + 1, dtype=np.int32), np.empty(0, dtype=np.int32)
     if len(folded) > 0:
-        folds[np.diff(pairs_near(boxes, tree, folded)[0]) > 0] = FOLDED
+        marks[np.diff(pairs_near(boxes, tree, folded)[0]) > 0] = FOLDED
         corners = mesh.points[mesh.triangles]
-        targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
+        targets = np.concatenate([corners.min(axis=1) - off, corners.max(axis=1) + off], axis=1)
         where, triangles = pairs_near(boxes, tree, targets)
         counts = np.diff(where)
-        rim = triangles[np.repeat(folds == FOLDED, counts)]
-        np.cumsum(np.where(folds == FOLDED, counts, 0), out=start[1:])
-    return folds, start, rim
+        rim = triangles[np.repeat(marks == FOLDED, counts)]
+        np.cumsum(np.where(marks == FOLDED, counts, 0), out=start[1:])
+    return {"folds": marks, "rim_start": start, "rim": rim}
 
 
 LISTS = ("near", "wall_", "seen")
@@ -164,7 +172,7 @@ class MeshFlow:
         self._near: tuple[Any, MeshArrays] | None = None
         self._roughness: dict[int, float] = {}
         """Roughness at some times, by their indices."""
-        folds, rim_start, rim = _folds(mesh, nodes, tree, boxes)
+        folds = folds_of(mesh, *graded(mesh, nodes, mesh.inverted), tree, boxes)
         across, partners = triangles_across(mesh)
         self._arrays = no_mesh()._replace(
             nodes=nodes,
@@ -181,9 +189,7 @@ class MeshFlow:
             across=across,
             partners=partners,
             motions=motions_of_patches(mesh),
-            folds=folds,
-            rim_start=rim_start,
-            rim=rim,
+            **folds,
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             turbulence=np.empty((0, 8)) if turbulence is None else turbulence,
             viscosity=np.empty((0, 4)) if viscosity is None else viscosity,
@@ -262,7 +268,7 @@ class MeshFlow:
             some = np.isin(walls.patches, patches)
             if not some.any():
                 continue
-            tree = wall_tree(walls.corners[some], walls.normals[some])
+            tree = wall_tree(walls.corners[some], walls.normals[some], patches is not touchable)
             own = names[some]
             if patches is touchable:
                 size = float(np.cbrt(np.median(mesh.volumes)))

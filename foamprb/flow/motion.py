@@ -63,7 +63,7 @@ class Motion(NamedTuple):
     def in_frames(self, index: int, mesh: Mesh, u: Floats, l: Floats) -> tuple[Floats, Floats]:
         """Return vectors and tensors at the nodes in components of the frames of their pieces."""
         Q = self.Q[index, self.nodes(mesh)]
-        return np.einsum("nji,nj->ni", Q, u), np.einsum("nji,njk,nkl->nil", Q, l.reshape(-1, 3, 3), Q)
+        return np.einsum("nji,nj->ni", Q, u), np.swapaxes(Q, 1, 2) @ l.reshape(-1, 3, 3) @ Q
 
     def means(self, mesh: Mesh, cells: Floats) -> Floats:
         """Return the mean velocities of the pieces, (n_pieces, 3), from those of the cells, m/s."""
@@ -115,7 +115,8 @@ def match_walls(mesh: Mesh, u: Floats, w: Floats) -> None:
     some = walls[mesh.triangle_patch]
     nodes, of = np.unique(mesh.triangles[some], return_inverse=True)
     normals, counts = np.zeros((len(nodes), 3)), np.bincount(of.ravel())
-    np.add.at(normals, of.ravel(), np.repeat(mesh.triangle_normals[some], 3, axis=0))
+    for k in range(3):
+        normals[:, k] = np.bincount(of.ravel(), np.repeat(mesh.triangle_normals[some, k], 3))
     length = np.linalg.norm(normals, axis=1)
     normals /= np.maximum(length, 1e-300)[:, None]
     lack = u[nodes] - w[nodes]

@@ -363,6 +363,9 @@ def wall_offsets(mesh: Mesh, faces: Index) -> Floats:
     of a flow over the curved wall. The distance is that of a quadratic surface through the n corners with
     the mean normals there, Σ n_i·(x_i − x)/2n. Zero in all other cells.
     """
+    owner = mesh.owner[mesh.n_internal + faces]
+    if not mesh.simple[owner].any():
+        return np.zeros((len(faces), 3))
     corners, columns = points_of_faces(mesh, faces)
     areas, centres, normals = mesh.boundary_areas[faces], mesh.boundary_centres[faces], _normals(mesh, faces)
     total = np.zeros((mesh.n_points, 3))
@@ -373,7 +376,6 @@ def wall_offsets(mesh: Mesh, faces: Index) -> Floats:
     terms = np.where(smooth, np.einsum("ni,ni->n", mean - normals[columns], arms), 0.0)
     n = np.maximum(np.bincount(columns, minlength=len(faces)), 1)
     depth = np.bincount(columns, terms, len(faces)) / (2 * n)
-    owner = mesh.owner[mesh.n_internal + faces]
     height = np.einsum("ni,ni->n", centres - mesh.centres[owner], normals)
     near = mesh.simple[owner] & (np.abs(depth) <= _MOST_OFFSET * height)
     offsets: Floats = np.where(near, depth, 0.0)[:, None] * normals

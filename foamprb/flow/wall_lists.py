@@ -49,9 +49,12 @@ class WallTree(NamedTuple):
     """(n,) whether a triangle has such an edge."""
 
 
-def wall_tree(corners: Floats, normals: Floats) -> WallTree:
-    """Return the tree over triangles of walls."""
+def wall_tree(corners: Floats, normals: Floats, seen: bool = True) -> WallTree:
+    """Return the tree over triangles of walls; cones and edges are zero unless these are ``seen``."""
     boxes, leaves = build_tree(np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1))
+    if not seen:
+        none = np.zeros((len(boxes), 5)), np.zeros(len(corners), dtype=bool)
+        return WallTree(corners, normals, boxes, leaves, *none)
     edges = edges_out(corners, normals)
     return WallTree(corners, normals, boxes, leaves, _cones(normals, edges, leaves), edges)
 

@@ -96,9 +96,12 @@ def build_tree(boxes: Floats) -> Tree:
         halves = (centres[:middle], order[:middle]), (centres[middle:], order[middle:])
         together(*(partial(halve, *half, depth - 1) for half in halves))
     order = np.sort(order.reshape(n_leaves, size), axis=1)
-    leaves = np.where(order < n, order, np.int32(-1))
+    return tree_with(np.where(order < n, order, np.int32(-1)), boxes)
 
-    tree = np.empty((2 * n_leaves, 6))
+
+def tree_with(leaves: Ints, boxes: Floats) -> Tree:
+    """Return a tree over boxes (n, 6) whose leaves, (n_leaves, leaf size), are known."""
+    tree = np.empty((2 * len(leaves), 6))
     link(_bound)(boxes, leaves, tree)
     return Tree(tree, leaves)
 
