@@ -18,6 +18,7 @@ the middle of a face times the area, which exceeds the integral by the curvature
 
 from __future__ import annotations
 
+from copy import copy
 from typing import NamedTuple
 
 import numpy as np
@@ -108,6 +109,12 @@ class Conservation:
         self._open[self._coupled] = False
         self._pairs = face_pairs(mesh)
         self._closed_pieces = closed_pieces(mesh, self._pairs, self._open)
+
+    def at(self, mesh: Mesh) -> Conservation:
+        """Return the operator for the mesh with its points at other places, without couplings that change."""
+        other = copy(self)
+        other._mesh, other._nodes = mesh, mesh.nodes
+        return other
 
     def __call__(
         self,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -60,10 +61,46 @@ class Motion(NamedTuple):
         top = np.linalg.norm(self.velocity, axis=2) + size * np.linalg.norm(self.omega, axis=2)
         return float(top.max())
 
+    def joins(self, mesh: Mesh) -> bool:
+        """Return whether patches of different pieces are coupled."""
+        owner = mesh.owner[mesh.n_internal :]
+        ends = ((self.piece[owner[c.faces]], self.piece[owner[c.partners]]) for c in mesh.couplings)
+        return any((here != there).any() for here, there in ends)
+
+    def of_frames(self) -> Motion:
+        """Return the same rates in components of the frames, for points at their places at the first time."""
+        omega, velocity = (np.einsum("npba,npb->npa", self.Q, v) for v in (self.omega, self.velocity))
+        return self._replace(y=np.broadcast_to(self.c, self.y.shape), omega=omega, velocity=velocity)
+
+    def moved(self, index: int, mesh: Mesh) -> Mesh:
+        """Return the mesh of the first time with its places and directions at the time of an index."""
+        nodes, n, piece = self.nodes(mesh), mesh.n_points, self.piece[mesh.owner[mesh.n_internal :]]
+        Q, c, y = self.Q[index], self.c, self.y[index]
+
+        def turned(directions: Floats, of: NDArray[np.int64]) -> Floats:
+            result: Floats = np.einsum("nij,nj->ni", Q[of], directions)
+            return result
+
+        x = turned(mesh.nodes - c[nodes], nodes) + y[nodes]
+        return replace(
+            mesh,
+            points=x[:n],
+            centres=x[n:],
+            boundary_centres=turned(mesh.boundary_centres - c[piece], piece) + y[piece],
+            boundary_areas=turned(mesh.boundary_areas, piece),
+            triangle_normals=turned(mesh.triangle_normals, piece[mesh.triangle_face]),
+        )
+
+    def turned(self, index: int, vectors: Floats, pieces: NDArray[np.int64]) -> Floats:
+        """Return vectors (n, 3 k) in components of the frames of their pieces."""
+        Q, each = self.Q[index, pieces], vectors.reshape(len(vectors), -1, 3)
+        return np.einsum("nji,nkj->nki", Q, each).reshape(vectors.shape)
+
     def in_frames(self, index: int, mesh: Mesh, u: Floats, l: Floats) -> tuple[Floats, Floats]:
         """Return vectors and tensors at the nodes in components of the frames of their pieces."""
-        Q = self.Q[index, self.nodes(mesh)]
-        return np.einsum("nji,nj->ni", Q, u), np.swapaxes(Q, 1, 2) @ l.reshape(-1, 3, 3) @ Q
+        pieces = self.nodes(mesh)
+        Q = self.Q[index, pieces]
+        return self.turned(index, u, pieces), np.swapaxes(Q, 1, 2) @ l.reshape(-1, 3, 3) @ Q
 
     def means(self, mesh: Mesh, cells: Floats) -> Floats:
         """Return the mean velocities of the pieces, (n_pieces, 3), from those of the cells, m/s."""

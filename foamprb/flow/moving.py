@@ -430,12 +430,16 @@ def cell_volume(flow: MovingArrays, host: int) -> float:
 
 def turbulence(flow: MovingArrays, host: int, x: Vector, t: float) -> Turbulence:
     """See :func:`foamprb.flow.series.turbulence`."""
-    return turbulence_series(flow.series, host, pull(pose(flow, piece_of(flow, host), t), x), t)
+    q = pose(flow, piece_of(flow, host), t)
+    k, epsilon, a, b = turbulence_series(flow.series, host, pull(q, x), t)
+    return k, epsilon, dot_vector(q.Q, a), dot_vector(q.Q, b)
 
 
 def viscosity(flow: MovingArrays, host: int, x: Vector, t: float) -> tuple[float, Vector]:
     """See :func:`foamprb.flow.series.viscosity`."""
-    return viscosity_series(flow.series, host, pull(pose(flow, piece_of(flow, host), t), x), t)
+    q = pose(flow, piece_of(flow, host), t)
+    value, slope = viscosity_series(flow.series, host, pull(q, x), t)
+    return value, dot_vector(q.Q, slope)
 
 
 def curvature(flow: MovingArrays, host: int, x: Vector, t: float) -> Curvature:

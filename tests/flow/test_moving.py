@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import write_case
+from foam_writer import GRADIENT, Format, header, number_list, put_linear, put_scalar, write_case
 from mesh_shapes import block, box_patches, layer, rings
 from scipy.spatial.transform import Rotation
 
@@ -213,6 +213,33 @@ def test_a_wall_that_moves_with_the_mesh_has_the_velocity_of_its_points(tmp_path
         faces = flow.patch_faces("floor", t)
         expected = np.cross([0.0, 0.0, 0.03], faces.vertices)
         assert faces.velocity == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_case_that_turns_has_the_flow_of_each_time(tmp_path):
+    """Its velocity, and k with its gradient, are those in space, though they are read in the turned frame."""
+    mesh = write_case(tmp_path, perturbation=0.0)
+    G, slope = 0.02 * GRADIENT, np.array([1.0, 2.0, 0.5])
+    for time in ("0", "0.5", "1e1"):
+        R = Rotation.from_rotvec([0.0, 0.0, 0.03 * float(time)])
+        now = replace(mesh, centres=R.apply(mesh.centres), boundary_centres=R.apply(mesh.boundary_centres))
+        put_linear(tmp_path / time, now, "U", G, 0.0, "[0 1 -1 0 0 0 0]")
+        put_linear(tmp_path / time, now, "k", slope, 5.0, "[0 2 -2 0 0 0 0]")
+        put_scalar(tmp_path / time, "epsilon", "0 2 -3", 1.0)
+        if time != "0":
+            (tmp_path / time / "polyMesh").mkdir()
+            text = header("vectorField", "points").encode() + number_list(R.apply(mesh.points), Format(True))
+            (tmp_path / time / "polyMesh/points").write_bytes(text.replace(b"ascii", b"binary"))
+    flow = read_series(tmp_path, turbulent=True)
+    x = np.array([[0.4, 0.3, 0.45], [0.3, 0.6, 0.6]])
+    for t in (0.0, 10.0):
+        hosts = flow.locate(x, t)
+        u, l = flow.sample(x, hosts, t)
+        assert u == pytest.approx(x @ G.T, abs=2e-3)
+        assert l == pytest.approx(np.broadcast_to(G, l.shape), abs=1e-4)
+        for host, at in zip(hosts, x, strict=True):
+            k, _, grad_k, _ = flow.kernels["turbulence"](flow.arrays(), int(host), tuple(at), t)
+            assert k == pytest.approx(5.0 + slope @ at, abs=0.05)
+            assert grad_k == pytest.approx(slope, abs=0.05)
 
 
 def test_whole_turns_follow_from_the_walls():

@@ -172,18 +172,46 @@ def assemble(poly: PolyMesh, source: str) -> Mesh:
     )
 
 
-def with_points(mesh: Mesh, points: Floats) -> Mesh:
-    """Return a mesh with its points at other places, (n_points, 3), m, and the same tetrahedra."""
+def with_points(mesh: Mesh, points: Floats, surfaces: Sequence[PatchSurface] = (), source: str = "") -> Mesh:
+    """Return a mesh with its points at other places, (n_points, 3), m, and the same tetrahedra.
+
+    Coupled patches of ``surfaces`` are matched anew; see :func:`assemble` for errors and ``source``.
+    """
     given = mesh.face_start, mesh.face_points, mesh.owner, mesh.neighbour
     faces, n = Faces(*given, mesh.cell_face_start, mesh.cell_faces), mesh.n_internal
     face_centres, face_areas = measured(points, faces)
     _, centres, volumes = cell_geometry(faces, face_centres, face_areas)
     areas = face_areas[n:].copy()
     normals = inward_normals(points, mesh.triangles, areas[mesh.triangle_face])
+    boundary, couplings = (face_centres[n:].copy(), areas), mesh.couplings
+    if surfaces:
+        _, couplings = _coupled(points, faces, surfaces, mesh.patch_start, *boundary, source)
     return replace(
-        mesh, points=points, centres=centres, volumes=volumes, boundary_centres=face_centres[n:].copy(),
-        boundary_areas=areas, triangle_normals=normals,
+        mesh, points=points, centres=centres, volumes=volumes, boundary_centres=boundary[0],
+        boundary_areas=areas, triangle_normals=normals, couplings=couplings,
     )  # fmt: skip
+
+
+def _coupled(
+    points: Floats,
+    faces: Faces,
+    surfaces: Sequence[PatchSurface],
+    patch_start: Index,
+    centres: Floats,
+    areas: Floats,
+    source: str,
+) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
+    """Return the patches and their couplings; ``centres`` and ``areas`` are of the boundary faces."""
+    first = len(faces.neighbour)
+    surfaces = [
+        patch._replace(
+            surface=surface_of(points, faces.start, faces.points, slice(first + low, first + high))
+        )
+        if patch.type == "cyclicAMI" and patch.surface is None
+        else patch
+        for patch, low, high in zip(surfaces, patch_start[:-1], patch_start[1:], strict=True)
+    ]
+    return couple(patches_of(surfaces, patch_start), patch_start, centres, areas, surfaces, source)
 
 
 def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Mesh, Index]:
@@ -195,16 +223,8 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
 
     face_centres, face_areas = measured(points, faces)
     boundary_centres, boundary_areas = face_centres[n_internal:].copy(), face_areas[n_internal:].copy()
-    surfaces = [
-        patch._replace(
-            surface=surface_of(points, faces.start, faces.points, slice(n_internal + first, n_internal + end))
-        )
-        if patch.type == "cyclicAMI" and patch.surface is None
-        else patch
-        for patch, first, end in zip(surfaces, patch_start[:-1], patch_start[1:], strict=True)
-    ]
-    patches, couplings = couple(
-        patches_of(surfaces, patch_start), patch_start, boundary_centres, boundary_areas, surfaces, source
+    patches, couplings = _coupled(
+        points, faces, surfaces, patch_start, boundary_centres, boundary_areas, source
     )
     _, centres, volumes = cell_geometry(faces, face_centres, face_areas)
     del face_centres, face_areas

@@ -347,6 +347,11 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     flux += caveat_of_order(whole.mesh, first[0])
     motion, means = None if others else _motion(case, names, whole, period, source), {}
     shapes: dict[int, Floats] = {}
+    rigid = motion if isinstance(motion, Motion) else None
+    local = None if rigid is None else rigid.of_frames()
+    # Patches that slide along each other are coupled anew at each time.
+    joined = rigid is not None and rigid.joins(whole.mesh)
+    surfaces = case.poly(base)[0].patches if joined else ()
     if others:
         whole = _with_finest_cells(case, whole, base, others)
     operators = _Operators(whole.mesh)
@@ -357,18 +362,23 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
     fastest = 0.0 if motion is None else motion.fastest(whole.mesh)
 
-    @lru_cache(maxsize=10)
-    def deformed(index: int) -> Mesh:
-        return with_points(whole.mesh, _points_at(case, names[index], whole.mesh))
+    def mesh_at(index: int) -> Mesh:
+        if rigid is not None and not joined:
+            return rigid.moved(index, whole.mesh)
+        points = _points_at(case, names[index], whole.mesh)
+        return with_points(whole.mesh, points, surfaces, str(case.mesh_folder(names[index])))
+
+    deformed = lru_cache(maxsize=10)(mesh_at)
 
     def read(name: str) -> tuple[Any, ...]:
         reads = [partial(case.field, name) for name in names]
         here, own, index = whole, operators, names.index(name)
         rates: Floats | None = None
         if motion is not None:
-            rigid = isinstance(motion, Motion)
-            here = _mesh_at(case, name, whole) if rigid else whole._replace(mesh=deformed(index))
-            own = _Operators(here.mesh)
+            here = whole._replace(mesh=(deformed if rigid is None else mesh_at)(index))
+            own = operators if rigid is not None and not joined else _Operators(here.mesh, operators)
+        # Without sliding patches fields are read in the frames of the pieces, on the mesh of the first time.
+        of_frame = rigid if joined else local
         field = case.field(name, source.velocity, VELOCITY_FIELD)
         values = velocities(field, here)
         mass = mass_of(case.root, case.region, here, names, reads, index, source.velocity)
@@ -376,7 +386,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
         def make() -> tuple[Floats, Floats, Floats]:
             u, l = own.reconstruct(*values)
-            frame = motion.frame(index, here.mesh) if isinstance(motion, Motion) else None
+            frame = None if of_frame is None else of_frame.frame(index, own.mesh)
             # Means of the values of the faces around are not quite those of the wall.
             if frame is not None:
                 nodes = nodes_of_moving_walls(here, field)
@@ -384,24 +394,31 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             if rates is not None:
                 match_walls(here.mesh, u, rates.copy())
             fluxes = balanced_in_time(own.conserve, u, l, mass, where, frame, fastest, accept=source.accept)
-            if isinstance(motion, Motion) and frame is not None:
-                u, l = motion.in_frames(index, here.mesh, u - frame[0], l - frame[1])
-            return u, l, fluxes
+            if frame is not None:
+                u, l = u - frame[0], l - frame[1]
+            return (*(rigid.in_frames(index, here.mesh, u, l) if rigid and joined else (u, l)), fluxes)
 
         key: tuple[Any, ...] = (*values, mass)
         if isinstance(motion, Deformation):
             rates = motion.rates(index, lambda k: deformed(k).nodes)
             key = (*values, mass, here.mesh.points, rates)
-        elif motion is not None:
-            values = values[0], with_moving_walls(motion, index, here, field, values[1])
-            means[index] = motion.means(here.mesh, values[0])
-            pose = (array[index] for array in (motion.Q, motion.y, motion.omega, motion.velocity))
+        elif rigid is not None:
+            values = values[0], with_moving_walls(rigid, index, here, field, values[1])
+            means[index] = rigid.means(here.mesh, values[0])
+            if not joined:
+                pieces = rigid.piece, rigid.piece[here.mesh.owner[here.mesh.n_internal :]]
+                cells, boundary = (rigid.turned(index, *of) for of in zip(values, pieces, strict=True))
+                values = cells, boundary
+            pose = (array[index] for array in (rigid.Q, rigid.y, rigid.omega, rigid.velocity))
             key = (*values, mass, here.mesh.points, *pose)
         u, l, fluxes = prepared.get(key, make)
         if rates is not None:
             match_walls(here.mesh, u, rates)
             shapes[index] = np.concatenate([here.mesh.nodes, rates], axis=1)
         more = _further(case, name, source, here, own)
+        for array in more if rigid is not None and joined else ():
+            slopes = array[:, -3 * (array.shape[1] // 3) :]
+            slopes[:] = rigid.turned(index, slopes, rigid.nodes(here.mesh))
         bent = whole.mesh if rates is None else here.mesh
         curvatures = [mean_curvatures(bent, l)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
@@ -492,12 +509,6 @@ def _resampled(case: Case, whole: CaseMesh, source: FlowSource) -> Callable[[str
     return read
 
 
-def _mesh_at(case: Case, time: str, whole: CaseMesh) -> CaseMesh:
-    """Return the mesh at another time, with the same patches."""
-    mesh = case.mesh(time).mesh
-    return whole._replace(mesh=replace(mesh, patches=whole.mesh.patches))
-
-
 def _points_at(case: Case, time: str, mesh: Mesh) -> Floats:
     """Return the points at a time in the order of a mesh, in which points of baffles may be parted."""
     points = case.points(time)
@@ -521,7 +532,8 @@ def _motion(
 
     @lru_cache(maxsize=2)
     def around(index: int) -> tuple[CaseMesh, FoamField, Floats]:
-        here = _mesh_at(case, names[index], whole)
+        mesh = with_points(whole.mesh, _points_at(case, names[index], whole.mesh))
+        here = whole._replace(mesh=mesh)
         field = case.field(names[index], source.velocity, VELOCITY_FIELD)
         return here, field, velocities(field, here)[1]
 
@@ -595,18 +607,19 @@ def _times_of_meshes(case: Case, names: Sequence[str]) -> list[str]:
 
 
 class _Operators:
-    """Operators of a mesh, made when they are first used."""
+    """Operators of a mesh, made when they are first used; ``first`` are those with other points."""
 
-    def __init__(self, mesh: Mesh) -> None:
-        self._mesh = mesh
+    def __init__(self, mesh: Mesh, first: _Operators | None = None) -> None:
+        self.mesh, self._first = mesh, first
 
     @cached_property
     def reconstruct(self) -> Reconstruction:
-        return Reconstruction(self._mesh)
+        return Reconstruction(self.mesh)
 
     @cached_property
     def conserve(self) -> Conservation:
-        return Conservation(self._mesh)
+        alike = self._first is not None and not self.mesh.couplings
+        return self._first.conserve.at(self.mesh) if alike else Conservation(self.mesh)
 
     def free(self) -> None:
         """Free the operators; others are made if they are used again."""
