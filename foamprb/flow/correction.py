@@ -15,6 +15,7 @@ from foamprb.body.tensor import Vector, inner, minus, norm, plus, scale_vector, 
 from foamprb.compile.link import allocating
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, bends, point
+from foamprb.flow.wedge import across, distance, is_wedge, stretched, tangent
 
 # Sum of squares of what the tetrahedra of a cell may still lack, over that of their fluxes.
 _EXACT = 1e-14
@@ -41,6 +42,8 @@ class NodalFlow(NamedTuple):
     k_u: int
     k_l: int
     k_free: int
+    layer: Floats
+    """See :class:`MeshArrays`; velocities in a wedge are those of the middle plane."""
 
 
 class Work(NamedTuple):
@@ -78,7 +81,11 @@ def triangle_flux(at: NodalFlow, a: int, b: int, c: int) -> float:
 
 def _velocity(at: NodalFlow, node: int) -> Vector:
     row, k = at.first + node, at.k_u
-    return at.u[row, k], at.u[row, k + 1], at.u[row, k + 2]
+    v = at.u[row, k], at.u[row, k + 1], at.u[row, k + 2]
+    if is_wedge(at.layer):
+        # What goes round the axis makes no volume.
+        return stretched(at.layer, tangent(at.layer, point(at.x, node)), across(at.layer, v))
+    return v
 
 
 def _free(at: NodalFlow, node: int) -> float:
@@ -88,12 +95,14 @@ def _free(at: NodalFlow, node: int) -> float:
 def _edge_bend(at: NodalFlow, i: int, j: int) -> Vector:
     """Return (l_i − l_j)·(x_j − x_i)/24, m/s: a third of what an edge adds to a mean velocity."""
     d, s = arm(at.x, j, point(at.x, i)), 1.0 / 24.0
-    a, b, k = at.first + i, at.first + j, at.k_l
-    return (
+    a, b, k, wedge = at.first + i, at.first + j, at.k_l, is_wedge(at.layer)
+    d = across(at.layer, d) if wedge else d
+    v = (
         s * _change(at.l, a, b, k, d),
         s * _change(at.l, a, b, k + 3, d),
         s * _change(at.l, a, b, k + 6, d),
     )
+    return across(at.layer, v) if wedge else v
 
 
 def _change(l: Floats, i: int, j: int, k: int, d: Vector) -> float:
@@ -137,7 +146,7 @@ def correct_cell(
     )  # fmt: skip
     fluxes, lacking, weight, sides, work = memory
     rest, change, volume = work[0], work[4], work[5]
-    at = NodalFlow(flow.nodes, f, f, flow.nodes, first, k, k + 3, FREE)
+    at = NodalFlow(flow.nodes, f, f, flow.nodes, first, k, k + 3, FREE, flow.layer)
     total = space = 0.0
     for t in range(n):
         volume[t] = _measure_sides(at, tets, begin + t, t, memory)
@@ -195,12 +204,6 @@ def correct_cell(
             correction[row - host + begin + t, s] = q if q != 0.0 else np.float32(_ZERO)
 
 
-def in_plane(flow: MeshArrays, v: Vector) -> Vector:
-    """Return the part of a vector along the planes of a two-dimensional flow."""
-    n = flow.layer[0], flow.layer[1], flow.layer[2]
-    return minus(v, scale_vector(inner(n, v), n))
-
-
 def is_added(flow: MeshArrays, node: Any) -> bool:
     """Return True for the centres of faces in the planes of a two-dimensional flow."""
     return bool(flow.n_points - 2 * (flow.cell_start.shape[0] - 1) <= node < flow.n_points)
@@ -245,6 +248,8 @@ def _flatten(flow: MeshArrays, begin: int, n: int, memory: Work) -> None:
         for k in range(4):
             s = _column(flow, begin + p, flow.tets[begin + t, k])
             count = free[s] if free[s] > 0.0 else 2.0
+            if is_wedge(flow.layer):
+                count *= _mean_distance(flow, (a, b, c), s, free[s] > 0.0)
             q = 2.0 * sums[p, s] * edges[s] / max(count * areas[s, p] * area, 1e-300)
             q = 0.5 * q if k in (i, j) else q
             # What :func:`correct_cell` stores of it is q.
@@ -252,8 +257,20 @@ def _flatten(flow: MeshArrays, begin: int, n: int, memory: Work) -> None:
             fluxes[t, k], lacking[t, k] = q * count * volume[t], 0.0
 
 
+def _mean_distance(flow: MeshArrays, nodes: tuple[Any, Any, Any], s: int, free: bool) -> float:
+    """Return the mean distance from the axis of a flux through side s over that of the side.
+
+    The flux is distributed over the ``free`` nodes of the side, or over both.
+    """
+    i, j = (nodes[1], nodes[2]) if s == 0 else (nodes[2], nodes[0]) if s == 1 else (nodes[0], nodes[1])
+    p, q = distance(flow.layer, point(flow.nodes, i)), distance(flow.layer, point(flow.nodes, j))
+    f, g = (abs(flow.nodes[i, FREE]), abs(flow.nodes[j, FREE])) if free else (1.0, 1.0)
+    mean = 2.0 * (f * (2.0 * p + q) + g * (2.0 * q + p)) / (3.0 * (f + g) * max(p + q, 1e-300))
+    return float(mean)
+
+
 def _in_plane_arm(flow: MeshArrays, a: Any, b: Any) -> Vector:
-    return in_plane(flow, arm(flow.nodes, b, point(flow.nodes, a)))
+    return across(flow.layer, arm(flow.nodes, b, point(flow.nodes, a)))
 
 
 def _doubled(flow: MeshArrays, tet: int) -> tuple[int, int]:

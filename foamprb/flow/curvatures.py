@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,11 +33,22 @@ def mean_curvatures(mesh: Mesh, l: Floats) -> NDArray[np.float32]:
     slopes /= np.maximum(volumes, 1e-300)[:, None]
     points = slopes[: mesh.n_points]
     if len(images.faces):
-        full = np.take(points.reshape(-1, 6, 3), _PLACES, axis=1).transpose(0, 3, 1, 2).copy()
+        full = third_order(points)
         images.agree(full)
-        for place, (j, k) in enumerate(_DIRECTIONS):
-            points[:, 3 * place : 3 * place + 3] = full[:, :, j, k]
+        points[:] = columns_of_third(full)
     return slopes.astype(np.float32)
+
+
+def third_order(columns: NDArray[Any]) -> NDArray[Any]:
+    """Return a copy of second derivatives (n, 18) as tensors ∂²u_i/∂x_j∂x_k (n, 3, 3, 3)."""
+    tensors: NDArray[Any] = np.take(columns.reshape(-1, 6, 3), _PLACES, axis=1).transpose(0, 3, 1, 2).copy()
+    return tensors
+
+
+def columns_of_third(tensors: NDArray[Any]) -> NDArray[Any]:
+    """Return second derivatives (n, 3, 3, 3) as columns (n, 18)."""
+    j, k = np.transpose(_DIRECTIONS)
+    return tensors[:, :, j, k].transpose(0, 2, 1).reshape(-1, 18)
 
 
 def sum_slopes(flow: MeshArrays, l: Floats, sums: Floats, volumes: Floats) -> None:

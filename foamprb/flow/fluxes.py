@@ -31,6 +31,7 @@ from foamprb.flow.base import Floats, Ints
 from foamprb.flow.correction import NodalFlow, area_vector, triangle_flux
 from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.interfaces import face_pairs
+from foamprb.flow.mesh.layer import layer_of, turn_nodes
 from foamprb.flow.mesh.lists import Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import PatchKind
@@ -99,6 +100,7 @@ class Conservation:
     def __init__(self, mesh: Mesh, sliding: bool = False) -> None:
         self.n_faces = len(mesh.owner)
         self._mesh, self._nodes, self._free = mesh, mesh.nodes, free_nodes(mesh)
+        self._layer = layer_of(mesh)
         self._closed, walls = _of_kind(mesh, PatchKind.MIRROR), _of_kind(mesh, PatchKind.WALL)
         # The flux through an open face may change.
         self._open = ~(self._closed | walls)
@@ -148,7 +150,7 @@ class Conservation:
             If no fluxes are found that keep mass, or if they are not those of the flow.
         """
         mesh = self._mesh
-        at = NodalFlow(self._nodes, u, l.reshape(-1, 9), self._free[:, None], 0, 0, 0, 0)
+        at = self._at_nodes(u, l)
         sides, fluxes, integrate = sides_of(mesh), np.empty(self.n_faces), link(face_fluxes)
 
         def faces(low: int, high: int) -> None:
@@ -159,7 +161,7 @@ class Conservation:
             raise UnbalancedFlowError(f"the velocity of {where} is not finite at some nodes of the mesh.")
         carried = np.zeros(self.n_faces)
         if frame is not None:
-            of_frame = at._replace(u=frame[0], l=frame[1].reshape(-1, 9))
+            of_frame = self._at_nodes(*frame)
             share(self.n_faces, lambda low, high: integrate(low, high, of_frame, sides, carried))
             fluxes -= carried
         outer = fluxes[mesh.n_internal :]
@@ -183,6 +185,14 @@ class Conservation:
                     "and T), or cells without volume (see checkMesh)."
                 )
         return fluxes
+
+    def _at_nodes(self, u: Floats, l: Floats) -> NodalFlow:
+        numbers, layer = np.empty(0), self._layer
+        if layer is not None and len(layer.axis):
+            u, l, numbers = u.copy(), l.reshape(-1, 3, 3).copy(), np.concatenate([layer.normal, layer.axis])
+            turn_nodes(layer.turns, u)
+            turn_nodes(layer.turns, l)
+        return NodalFlow(self._nodes, u, l.reshape(-1, 9), self._free[:, None], 0, 0, 0, 0, numbers)
 
 
 def sides_of(mesh: Mesh) -> Sides:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Caveat, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.curvatures import columns_of_third, third_order
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
 from foamprb.flow.jumps import count_jumps, relative_jumps, roughness
@@ -20,14 +21,14 @@ from foamprb.flow.kernels import named
 from foamprb.flow.mesh.arrays import FREE, GRADIENT, VELOCITY, MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
-from foamprb.flow.mesh.layer import divide, layer_of
+from foamprb.flow.mesh.layer import divide, layer_of, turn_nodes
 from foamprb.flow.mesh.locator import cell_boxes, locate
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.nodes import Ends, Function, NodeValues, ends_over, stride_over
 from foamprb.flow.patches import PatchKind
 from foamprb.flow.planes import walls
-from foamprb.flow.sampling import sample_with, viscosity_with
+from foamprb.flow.sampling import sample_with, viscosity_with, with_velocity
 from foamprb.flow.viscosity import viscosity
 from foamprb.flow.walk import (
     cell_volume,
@@ -43,6 +44,7 @@ from foamprb.flow.walk import (
 )
 from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
 from foamprb.flow.walls import Walls, gap, images_of_walls, walls_at
+from foamprb.flow.wedge import is_wedge
 from foamprb.memory import sparse_zeros, trim
 
 _NO_END = frozenset({PatchKind.MIRROR, PatchKind.PASSABLE})
@@ -125,6 +127,8 @@ class MeshFlow:
         turbulence, viscosity, cell_volume
     )  # fmt: skip
     lists_walls = True
+    axisymmetric = True
+    """Whether the flow in a wedge one cell thick is that of its middle plane (:mod:`foamprb.flow.wedge`)."""
 
     def __init__(
         self,
@@ -140,6 +144,7 @@ class MeshFlow:
         curvatures: NDArray[np.float32] | None = None,
     ) -> None:
         layer = layer_of(mesh)
+        layer = layer if layer is None or not len(layer.axis) or self.axisymmetric else None
         self._division = None if layer is None else divide(mesh, layer)
         if self._division is not None:
             mesh = self._division.mesh
@@ -147,6 +152,9 @@ class MeshFlow:
             u, l, turbulence, fluxes, viscosity, curvatures = (
                 None if values is None else self.widened(values) for values in given
             )
+            if u is not None and l is not None:
+                self._turn(u, l)
+            curvatures = None if curvatures is None else self._turned_curvatures(curvatures)
         self._time = time
         self.field_columns: tuple[FieldColumns, ...] = ()
         self.field_table: NDArray[np.float64] = np.empty((0, 0))
@@ -202,12 +210,36 @@ class MeshFlow:
             face_start=mesh.face_start,
             cell_face_start=mesh.cell_face_start,
             cell_faces=mesh.cell_faces,
-            layer=np.empty(0) if layer is None else layer.normal,
+            layer=np.empty(0) if layer is None else np.concatenate([layer.normal, layer.axis]),
         )
 
     def widened(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return values at the nodes or fluxes of the given mesh on that of the flow."""
         return values if self._division is None else self._division.widened(values)
+
+    def _turn(self, u: Floats, l: Floats, back: bool = False) -> None:
+        """Turn velocities and gradients at the nodes of a wedge into its middle plane, or back, in place."""
+        if self._division is not None:
+            # The centres of faces have the values of cells, in the middle plane.
+            turns = self._division.turns[: None if back else self._division.n_points]
+            turn_nodes(turns, u, back)
+            turn_nodes(turns, l, back)
+
+    def _turned_curvatures(self, values: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return second derivatives at the nodes, (n_nodes, 18), in a wedge turned into its middle plane."""
+        if self._division is None or not len(self._division.turns):
+            return values
+        tensors = third_order(values)
+        turn_nodes(self._division.turns[: self._division.n_points], tensors)
+        return columns_of_third(tensors)
+
+    def _turned_back(self, fields: Floats) -> tuple[Floats, Floats]:
+        """Return u (n, 3) and ∇u (n, 9) at the nodes from columns of both, in a wedge turned to each node."""
+        if self._division is None or not len(self._division.turns):
+            return fields[:, :3], fields[:, 3:]
+        u, l = fields[:, :3].copy(), fields[:, 3:].reshape(-1, 3, 3).copy()
+        self._turn(u, l, back=True)
+        return u, l.reshape(-1, 9)
 
     @staticmethod
     def nothing() -> MeshArrays:
@@ -303,7 +335,7 @@ class MeshFlow:
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
-        return self._time, self._arrays.nodes[:, VELOCITY:GRADIENT], self._arrays.nodes[:, GRADIENT:]
+        return self._time, *self._turned_back(self._arrays.nodes[:, VELOCITY:])
 
     def turbulence_at_nodes(self) -> Floats:
         """Return k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); no rows if they were not read."""
@@ -435,7 +467,7 @@ class MeshFlow:
         """Return no times: the flow is steady."""
         return ()
 
-    def patch_faces(self, name: str, t: float) -> PatchFaces:  # noqa: ARG002
+    def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Return the triangles of a patch; InputError if there is no such patch."""
         names = [patch.name for patch in self.patches]
         if name not in names:
@@ -445,13 +477,14 @@ class MeshFlow:
         triangles = mesh.triangles[at]
         vertices = mesh.points[triangles]
         edges = vertices[:, 1:] - vertices[:, :1]
-        return PatchFaces(
+        faces = PatchFaces(
             vertices=vertices,
             areas=0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1),
             normals=mesh.triangle_normals[at],
             velocity=self._arrays.nodes[triangles, VELOCITY:GRADIENT],
             hosts=mesh.triangle_tet[at],
         )
+        return with_velocity(faces, self, t) if is_wedge(self._arrays.layer) else faces
 
     def cell_zone(self, name: str | None, t: float | None = None) -> Tetrahedra:  # noqa: ARG002
         """Return the tetrahedra of a zone of cells, or of all cells, cell by cell."""

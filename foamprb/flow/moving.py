@@ -462,6 +462,8 @@ def curvature(flow: MovingArrays, host: int, x: Vector, t: float) -> Curvature:
 class MovingMeshFlow(SeriesFlow):
     """Flow given at several times on a mesh that moves."""
 
+    axisymmetric = False
+
     def nodes_at(self, t: float) -> Floats:
         """Load a time, s, and return the nodes then, (n_nodes, 3), m."""
         raise NotImplementedError

@@ -122,7 +122,7 @@ class Reconstruction:
         for values, fixed in zip(at_points, (self._on_walls, None), strict=True):
             self._images.agree(values, fixed)
         if self._layer is not None:
-            self._layer.flatten(u_nodes, l_nodes)
+            self._layer.flatten(self.mesh, u_nodes, l_nodes, self._on_walls)
         return u_nodes, l_nodes
 
     def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
@@ -409,5 +409,5 @@ def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
     _, l_points = _continued(mesh.points, mesh.centres, around, u, l)
     u, l = np.concatenate([points, u]), np.concatenate([l_points, l])
     if (layer := layer_of(mesh)) is not None:
-        layer.flatten(u, l)
+        layer.flatten(mesh, u, l)
     return u, l

@@ -38,6 +38,7 @@ from foamprb.flow.walk import (
     correction_at,
     curvature_in,
     follow,
+    from_middle,
     interpolate,
     inward,
     shape,
@@ -48,6 +49,7 @@ from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walk import walk_on as walk_on_mesh
 from foamprb.flow.walls import gap as gap_mesh
+from foamprb.flow.wedge import is_wedge, stretched, tangent, turned_curvature
 from foamprb.memory import clear, sparse_zeros
 
 _OF_VELOCITY, _OF_TURBULENCE, _OF_VISCOSITY = 12, 8, 4
@@ -109,8 +111,11 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
         ),
         s,
     )  # fmt: skip
-    u_t = d[0] / length, d[1] / length, d[2] / length
-    return plus(between(u0, u1, s), c), l, minus(u_t, dot_vector(l, c))
+    u, u_t = between(u0, u1, s), (d[0] / length, d[1] / length, d[2] / length)
+    if is_wedge(flow.mesh.layer):
+        u_t = stretched(flow.mesh.layer, tangent(flow.mesh.layer, x), u_t)
+        u, c, l = from_middle(flow.mesh, x, u, c, l)
+    return plus(u, c), l, minus(u_t, dot_vector(l, c))
 
 
 def _interval(flow: SeriesArrays, t: float) -> int:
@@ -159,9 +164,9 @@ def _curvature_at(flow: SeriesArrays, host: int, x: Vector, k: int) -> Curvature
     """Return the second derivatives at the k-th of the loaded times."""
     if flow.curvatures.shape[0] == 0:
         return curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k])
-    return blend_curvature(
-        flow.curvatures, corners(flow.mesh, host, flow.first[k]), shape(flow.mesh, host, x)
-    )
+    rows = corners(flow.mesh, host, flow.first[k])
+    h = blend_curvature(flow.curvatures, rows, shape(flow.mesh, host, x))
+    return turned_curvature(flow.mesh.layer, x, h) if is_wedge(flow.mesh.layer) else h
 
 
 def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -365,7 +370,7 @@ class SeriesFlow(Timeline, MeshFlow):
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """Return the name of the first time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
         first = self._first()
-        return f"{self.times[0]:g}", first[:, :3], first[:, 3:_OF_VELOCITY]
+        return f"{self.times[0]:g}", *self._turned_back(first[:, :_OF_VELOCITY])
 
     def turbulence_at_nodes(self) -> Floats:
         """Return k, ε, ∇k and ∇(k²/3ε) (n, 8) at all nodes at the first time; no rows if not read."""
@@ -471,6 +476,7 @@ class SeriesFlow(Timeline, MeshFlow):
             return
         future, self._prefetched = self._prefetch(index), None
         u, l, *more = map(self.widened, future.result())
+        self._turn(u, l)
         if len(self._in_memory) < len(self._fields):
             place = len(self._in_memory)
         else:
@@ -478,7 +484,7 @@ class SeriesFlow(Timeline, MeshFlow):
         self._fields[place, :, :3] = u
         self._fields[place, :, 3:_OF_VELOCITY] = l.reshape(-1, 9)
         if self._curvatures.shape[1] > 0:
-            self._curvatures[place] = more.pop()
+            self._curvatures[place] = self._turned_curvatures(more.pop())
         if self._corrections.shape[1] > 0:
             self._fluxes[place] = more.pop()
             clear(self._corrections[place])

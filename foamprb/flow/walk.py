@@ -16,7 +16,7 @@ from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
 from foamprb.compile.link import separate
 from foamprb.flow.base import Floats, Turbulence
-from foamprb.flow.correction import correct_cell, in_plane, is_added, is_stored, stored
+from foamprb.flow.correction import correct_cell, is_added, is_stored, stored
 from foamprb.flow.mesh.arrays import (
     FREE,
     GRADIENT,
@@ -32,6 +32,7 @@ from foamprb.flow.mesh.arrays import (
 )
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
+from foamprb.flow.wedge import across, distance, is_wedge, stretched, tangent, turned, turned_curvature
 
 REACHED = -1
 FAILED = -2
@@ -69,7 +70,15 @@ def parts(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Vector, Tenso
     sides, s, w = shape_and_sides(flow, host, x)
     u, l = interpolate(flow, host, flow.nodes, VELOCITY, 0, w)
     c = correction_at(flow, flow.correction, host, flow.phi, 0, flow.nodes, VELOCITY, 0, host, w, sides, s)
-    return u, c, l
+    return from_middle(flow, x, u, c, l) if is_wedge(flow.layer) else (u, c, l)
+
+
+def from_middle(
+    flow: MeshArrays, x: Vector, u: Vector, c: Vector, l: Tensor
+) -> tuple[Vector, Vector, Tensor]:
+    """Return two velocities and a gradient of the middle plane of a wedge turned to x."""
+    t = tangent(flow.layer, x)
+    return stretched(flow.layer, t, u), stretched(flow.layer, t, c), turned(flow.layer, t, l)
 
 
 def sample_ahead(
@@ -102,6 +111,8 @@ def sample_ahead(
     c = correction_at(
         flow, flow.correction, last, flow.phi, 0, flow.nodes, VELOCITY, 0, last, w, (c1, c2, c3), s
     )
+    if is_wedge(flow.layer):
+        u, c, l = from_middle(flow, x1, u, c, l)
     # The gradient of a weight is its cofactor vector; that of the origin minus the sum of the others.
     room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
     return last, room, entered, plus(u, c), l, minus(STEADY, dot_vector(l, c))
@@ -163,7 +174,7 @@ def interpolate(
     at = first + a, first + b, first + c, first + d
     nodes = flow.nodes
     o = point(nodes, a)
-    sides = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
+    sides = _sides_of(flow, (b, c, d), o)
     fa, fb, fc, fd = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
     arms = _arms((abs(fa) * w[0], abs(fb) * w[1], abs(fc) * w[2], abs(fd) * w[3]), sides)
     if min(fa, fb, fc, fd) < 0.0:
@@ -183,6 +194,14 @@ def interpolate(
         blend(f, k + 9, at, w), blend(f, k + 10, at, w), blend(f, k + 11, at, w),
     )  # fmt: skip
     return u, l
+
+
+def _sides_of(flow: MeshArrays, others: tuple[Any, Any, Any], o: Vector) -> tuple[Vector, Vector, Vector]:
+    """Return the sides of a tetrahedron from a vertex at o; in a wedge their parts along its middle plane."""
+    p, q, r = arm(flow.nodes, others[0], o), arm(flow.nodes, others[1], o), arm(flow.nodes, others[2], o)
+    if is_wedge(flow.layer):
+        return across(flow.layer, p), across(flow.layer, q), across(flow.layer, r)
+    return p, q, r
 
 
 def _arms(m: Weights, sides: tuple[Vector, Vector, Vector]) -> tuple[Vector, Vector, Vector, Vector]:
@@ -299,12 +318,17 @@ def correction_by(
         # Of the two nodes in the column of the centre, one counts.
         count -= 1.0
     o, rows = point(nodes, a), (first + a, first + b, first + c, first + d)
-    arms = p, m, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
+    arms = p, m, r = _sides_of(flow, (b, c, d), o)
     # The second part is Σ e_k λ_k x_k − (Σ e_k λ_k) x, with x = Σ λ_k x_k and a quarter e of the divergence.
     if min(free[0], free[1], free[2], free[3]) == 1.0:
         eb, ec, ed = _excess(f, k + 3, rows, arms, sides, s)
     else:
         eb, ec, ed = _excess_at_walls(f, k + 3, rows, free, arms, sides, s)
+    if is_wedge(flow.layer):
+        # The divergence holds u_ρ/ρ, too, of which the first part counts one half.
+        ga, gb, gc, gd = _spreads(flow, f, k, rows, (a, b, c, d))
+        part = 0.125 if min(free[0], free[1], free[2], free[3]) == 1.0 else 0.25
+        eb, ec, ed = eb + part * (gb - ga), ec + part * (gc - ga), ed + part * (gd - ga)
     if flat:
         # A third instead of a quarter in two dimensions.
         eb, ec, ed = 4.0 / 3.0 * eb, 4.0 / 3.0 * ec, 4.0 / 3.0 * ed
@@ -326,7 +350,36 @@ def correction_by(
         sb * p[1] + sc * m[1] + sd * r[1],
         sb * p[2] + sc * m[2] + sd * r[2],
     )
-    return in_plane(flow, v) if flat else v
+    return across(flow.layer, v) if flat else v
+
+
+def _spreads(flow: MeshArrays, f: Floats, k: int, rows: Corners, nodes: Corners) -> Weights:
+    """Return u_ρ/ρ at four nodes of a wedge, 1/s, from velocities and gradients in columns k on."""
+    p, q, r, s = (
+        distance(flow.layer, point(flow.nodes, nodes[0])), distance(flow.layer, point(flow.nodes, nodes[1])),
+        distance(flow.layer, point(flow.nodes, nodes[2])), distance(flow.layer, point(flow.nodes, nodes[3])),
+    )  # fmt: skip
+    least = 1e-6 * max(p, q, r, s)
+    return (
+        _spread(flow, f, k, rows[0], p, least), _spread(flow, f, k, rows[1], q, least),
+        _spread(flow, f, k, rows[2], r, least), _spread(flow, f, k, rows[3], s, least),
+    )  # fmt: skip
+
+
+def _spread(flow: MeshArrays, f: Floats, k: int, row: int, rho: float, least: float) -> Any:
+    """Return u_ρ/ρ at a node, 1/s; on the axis, nearer than ``least``, ∂u_ρ/∂ρ."""
+    e = flow.layer[6], flow.layer[7], flow.layer[8]
+    if rho > least:
+        return inner(e, (f[row, k], f[row, k + 1], f[row, k + 2])) / rho
+    m = k + 3
+    return inner(
+        e,
+        (
+            inner(e, (f[row, m], f[row, m + 1], f[row, m + 2])),
+            inner(e, (f[row, m + 3], f[row, m + 4], f[row, m + 5])),
+            inner(e, (f[row, m + 6], f[row, m + 7], f[row, m + 8])),
+        ),
+    )
 
 
 def _excess(
@@ -420,7 +473,8 @@ def curvature(flow: MeshArrays, host: int, x: Vector, t: float) -> Curvature:  #
     """
     if flow.curvatures.shape[0] == 0:
         return curvature_in(flow, host, flow.nodes, GRADIENT, 0)
-    return blend_curvature(flow.curvatures, corners(flow, host, 0), shape(flow, host, x))
+    h = blend_curvature(flow.curvatures, corners(flow, host, 0), shape(flow, host, x))
+    return turned_curvature(flow.layer, x, h) if is_wedge(flow.layer) else h
 
 
 def blend_curvature(f: NDArray[np.float32], nodes: Corners, w: Weights) -> Curvature:

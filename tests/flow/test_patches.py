@@ -149,7 +149,12 @@ def test_a_wall_through_which_fluid_flows_is_an_opening_and_named(tmp_path, cond
     """Not if the condition gives a velocity to the wall."""
     write_case(tmp_path, perturbation=0.0)
     path = tmp_path / "1e1/U"
-    path.write_text(re.sub(r"(floor \{ type )\w+", rf"\1{condition}", path.read_text()))
+    text = re.sub(r"(floor \{ type )\w+", rf"\1{condition}", path.read_text())
+    if condition == "fixedValue":
+        text = re.sub(
+            r"floor \{.*?\}", "floor { type fixedValue; value uniform (2 0 -0.3); }", text, flags=re.DOTALL
+        )
+    path.write_text(text)
     flow = read_case(tmp_path)
     caveats = [note for note in flow.notes if isinstance(note, Caveat)]
     warned = [caveat for caveat in caveats if "patch floor is of type wall" in caveat]
@@ -157,3 +162,6 @@ def test_a_wall_through_which_fluid_flows_is_an_opening_and_named(tmp_path, cond
     kind = next(patch.kind for patch in flow.patches if patch.name == "floor")
     assert kind is (PatchKind.OPENING if warned else PatchKind.WALL)
     assert not warned or f"({condition}): it is an opening" in warned[0]
+    across = [caveat for caveat in caveats if "wall floor: its velocity" in caveat]
+    assert len(across) == (condition == "fixedValue")
+    assert not across or "(fixedValue) has up to 0.3 m/s across its faces" in across[0]

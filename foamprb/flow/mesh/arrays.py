@@ -98,7 +98,8 @@ class MeshArrays(NamedTuple):
     cell_faces: Ints
     """Faces of each cell, in the order of its tetrahedra."""
     layer: Floats
-    """(3,) unit normal of the planes of a two-dimensional flow (:mod:`foamprb.flow.mesh.layer`); or (0,)."""
+    """(3,) unit normal of the planes of a two-dimensional flow (:mod:`foamprb.flow.mesh.layer`); (13,) that
+    of the middle plane of a wedge and :attr:`~foamprb.flow.mesh.layer.Layer.axis`; or (0,)."""
 
 
 _FLOATS = {

@@ -84,6 +84,31 @@ def with_openings(whole: CaseMesh, field: FoamField, boundary: Floats) -> CaseMe
     return whole._replace(mesh=replace(mesh, patches=tuple(patches)), notes=(*whole.notes, *notes))
 
 
+def caveats_of_walls(whole: CaseMesh, field: FoamField, boundary: Floats) -> list[Caveat]:
+    """Return a warning for each wall of a mesh at rest across which its given velocity goes.
+
+    ``boundary`` (n_boundary, 3) is the velocity at the boundary faces, m/s.
+    """
+    mesh, caveats = whole.mesh, []
+    for index, patch in enumerate(whole.patches[: len(mesh.patches)]):
+        entry, rows = field.of(patch), slice(mesh.patch_start[index], mesh.patch_start[index + 1])
+        values, areas = boundary[rows], mesh.boundary_areas[rows]
+        given = entry is not None and entry.type in VALUE_CONDITIONS
+        if entry is None or not given or mesh.patches[index].kind is not PatchKind.WALL:
+            continue
+        if _passes(values, areas):
+            across = np.einsum("ni,ni->n", values, areas) / np.linalg.norm(areas, axis=1)
+            most = float(np.abs(across).max())
+            caveats.append(
+                Caveat(
+                    f"wall {patch.name}: its velocity ({entry.type}) has up to {most:.3g} m/s across its "
+                    "faces, but the mesh is at rest: fluid passes there, and particles meet a wall. Should "
+                    "it be an opening (type patch), or move along itself (movingWallVelocity)?"
+                )
+            )
+    return caveats
+
+
 def with_walls(whole: CaseMesh, field: FoamField, *later: FoamField) -> CaseMesh:
     """Return the mesh with the patches as walls that are none by their type, but by the velocity on them.
 

@@ -26,7 +26,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.motion import Deformation, Motion, match_walls
 from foamprb.flow.moving import MovingFlow
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
-from foamprb.flow.read.boundary_values import boundary_values, with_openings, with_walls
+from foamprb.flow.read.boundary_values import boundary_values, caveats_of_walls, with_openings, with_walls
 from foamprb.flow.read.case import (
     available_times,
     cell_zones,
@@ -263,6 +263,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     whole = with_walls(whole, field)
     cells, boundary = velocities(field, whole)
     whole = with_openings(whole, field, boundary)
+    across = caveats_of_walls(whole, field, boundary)
     read, unsteady = partial(case.field, name), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, cells, boundary, read, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, cells)
@@ -275,7 +276,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     more = _further(case, name, source, whole, operators)
     sampled = read_sampled(read, source.sampled, kinds, whole, operators.reconstruct) if kinds else None
     mass = mass_of(case.root, case.region, whole, (name,), [read], 0, source.velocity)
-    notes: list[Any] = [*case.notes, *whole.notes]
+    notes: list[Any] = [*case.notes, *whole.notes, *across]
     file = (case.folder(name) / source.velocity).relative_to(case.root)
 
     def make() -> tuple[Floats, Floats, Floats | None]:
@@ -341,7 +342,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     first = velocities(field, whole)
     last = case.field(base if others else names[-1], source.velocity, VELOCITY_FIELD)
     # A flow that starts from rest does not show its openings.
-    whole = with_openings(whole, last, velocities(last, whole)[1])
+    at_end = velocities(last, whole)[1]
+    whole = with_openings(whole, last, at_end)
     read_first, unsteady = partial(case.field, base), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, first[0])
@@ -424,6 +426,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
 
     notes = [*notes, *case.notes, *whole.notes]
+    if motion is None and not others:
+        notes += caveats_of_walls(whole, last, at_end)
     notes += _caveats(case, names[-1], source, moving=False)
     if float(names[0]) == 0.0 and not first[0].any():
         notes.append(
