@@ -665,13 +665,22 @@ def first_reach(p: Particles) -> float:
 def clearances(p: Particles, flow: Flow, reach: float, patches: Sequence[int]) -> Floats:
     """Return the gaps between bodies and the nearest of some patches within ``reach`` (m), (n,), m.
 
-    They are infinite where there is none; the first times of the flow are loaded.
+    They are infinite where there is none. On a mesh that moves they are the gaps at the times of the bodies,
+    whose hosts are set; outside the mesh they are −∞. Otherwise the first times of the flow are loaded.
     """
-    start = flow.span[0] if math.isfinite(flow.span[0]) else 0.0
-    flow.load(start, start)
-    arrays, gaps = packed(flow.arrays(reach, patches)), np.empty(p.size)
+    moves, first = "wall_velocity" in flow.kernels, flow.span[0] if math.isfinite(flow.span[0]) else 0.0
+    times = np.minimum(p.t, flow.span[1]) if moves else np.full(p.size, first)
+    if moves:
+        p.host[:] = flow.locate(p.x, times)
+    gaps, left = np.full(p.size, -np.inf), np.flatnonzero(p.host >= 0)
     slots = {**GAPS, gap: conform(gap, flow.kernels["gap"])}
-    link(gaps_of, slots, flow=getattr(arrays, "layout", None))(arrays, p, gaps)
+    while len(left):
+        start = float(times[left].min())
+        here = times[left] <= max(start, flow.load(start, start))
+        some, arrays = p.take(left[here]), packed(flow.arrays(reach, patches))
+        of_some = np.empty(some.size)
+        link(gaps_of, slots, flow=getattr(arrays, "layout", None))(arrays, some, of_some)
+        gaps[left[here]], left = of_some, left[~here]
     return gaps
 
 

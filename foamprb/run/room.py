@@ -25,7 +25,7 @@ _AT_ONCE = 1000
 
 @dataclass
 class Room:
-    """Draw of places where bodies at rest overlap no wall; InputError if the mesh moves.
+    """Draw of places where bodies at rest overlap no wall at the times of their release.
 
     Sizes and shapes are those of the bodies in the order of their numbers; a place without room for its body
     is drawn anew, so that clearance changes the distribution of the places, not of the sizes.
@@ -43,12 +43,8 @@ class Room:
     moved: int = 0
     """Number of bodies whose places were drawn anew."""
 
-    def __post_init__(self) -> None:
-        if "wall_velocity" in self.flow.kernels:
-            raise InputError("the mesh moves, but clearance requires walls at rest. Allowed: clearance no.")
-
-    def fit(self, drawn: Drawn, redraw: Callable[[int], Drawn]) -> Drawn:
-        """Return places for the next bodies, with others for bodies without room there.
+    def fit(self, drawn: Drawn, redraw: Callable[[int], Drawn], t: NDArray[np.float64]) -> Drawn:
+        """Return places for the next bodies, released at t (n,), s, with others for bodies without room.
 
         Raises
         ------
@@ -57,7 +53,7 @@ class Room:
         """
         (x, hosts), cramped = drawn, []
         for part in parts_of(len(x)):
-            p = self._bodies(x[part], hosts[part])
+            p = self._bodies(x[part], hosts[part], t[part])
             rows = np.flatnonzero(self._overlap(p))
             cramped.append((part.start + rows, p.take(rows)))
         rows = np.concatenate([rows for rows, _ in cramped])
@@ -69,10 +65,10 @@ class Room:
             x[rows[some]], hosts[rows[some]] = p.x, p.host
         return x, hosts
 
-    def _bodies(self, x: NDArray[np.float64], hosts: NDArray[np.int32]) -> Particles:
-        """Return the next bodies at rest, at some places."""
+    def _bodies(self, x: NDArray[np.float64], hosts: NDArray[np.int32], t: NDArray[np.float64]) -> Particles:
+        """Return the next bodies at rest, at some places and times."""
         p = empty(len(x))
-        p.x[:], p.host[:] = x, hosts
+        p.x[:], p.host[:], p.t[:] = x, hosts, t
         p.R[:] = 0.5 * draw(self.injection.sizeDistribution or 0.0, p.size, self.sizes)
         self.injection.shape.form(p, self.shapes)
         return p

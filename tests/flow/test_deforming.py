@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from foam_writer import header, put_linear, write_case
 from mesh_shapes import cyclic_row, layer
 
 from foamprb import Cloud, Escape, Medium, Rebound, Status, Stick, spheres
+from foamprb.cloud.injection.models import BoxInjection
+from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.patches import Mirror
 from foamprb.errors import InputError
 from foamprb.flow.deforming import DeformingFlow
@@ -23,6 +26,7 @@ from foamprb.flow.read.motion import deformation_of, note_of_deformation
 from foamprb.flow.read.openfoam import Case, read_series, transient_flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.reconstruct import Reconstruction
+from foamprb.run.room import Room
 
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
 
@@ -196,6 +200,21 @@ def test_patches_zones_and_hosts_are_where_they_are_at_a_time(piston):
         assert zone.vertices(zone.hosts)[:, :, 0].min() == pytest.approx(place(t))
         beside = np.array([[place(t) - 1e-3, 0.5, 0.05], [place(t) + 1e-3, 0.5, 0.05]])
         assert np.array_equal(piston.locate(beside, t) >= 0, [False, True])
+
+
+def test_bodies_with_clearance_have_room_when_they_are_released(piston):
+    """The others keep their places."""
+    model = BoxInjection(min=(0.0, 0.2, 0.04), max=(0.5, 0.8, 0.06), number=200, duration=0.95)
+    bodies = SimpleNamespace(sizeDistribution=0.1, shape=Sphere())
+    left = [patch.name for patch in piston.patches].index("left")
+    room = Room(bodies, piston, [left], *np.random.default_rng(0).spawn(2))
+    kept = model.places(piston, np.random.default_rng(1), None, room.fit)
+    drawn = model.places(piston, np.random.default_rng(1), None)
+    overlap = drawn.x[:, 0] - place(drawn.t) < 0.05
+    assert np.array_equal((kept.x != drawn.x).any(axis=1), overlap)
+    assert 20 < room.moved == overlap.sum()
+    assert kept.x[:, 0].min() < 0.1
+    assert np.all(kept.x[:, 0] - place(kept.t) > 0.05)
 
 
 def test_places_are_carried_back_to_the_mesh_of_the_first_time(piston):

@@ -72,8 +72,11 @@ units; ``d`` is the diameter, m."""
 Drawn: TypeAlias = tuple[Floats, NDArray[Any]]
 """Random places, (n, 3), m, and their hosts, (n,)."""
 
-Fit: TypeAlias = Callable[[Drawn, Callable[[int], Drawn]], Drawn]
-"""Function that replaces the places that do not fit the next particles, by a given number of other ones."""
+Fit: TypeAlias = Callable[[Drawn, Callable[[int], Drawn], Floats], Drawn]
+"""Function that replaces the places that do not fit the next particles, by a given number of other ones.
+
+Its last argument are the times of release (n,), s.
+"""
 
 ReadPositions: TypeAlias = Callable[[Path, Mapping[str, Bounds]], tuple[Floats, Mapping[str, Floats]]]
 """Function that reads a file: positions (n, 3), m, and further columns, (n,) each, within bounds."""
@@ -104,7 +107,7 @@ class Places(NamedTuple):
     """Values per particle of some of :data:`GIVEN`, (n,) each."""
 
 
-def as_drawn(drawn: Drawn, _redraw: Callable[[int], Drawn]) -> Drawn:
+def as_drawn(drawn: Drawn, _redraw: Callable[[int], Drawn], _t: Floats) -> Drawn:
     """Return random places as they were drawn."""
     return drawn
 
@@ -194,8 +197,8 @@ class PatchInjection(Injection):
                 "patchFlowRateInjection, which follows the inflow in time."
             )
         draw = partial(_on_faces, random, faces, inflow)
-        x, hosts = fit(draw(n), draw)
-        return Places(x, hosts, SOI + np.arange(n) / self.parcelsPerSecond, self.U0)
+        t = SOI + np.arange(n) / self.parcelsPerSecond
+        return Places(*fit(draw(n), draw, t), t, self.U0)
 
 
 _ONE = Constant(1.0)
@@ -251,7 +254,8 @@ class PatchFlowRateInjection(Injection):
                 # The share s of the part in which this volume over h enters: Q0 s + (Q1 - Q0) s²/2.
                 s = 2.0 * mean / (Q0 + np.sqrt(np.maximum(Q0**2 + 2.0 * mean * (Q1 - Q0), 0.0)))
                 draw = partial(_on_faces, random, before, a + b)
-                parts.append((*fit(draw(n), draw), t0 + h * (j + np.minimum(s, 1.0))))
+                t = t0 + h * (j + np.minimum(s, 1.0))
+                parts.append((*fit(draw(n), draw, t), t))
             before = after
         if not parts:
             raise InputError(
@@ -384,9 +388,8 @@ def _in_mesh(
         return x, hosts
 
     n = require_room(model.number, f"{what}: number {model.number}")
-    x, hosts = fit(draw(n), draw)
     times = start + model.duration * np.arange(n, dtype=float) / n
-    return Places(x, hosts, times, model.U0)
+    return Places(*fit(draw(n), draw, times), times, model.U0)
 
 
 def _inside(x: Floats, hosts: NDArray[np.int32], leave_out: bool, what: object) -> NDArray[np.bool_]:
@@ -465,8 +468,8 @@ class CellZoneInjection(Injection):
 
         # Stratified sampling: one random number in each n-th part of the cumulative volume.
         strata = (np.arange(n) + random.random(n)) / n
-        x, hosts = fit(at(strata), lambda k: at(random.random(k)))
-        return Places(x, hosts, np.full(n, SOI), self.U0)
+        t = np.full(n, SOI)
+        return Places(*fit(at(strata), lambda k: at(random.random(k)), t), t, self.U0)
 
 
 @dataclass(frozen=True)
