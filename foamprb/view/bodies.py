@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -202,7 +201,7 @@ def gather(
         Names of the :func:`colourable` arrays to read; by default all of them.
     """
     names = [name for name in colourable(run) if arrays is None or name in arrays]
-    ids = reduce(np.union1d, (_numbers(run, k) for k in frames))
+    ids = _numbers_of_all(run, frames)
     if most is not None and len(ids) > most:
         ids = ids[np.arange(most) * len(ids) // most]
     m, n = len(frames), len(ids)
@@ -218,11 +217,11 @@ def gather(
     collected += [B] if B is not None else []
     met = np.zeros(n, dtype=bool)
     for t, frame in enumerate(frames):
-        cloud = run.cloud(frame, dict.fromkeys((*needed, *names)))
-        rows, places = _selected(cloud.arrays["origId"].astype(np.int64), ids)
-        columns = {name: array[rows] for name, array in cloud.arrays.items()}
-        points, d = cloud.points[rows], columns["d"].astype(np.float64)
-        del cloud
+        cloud = run.cloud(
+            frame, dict.fromkeys((*needed, *names)), lambda arrays: _selected(arrays["origId"], ids)
+        )
+        points, columns, d = cloud.points, cloud.arrays, cloud.arrays["d"].astype(np.float64)
+        places = np.searchsorted(ids, columns["origId"])
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             # glyph holds the columns of R F, one after the other.
             shape = columns["glyph"].reshape(-1, 3, 3).swapaxes(1, 2) / (0.5 * d[:, None, None])
@@ -276,13 +275,18 @@ def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles |
     """
     valued = name in run.components and name not in run.names
     stride = 1 + len(run.entries) * len(run.cloud(-1, ("origId",)).points) // _MOST_VALUES
-    counts, collected = [], [np.zeros(0, dtype=np.float32)]
+    counts: list[int] = []
+    collected = [np.zeros(0, dtype=np.float32)]
+
+    def shown(arrays: Table) -> NDArray[np.int64]:
+        rows = np.flatnonzero(_inside(arrays["status"], run.names.get("status", ())))
+        counts.append(len(rows))
+        return rows[::stride]
+
     for frame in range(len(run.entries)):
-        arrays = run.cloud(frame, ("status", *([name] if valued else ()))).arrays
-        shown = np.flatnonzero(_inside(arrays["status"], run.names.get("status", ())))
-        counts.append(len(shown))
+        arrays = run.cloud(frame, ("status", *([name] if valued else ())), shown).arrays
         if valued:
-            values = arrays[name][shown[::stride]].astype(np.float32)
+            values = arrays[name].astype(np.float32)
             channel = _quantity(run, name, values.reshape(1, -1, run.components[name])).channel(part)
             collected.append(channel[np.isfinite(channel)])
     return np.array(counts), np.concatenate(collected) if valued else None
@@ -300,20 +304,24 @@ def _inside(codes: NDArray[Any], meanings: Sequence[str]) -> Mask:
     return np.isin(codes, inside)
 
 
-def _numbers(run: Run, frame: int) -> NDArray[np.int64]:
-    """Return the numbers of the particles at a time; InputError if one is there twice."""
-    numbers = run.cloud(frame, ("origId",)).arrays["origId"].astype(np.int64)
-    if len(np.unique(numbers)) < len(numbers):
-        file = run.folder / run.entries[frame].file
-        raise InputError(f"{file}: a particle is in it twice. Run the particles again: foamprb run.")
-    return numbers
+def _numbers_of_all(run: Run, frames: Sequence[int]) -> NDArray[np.int64]:
+    """Return the numbers of the particles at some times, rising; InputError if a file has one twice."""
+    ids = np.zeros(0, dtype=np.int64)
+    for frame in frames:
+        numbers = run.cloud(frame, ("origId",)).arrays["origId"].astype(np.int64)
+        if np.array_equal(numbers, ids):
+            continue
+        if len(unique := np.unique(numbers)) < len(numbers):
+            file = run.folder / run.entries[frame].file
+            raise InputError(f"{file}: a particle is in it twice. Run the particles again: foamprb run.")
+        ids = np.union1d(ids, unique)
+    return ids
 
 
-def _selected(numbers: NDArray[np.int64], ids: NDArray[np.int64]) -> tuple[NDArray[np.int64], ...]:
-    """Return the rows of a file with chosen bodies, and their places among these."""
+def _selected(numbers: NDArray[np.int64], ids: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the rows of a file with chosen bodies, whose numbers rise."""
     places = np.minimum(np.searchsorted(ids, numbers), max(len(ids) - 1, 0))
-    rows = np.flatnonzero(ids[places] == numbers) if len(ids) else np.zeros(0, dtype=np.int64)
-    return rows, places[rows]
+    return np.flatnonzero(ids[places] == numbers) if len(ids) else np.zeros(0, dtype=np.int64)
 
 
 def _quantity(run: Run, name: str, values: Singles) -> Quantity:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
@@ -139,8 +139,8 @@ class Run:
         """Whether the run has ended and written its table ``fates``."""
         return self.results.table(FATES).exists()
 
-    def fates(self) -> Table | None:
-        """Return the table ``fates``; None if the run has not ended.
+    def fates(self, columns: Collection[str] | None = None) -> Table | None:
+        """Return the table ``fates``, or some of its columns; None if the run has not ended.
 
         Raises
         ------
@@ -149,8 +149,9 @@ class Run:
         """
         if not self.has_fates:
             return None
-        table = self.table("fates")
-        with reading(self.file("fates"), "is not the table that foamprb run writes"):
+        file = self.file(FATES)
+        table = read_table(file, _WORDS, columns and {*columns, *_OF_FATES, TOUCHED})
+        with reading(file, "is not the table that foamprb run writes"):
             # Older tables lack the column.
             table.setdefault(TOUCHED, (table["fate"] == "stuck") & (table["t1"] <= table["t0"]))
             return table | {name: table[name].astype(kind) for name, kind in _OF_FATES.items()}
@@ -175,8 +176,22 @@ class Run:
         """Return the index of the written time that is nearest to ``time``, s."""
         return int(np.argmin(np.abs(self.times - time)))
 
-    def cloud(self, index: int, arrays: Iterable[str] | None = None) -> PointCloud:
+    def cloud(
+        self,
+        index: int,
+        arrays: Iterable[str] | None = None,
+        rows: Callable[[Table], NDArray[Any]] | None = None,
+    ) -> PointCloud:
         """Read the cloud of one time, by default with all its arrays and those that follow from them.
+
+        Parameters
+        ----------
+        index
+            Index of the time.
+        arrays
+            Names of the arrays.
+        rows
+            Returns the rows of the particles to return, by the arrays of the file; by default all.
 
         Raises
         ------
@@ -195,13 +210,19 @@ class Run:
             raise InputError(
                 f"{path}: no array '{missing[0]}', which other times have; are these the files of one run?"
             )
+        points = data.points
+        del data
+        if rows is not None:
+            some = rows(arrays_of_file)
+            points = points[some]
+            arrays_of_file = {name: array[some] for name, array in arrays_of_file.items()}
         if following:
             glyph, d, status = (arrays_of_file[name] for name in SOURCES)
             arrays_of_file |= derived(glyph, d, status, following)
-        n = len(data.points)
+        n = len(points)
         shapes = {name: (n,) if self.components[name] == 1 else (n, self.components[name]) for name in names}
         values = {name: arrays_of_file[name].reshape(shape) for name, shape in shapes.items()}
-        return PointCloud(entry.time, data.points.astype(np.float64), values, self.units, self.names)
+        return PointCloud(entry.time, points.astype(np.float64), values, self.units, self.names)
 
     def snapshot(self, time: float | None = None) -> pyvista.PolyData:
         """Return the cloud at the written time nearest to ``time``, s, by default the last, with all arrays.

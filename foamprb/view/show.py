@@ -26,6 +26,7 @@ from foamprb.results.record import Record
 from foamprb.results.vtk import Tracks
 from foamprb.settings.fluid import read_gravity
 from foamprb.view.bodies import (
+    FATE_COLUMNS,
     Bodies,
     fates_of,
     fields_of_fates,
@@ -70,6 +71,8 @@ MOST_CELLS = 250_000
 """Largest number of cells of a mesh whose flow is read for streamlines."""
 _MOST_TRAILING = 16
 """Largest number of earlier times that the trails of a picture need."""
+_OF_FATES = (*FATE_COLUMNS, "x1", "y1", "z1")
+"""Columns of ``fates`` that scenes need."""
 _TIMES_TOLERANCE = 1e-9
 PAGE_BEGINS = b"<!doctype html"
 
@@ -186,6 +189,11 @@ class _Background:
     stuck: int
     """Number of bodies on walls at the last written time."""
 
+    def read(self, frames: Sequence[int], *, drawn: bool) -> Scene:
+        """Return the scene of some times; see :func:`make_scene`."""
+        arrays = (self.colour[0], "patch", "U") if drawn else None
+        return self.scene(gather(self.run, frames, self.request.bodies, arrays))
+
     def scene(self, bodies: Bodies) -> Scene:
         """Return the scene of some bodies."""
         request, geometry, g = self.request, self.geometry, self.gravity
@@ -238,15 +246,16 @@ def make_scene(request: Request, run: Run, frames: Sequence[int], *, drawn: bool
         If files are missing or damaged, an array is unknown, the plane is not valid, or a number is out of
         range.
     """
-    background = _background(request, run, drawn=drawn)
-    arrays = (background.colour[0], "patch", "U") if drawn else None
-    return background.scene(gather(run, frames, request.bodies, arrays))
+    return _background(request, run, drawn=drawn).read(frames, drawn=drawn)
 
 
-def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
+def make_still(
+    request: Request, run: Run, most: int = MOST_DRAWN, fates: Table | None = None
+) -> Scene:
     """Return the scene of one time, by default the opening one; its colours span all times.
 
-    Without ``request.bodies`` it has at most ``most`` bodies, evenly spread over their numbers.
+    Without ``request.bodies`` it has at most ``most`` bodies, evenly spread over their numbers. The ``fates``
+    of the run are read unless they are given.
     """
     name, part = require_array(run, request.colour)
     shown, values = survey(run, name, part)
@@ -254,12 +263,12 @@ def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
     if request.bodies is None and shown[frame] > most:
         request = replace(request, bodies=most)
         log.info("The picture has %d of %d bodies.", most, shown[frame])
-    scene = make_scene(request, run, [frame], drawn=True)
+    background = _background(request, run, drawn=True, fates=fates)
+    scene = background.read([frame], drawn=True)
     if len(before := _trailing(run, frame, scene)) > 1:
-        request = replace(request, time=float(run.times[frame]))
-        scene = replace(
-            make_scene(request, run, before, drawn=True), camera=scene.camera, enlargement=scene.enlargement
-        )
+        background = replace(background, request=replace(request, time=float(run.times[frame])))
+        later = background.read(before, drawn=True)
+        scene = replace(later, camera=scene.camera, enlargement=scene.enlargement)
     if values is None or not len(values):
         return scene
     return replace(
@@ -277,7 +286,7 @@ def _trailing(run: Run, frame: int, scene: Scene) -> list[int]:
     return list(range(max(0, first, frame - _MOST_TRAILING), frame + 1))
 
 
-def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
+def _background(request: Request, run: Run, *, drawn: bool, fates: Table | None = None) -> _Background:
     if request.bodies is not None and request.bodies < 1:
         raise InputError(f"-bodies {request.bodies}: a number >= 1 is needed.")
     if request.enlargement is not None and not 0.0 < request.enlargement < math.inf:
@@ -287,7 +296,7 @@ def _background(request: Request, run: Run, *, drawn: bool) -> _Background:
             f"-range {request.range[0]:g} {request.range[1]:g}: the second must be the larger one."
         )
     colour = require_array(run, request.colour)
-    fates = run.fates()
+    fates = fates or run.fates(_OF_FATES)
     geometry, field = _surroundings(request, run, drawn=drawn)
     g = np.zeros(3)
     with suppress(InputError):

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.compile.link import link
+from foamprb.compile.link import compiled
 from foamprb.results.reading import open_regular
 
 Table = dict[str, NDArray[Any]]
@@ -122,7 +122,7 @@ class _Data:
         total = (n - 1) * block + (last or block) if n else 0
         if total > _LARGEST_RATIO * sum(packed) or total % row or total != (total if size is None else size):
             raise ValueError(f"an array has {total} bytes")
-        result, done, decompress = np.empty(total, dtype=np.uint8), 0, link(expand)
+        result, done, decompress = np.empty(total, dtype=np.uint8), 0, compiled(expand)
         self._file.seek(place + 12 + 4 * n)
         for k, length in enumerate(packed):
             part = result[done : total if k == n - 1 else done + block]

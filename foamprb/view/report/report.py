@@ -101,7 +101,7 @@ def write_report(
     geometry: Geometry | None = None
     body, on_walls, missing = "", "", _missing_record(run)
     try:
-        scene = make_still(Request(case, cloud, source, results=results), run, _MOST_BODIES)
+        scene = make_still(Request(case, cloud, source, results=results), run, _MOST_BODIES, fates)
         geometry = scene.geometry
         body = _drawn(scene)
         if len(scene.densities):
@@ -364,8 +364,7 @@ def _deformation(report: _Report) -> PageSection | None:
     indices = spread(len(run.times), _MOST_TIMES)
     quantiles = []
     for index in indices:
-        arrays = run.cloud(index, ("taylorDeformation", "status")).arrays
-        D = arrays["taylorDeformation"][arrays["status"] == Status.ACTIVE]
+        D = run.cloud(index, ("taylorDeformation", "status"), _moving).arrays["taylorDeformation"]
         quantiles.append(np.quantile(D, (0.05, 0.5, 0.95)) if len(D) else np.full(3, np.nan))
     if len(indices) > 1 and np.isfinite(quantiles).any():
         t, (low, middle, high) = run.times[indices], np.transpose(quantiles)
@@ -375,6 +374,10 @@ def _deformation(report: _Report) -> PageSection | None:
             "D of the moving particles over time: the median, and the range of nine in ten.",
         )
     return PageSection("deformation", "Deformation", grid(drawn)) if drawn else None
+
+
+def _moving(arrays: Table) -> NDArray[np.int64]:
+    return np.flatnonzero(arrays["status"] == Status.ACTIVE)
 
 
 def _beyond(fates: Table, run: Run) -> list[str]:
