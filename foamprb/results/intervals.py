@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,7 +32,6 @@ def share(count: int, total: int) -> Estimate:
     """Return the share of ``count`` of ``total`` particles, with Wilson's interval (1927)."""
     if total == 0:
         return Estimate(math.nan, math.nan, math.nan)
-    # Every run prints shares; scipy.stats, which has this interval too, takes a second to load.
     p, w = count / total, _Z * _Z / total
     middle, half = p + 0.5 * w, math.sqrt(w * (p * (1.0 - p) + 0.25 * w))
     # At its ends the interval includes 0 and 1, but for round-off.
@@ -43,17 +42,23 @@ def share(count: int, total: int) -> Estimate:
 def quantile(values: ArrayLike, p: float = 0.5) -> Estimate:
     """Return a quantile of the finite ones of some values, by default the median.
 
-    The ends of the interval are order statistics, so it holds for any distribution; few values have none.
+    The ends of the interval are order statistics, so it holds for any distribution; few values have none
+    (Conover, Practical Nonparametric Statistics, 1999, ch. 3).
     """
-    from scipy.stats import quantile_test
-
     x = np.asarray(values, dtype=float)
-    x = x[np.isfinite(x)]
-    if not len(x):
+    x = np.sort(x[np.isfinite(x)])
+    n = len(x)
+    if n == 0:
         return Estimate(math.nan, math.nan, math.nan)
-    test: Any = quantile_test(x, p=p)
-    low, high = test.confidence_interval(_LEVEL)
-    return Estimate(float(np.quantile(x, p)), float(low), float(high))
+    # The number of values below the quantile is binomial; scipy.stats takes a second to load.
+    k = np.arange(n)
+    logs = np.append(0.0, np.cumsum(np.log((n - k) / (k + 1.0) * (p / (1.0 - p)))))
+    chances = np.exp(logs - logs.max())
+    tail = 0.5 * (1.0 - _LEVEL) * chances.sum()
+    low = int(np.searchsorted(np.cumsum(chances), tail)) - 1
+    high = n - int(np.searchsorted(np.cumsum(chances[::-1]), tail, side="right"))
+    ends = (x[low] if low >= 0 else math.nan, x[high] if high < n else math.nan)
+    return Estimate(float(np.quantile(x, p)), float(ends[0]), float(ends[1]))
 
 
 def difference(a: Estimate, b: Estimate, correlation: float = 0.0) -> Estimate:

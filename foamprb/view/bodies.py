@@ -332,15 +332,19 @@ def _quantity(run: Run, name: str, values: Singles) -> Quantity:
 
 def fields_of_fates(bodies: Bodies, fates: Table) -> dict[str, Quantity]:
     """Return the :data:`FATE_COLUMNS` of ``fates.csv`` as arrays that never change."""
-    ids = fates["id"]
-    place = np.minimum(np.searchsorted(ids, bodies.ids), max(len(ids) - 1, 0))
-    there = ids[place] == bodies.ids if len(ids) else np.zeros(len(bodies.ids), dtype=bool)
+    rows, there = _rows(bodies, fates)
     columns = {}
     for name, (label, unit) in FATE_COLUMNS.items():
         values = np.full(len(bodies.ids), np.nan, dtype=np.float32)
-        values[there] = fates[name][place[there]]
+        values[there] = fates[name][rows]
         columns[name] = Quantity(name, label, unit, ("",), values[None, :, None])
     return columns
+
+
+def _rows(bodies: Bodies, fates: Table) -> tuple[NDArray[np.int64], Mask]:
+    """Return the rows of bodies in a table with rising numbers, and which bodies it has, (n,)."""
+    there = np.isin(bodies.ids, fates["id"])
+    return np.searchsorted(fates["id"], bodies.ids[there]), there
 
 
 def fates_of(bodies: Bodies, run: Run, fates: Table | None) -> Codes:
@@ -351,12 +355,10 @@ def fates_of(bodies: Bodies, run: Run, fates: Table | None) -> Codes:
     They are taken from ``fates.csv``, or without it from the last of the bodies' times.
     """
     if fates is not None:
-        columns = (fates[name].tolist() for name in ("id", "fate", "patch", TOUCHED))
-        by_id = {
-            number: _fate(fate, patch) + " at release" * bool(touched)
-            for number, fate, patch, touched in zip(*columns, strict=True)
-        }
-        words = [by_id.get(body, "unknown") for body in bodies.ids.tolist()]
+        rows, there = _rows(bodies, fates)
+        columns = (fates[name][rows].tolist() for name in ("fate", "patch", TOUCHED))
+        of_bodies = zip(*columns, strict=True)
+        words = [_fate(*next(of_bodies)) if known else "unknown" for known in there.tolist()]
     else:
         statuses, patches = (dict(enumerate(run.names.get(name, ()))) for name in ("status", "patch"))
         last = bodies.status.codes[-1]
@@ -374,8 +376,9 @@ _ORDER = {"active": 0, "stuck": 1, "escaped": 2, "failed": 3, "ruptured": 4, "re
 _JOINED = {"stuck": "stuck on", "escaped": "escaped through"}
 
 
-def _fate(status: str, patch: str) -> str:
-    return f"{_JOINED[status]} {patch}" if patch and status in _JOINED else status
+def _fate(status: str, patch: str, touched: int = 0) -> str:
+    words = f"{_JOINED[status]} {patch}" if patch and status in _JOINED else status
+    return words + " at release" * bool(touched)
 
 
 def _known(values: NDArray[Any], meanings: Sequence[str]) -> NDArray[np.uint8]:

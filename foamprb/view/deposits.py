@@ -4,15 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import dijkstra
-from scipy.spatial import cKDTree
 
-from foamprb.optional import load
 from foamprb.view.geometry import Geometry, Surface
 from foamprb.view.results import Table
-
-pyvista = load("pyvista")
 
 Floats = NDArray[np.float64]
 
@@ -48,11 +42,13 @@ def with_density(wall: Surface, x: Floats) -> Surface:
     """
     if len(x) < FEW:
         return wall
+    from scipy.spatial import cKDTree
+
     area = float(np.linalg.norm(wall.areas, axis=1).sum())
     samples, side = spread_over([wall]), np.sqrt(area)
     radius = side * max(np.sqrt(_PER_CIRCLE / (np.pi * len(x))), _WIDEST / np.sqrt(_SAMPLES))
     tree = cKDTree(samples)
-    fine = pyvista.PolyData.from_regular_faces(wall.points, wall.triangles)
+    fine = load("pyvista").PolyData.from_regular_faces(wall.points, wall.triangles)
     fine = fine.subdivide_adaptive(max_edge_len=max(0.7 * radius, _FINEST * side))
     points = np.array(fine.points, dtype=np.float64)
     # The centres of the particles are off the wall.
@@ -68,6 +64,10 @@ def ways(geometry: Geometry, starts: Floats, ends: Floats) -> tuple[Floats, floa
 
     The places are (k, 3) and (n, 3), m. The longest way to any point of the boundary, m, comes with them.
     """
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.csgraph import dijkstra
+    from scipy.spatial import cKDTree
+
     points = spread_over(geometry.surfaces)
     tree = cKDTree(points)
     lengths, near = tree.query(points, min(_NEIGHBOURS, len(points)))
