@@ -55,7 +55,7 @@ Ints = NDArray[np.int64]
 PAGE_HEIGHT = 900.0
 """Height of a picture in which texts are as large as on the page."""
 # Largest number of bodies, and steps around and from pole to pole of their spheres.
-_SPHERES = ((300, 48, 24), (5_000, 24, 12), (20_000, 12, 7), (math.inf, 6, 4))
+_SPHERES = ((300, 48, 24), (1_000, 24, 12), (5_000, 16, 9), (20_000, 12, 7), (math.inf, 6, 4))
 _MOST_MARKED = 500
 _MARK_WIDTH, _SPOT_WIDTH, _MARK_STEPS = 0.04, 0.3, 72
 _BAR = 280.0

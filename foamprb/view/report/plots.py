@@ -83,7 +83,7 @@ def _plot(draw: Callable[[Any, Any], None], height: float = 3.2) -> Plot:
     """Return the plot that a function draws on a figure and its axes; ``height`` in inches."""
     with load("matplotlib").rc_context(_STYLE):
         figure = load("matplotlib.figure").Figure(figsize=(6.4, height), layout="constrained")
-        load("matplotlib.backends.backend_agg").FigureCanvasAgg(figure)
+        pixels = load("matplotlib.backends.backend_agg").FigureCanvasAgg(figure)
         draw(figure, figure.add_subplot())
         ticker = load("matplotlib.ticker")
         for axes in figure.axes:
@@ -94,8 +94,15 @@ def _plot(draw: Callable[[Any, Any], None], height: float = 3.2) -> Plot:
         # The layout is found once, not for each file.
         figure.set_layout_engine("none")
         file, png = io.StringIO(), io.BytesIO()
-        figure.savefig(file, format="svg", metadata={"Date": None})
-        figure.savefig(png, format="png", facecolor=_PAPER, dpi=200)
+        # Figure.savefig would draw each file twice.
+        figure.set_facecolor("none")
+        load("matplotlib.backends.backend_svg").FigureCanvasSVG(figure).print_svg(
+            file, metadata={"Date": None}
+        )
+        figure.set_canvas(pixels)
+        figure.set_facecolor(_PAPER)
+        figure.set_dpi(200)
+        pixels.print_png(png)
     text = file.getvalue()
     alone = re.sub(r"(<svg[^>]*>)", rf'\1<rect width="100%" height="100%" fill="{_PAPER}"/>', text, count=1)
     return Plot(_inline(text), alone.encode(), png.getvalue())
