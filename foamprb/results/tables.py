@@ -133,9 +133,7 @@ def read_table(
     if mixed:
         # Some of the rows look like numbers.
         return read_table(path, {*words, *mixed}, wanted)
-    return {
-        name: np.concatenate(parts or [_typed((), name in words)]) for name, parts in columns.items()
-    }
+    return {name: np.concatenate(parts or [_typed((), name in words)]) for name, parts in columns.items()}
 
 
 def _typed(words: Sequence[str], stay: bool) -> NDArray[Any]:

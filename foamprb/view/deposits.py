@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.optional import load
 from foamprb.view.geometry import Geometry, Surface
 from foamprb.view.results import Table
 

@@ -249,9 +249,7 @@ def make_scene(request: Request, run: Run, frames: Sequence[int], *, drawn: bool
     return _background(request, run, drawn=drawn).read(frames, drawn=drawn)
 
 
-def make_still(
-    request: Request, run: Run, most: int = MOST_DRAWN, fates: Table | None = None
-) -> Scene:
+def make_still(request: Request, run: Run, most: int = MOST_DRAWN, fates: Table | None = None) -> Scene:
     """Return the scene of one time, by default the opening one; its colours span all times.
 
     Without ``request.bodies`` it has at most ``most`` bodies, evenly spread over their numbers. The ``fates``

@@ -221,34 +221,6 @@ def gather_faces(
     start[face] = at
 
 
-def group_faces(owner: Ints, neighbour: Ints, first: Ints, of_cell: Ints) -> None:
-    """List the faces of each cell in their order.
-
-    Parameters
-    ----------
-    owner, neighbour
-        The cells of each face (n,) and (n_internal,).
-    first, of_cell
-        Results: the faces of cell c are ``of_cell[first[c]]`` to ``of_cell[first[c + 1] - 1]``; ``first``
-        (n_cells + 1,) must hold zeros.
-    """
-    n_cells = first.shape[0] - 1
-    for f in range(owner.shape[0]):
-        first[owner[f] + 1] += 1
-    for f in range(neighbour.shape[0]):
-        first[neighbour[f] + 1] += 1
-    for c in range(n_cells):
-        first[c + 1] += first[c]
-    for f in range(owner.shape[0]):
-        for side in range(2 if f < neighbour.shape[0] else 1):
-            c = owner[f] if side == 0 else neighbour[f]
-            of_cell[first[c]] = f
-            first[c] += 1
-    for c in range(n_cells, 0, -1):
-        first[c] = first[c - 1]
-    first[0] = 0
-
-
 def list_points(
     first: Ints, of_cell: Ints, start: Ints, lists: Ints, last: Ints, begin: Ints, points: Ints
 ) -> None:

@@ -13,7 +13,6 @@ from foamprb.flow.mesh.faces import (
     Faces,
     choose_bases,
     gather_faces,
-    group_faces,
     list_points,
     measure_cells,
     measure_faces,
@@ -32,15 +31,17 @@ class HalfFaces(NamedTuple):
 
 def faces_of(start: Ints, points: Ints, owner: Ints, neighbour: Ints, n_cells: int) -> Faces:
     """Return faces with the lists of the cells; faces whose owner is not the lower cell are turned."""
-    first, of_cell = (
-        np.zeros(n_cells + 1, dtype=np.int32),
-        np.empty(len(owner) + len(neighbour), dtype=np.int32),
-    )
-    faces = Faces(start, points, owner, neighbour, first, of_cell)
+    cells = np.concatenate([owner, neighbour]).astype(np.int64)
+    first = starts(np.bincount(cells, minlength=n_cells)).astype(np.int32)
+    # Pairs of a cell and a face, in order; compiled code would be loaded for this only in foamprb info.
+    pairs = cells << 32
+    pairs[: len(owner)] += np.arange(len(owner))
+    pairs[len(owner) :] += np.arange(len(neighbour))
+    pairs.sort()
+    faces = Faces(start, points, owner, neighbour, first, pairs.astype(np.int32))
     wrong = np.flatnonzero(owner[: len(neighbour)] > neighbour)
     owner[wrong], neighbour[wrong] = neighbour[wrong], owner[wrong]
     faces.turn(wrong)
-    link(group_faces)(owner, neighbour, first, of_cell)
     return faces
 
 
