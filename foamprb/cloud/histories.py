@@ -15,7 +15,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.history import history
 
-_BYTES = 2**28
+_BYTES = 2**30
 """Of the histories that are computed together."""
 
 
@@ -37,7 +37,8 @@ def along_history(
     gradients
         (n, m, 3, 3), ∂u_i/∂x_j that each body feels at these times, 1/s; also a :class:`numpy.memmap`, of
         which a part is read at a time. Between two times they are linear, so that a smooth history is
-        followed to second order of their distance.
+        followed to second order of their distance. Steps span several times where the tolerance allows it and
+        the gradient hardly bends.
     particles
         (n,) bodies, in their states at the first time; they are left as they are.
     medium
@@ -45,7 +46,7 @@ def along_history(
     models
         By default those of :class:`~foamprb.cloud.tracker.Models`.
     every
-        Return every so many times only.
+        Return every so many times only; there steps end.
     threads
         By default all.
 
@@ -86,8 +87,7 @@ def along_history(
         # Each has the history of its number, wherever it was before.
         p.host[:], p.t0[:], p.t[:] = -1, t[0], t[0]
         dt = (t[-1] - t[0]) / (m - 1)
-        # A step that spans several times would not see those between.
-        chosen = replace(models, stride=1)
+        chosen = replace(models, stride=every)
         cloud = Cloud(p, flow, medium, (), dt, chosen, threads or available_threads(), start=float(t[0]))
         found[some, 0] = p.F
         for k in range(1, found.shape[1]):

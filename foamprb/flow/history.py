@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from foamprb.body.tensor import Tensor, Vector
+from foamprb.body.tensor import Tensor, Vector, add, add_scaled, ddot, scale, subtract
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free
 from foamprb.flow.base import Floats, Ints
@@ -41,6 +41,69 @@ def sample_history(flow: HistoryArrays, host: int, x: Vector, t: float) -> tuple
         e * g[host, k, 8] + f * g[host, k + 1, 8],
     )
     return zero, l, zero
+
+
+_ROUND_OFF = 1e-6
+"""Of times, in their distances."""
+_BEND, _LEAST_BEND = 1.0 / 16.0, 1e-10
+"""Largest part of the gradient quadratic in time over the linear one, in a step that spans several times, and
+over the mean.
+
+Errors of steps of order 2, which use the linear one alone, thus stay below twice their tolerance.
+"""
+
+
+def parabola_of_history(
+    flow: HistoryArrays, host: int, t0: float, t1: float
+) -> tuple[float, float, Tensor, Tensor, Tensor]:
+    """Return the least-squares parabola through the gradients of the body ``host`` in a step.
+
+    Parabola and gradient have the same integrals against 1, t and t². A step over which the gradient bends
+    too much ends earlier, at a time of the history. For the values see
+    :func:`foamprb.flow.kernels.parabola`.
+    """
+    a, b, most = (t0 - flow.start) * flow.rate, (t1 - flow.start) * flow.rate, math.inf
+    first = int(a + _ROUND_OFF)
+    mean, slope, bend = _moments(flow.gradients, host, a, b)
+    while b > first + 1 + _ROUND_OFF and _bends(mean, slope, bend):
+        b = max(first + 1.0, np.floor(a + 0.5 * (b - a)))
+        t1 = flow.start + b / flow.rate
+        most = max(t1 - t0, 1.0 / flow.rate)
+        mean, slope, bend = _moments(flow.gradients, host, a, b)
+    ends = add(mean, bend)
+    return t1, most, subtract(ends, slope), add_scaled(mean, -0.5, bend), add(ends, slope)
+
+
+def _bends(mean: Tensor, slope: Tensor, bend: Tensor) -> bool:
+    """Return True if the gradient bends too much for one step, beyond round-off."""
+    least = _LEAST_BEND**2 * ddot(mean, mean)
+    return bool(ddot(bend, bend) > _BEND**2 * ddot(slope, slope) + least)
+
+
+def _moments(g: Floats, host: int, a: float, b: float) -> tuple[Tensor, Tensor, Tensor]:
+    """Return the coefficients of Legendre's polynomials 1, 2s − 1, 6s² − 6s + 1, s from 0 to 1 in [a, b]."""
+    zero = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    mean, slope, bend = zero, zero, zero
+    most, per_step = g.shape[1] - 2, 1.0 / (b - a)
+    first, last = min(max(int(a + _ROUND_OFF), 0), most), min(max(math.ceil(b - _ROUND_OFF) - 1, 0), most)
+    for k in range(first, last + 1):
+        low, high = a if k == first else float(k), b if k == last else k + 1.0
+        # Between two times the gradient is p (1 - f) + q f.
+        f, d, c = 0.5 * (low + high) - k, (high - low) * per_step, (0.5 * (low + high) - a) * per_step
+        change, odd, even = high - low, 2.0 * c - 1.0, 1.5 * (2.0 * c - 1.0) ** 2 - 0.5 + 0.5 * d * d
+        p = (
+            g[host, k, 0], g[host, k, 1], g[host, k, 2], g[host, k, 3], g[host, k, 4],
+            g[host, k, 5], g[host, k, 6], g[host, k, 7], g[host, k, 8],
+        )  # fmt: skip
+        q = (
+            g[host, k + 1, 0], g[host, k + 1, 1], g[host, k + 1, 2], g[host, k + 1, 3], g[host, k + 1, 4],
+            g[host, k + 1, 5], g[host, k + 1, 6], g[host, k + 1, 7], g[host, k + 1, 8],
+        )  # fmt: skip
+        m, rise = add_scaled(scale(1.0 - f, p), f, q), scale(change, subtract(q, p))
+        mean = add_scaled(mean, d, m)
+        slope = add_scaled(add_scaled(slope, 3.0 * d * odd, m), 0.5 * d * d, rise)
+        bend = add_scaled(add_scaled(bend, 5.0 * d * even, m), 2.5 * d * d * odd, rise)
+    return mean, slope, bend
 
 
 class HistoryFlow(AnalyticFlow):
@@ -91,5 +154,5 @@ def history(times: ArrayLike, gradients: ArrayLike) -> HistoryFlow:
     if not np.isfinite(g).all():
         raise InputError(f"gradients: {np.count_nonzero(~np.isfinite(g))} numbers are not finite.")
     arrays = HistoryArrays(float(t[0]), 1.0 / step, g.reshape(len(g), len(t), 9))
-    kernels: dict[str, Callable[..., Any]] = {"sample": sample_history, "gap": gap_free}
+    kernels = {"sample": sample_history, "gap": gap_free, "parabola": parabola_of_history}
     return HistoryFlow(arrays, kernels)

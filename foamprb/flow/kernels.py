@@ -27,6 +27,7 @@ __all__ = [
     "linked_with",
     "named",
     "normal",
+    "parabola",
     "recover",
     "ride",
     "rotation_at",
@@ -98,6 +99,21 @@ def _ahead_by(walk: Function, sample: Function) -> Function:
 
 
 sample_ahead = kernel(_ahead_by(walk, sample))
+
+
+@kernel
+def parabola(
+    flow: object, host: int, t0: float, t1: float
+) -> tuple[float, float, Tensor, Tensor, Tensor]:
+    """Return the gradient over a step as a parabola in time, in flows that know it better than by samples.
+
+    Returns
+    -------
+    The end of the step, s, t1 or earlier; the longest next step, s; ∂u_i/∂x_j at the start, in the middle
+    and at the end, 1/s.
+    """
+    zero = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return t1, math.inf, zero, zero, zero
 
 
 @kernel
@@ -175,14 +191,15 @@ def behind(kernels: Mapping[str, Function]) -> dict[Function, Function]:
     return {_BY_NAME[name]: function for name, function in kernels.items() if name in _BY_NAME}
 
 
-def inlined(kernels: Mapping[str, Function]) -> tuple[Function, Function]:
-    """Return ``sample`` and ``sample_ahead`` of a flow with the parameters of the kernels, to be inlined.
+def inlined(kernels: Mapping[str, Function]) -> tuple[Function, Function, Function | None]:
+    """Return ``sample``, ``sample_ahead`` and ``parabola`` of a flow as kernels have them, to be inlined.
 
-    Their first argument is not packed.
+    Their first argument is not packed. The last one is None in most flows.
     """
     own = {name: conform(_BY_NAME[name], function) for name, function in kernels.items() if name in _BY_NAME}
     start = own.get("sample", sample)
-    return start, own.get("sample_ahead") or _ahead_by(own.get("walk", walk), start)
+    ahead = own.get("sample_ahead") or _ahead_by(own.get("walk", walk), start)
+    return start, ahead, own.get("parabola")
 
 
 def named(*functions: Function) -> dict[str, Function]:

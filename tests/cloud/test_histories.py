@@ -33,7 +33,9 @@ def test_constant_histories_are_linear_flows(monkeypatch):
     assert found.shape == (3, 6, 3, 3)
     for k, rate in enumerate(rates):
         p = soft(1)
-        Cloud(p, analytic.linear(rate * SHEAR), OIL, (), 2e-3, Models(stride=1)).advance(25)
+        cloud = Cloud(p, analytic.linear(rate * SHEAR), OIL, (), 2e-3, Models(stride=5))
+        for _ in range(5):
+            cloud.advance(5)
         np.testing.assert_allclose(found[k, -1], p.F.reshape(3, 3), rtol=1e-9, atol=1e-9)
 
 
@@ -61,6 +63,18 @@ def test_histories_in_a_turning_frame_turn_the_shapes_to_second_order():
         errors.append(np.abs(turned - Q @ still).max())
     assert errors[0] < 2e-3
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.15)
+
+
+def test_steps_over_many_times_meet_the_tolerance():
+    """The same line through few times, and through many that steps span: with a kink, at which they end."""
+    rates = np.interp(np.linspace(0.0, 0.1, 1601), [0.0, 0.0625, 0.1], [0.0, 3.0, -1.0])
+    l, ends = rates[:, None, None] * SHEAR, []
+    for every in (1, 100):
+        few = l[None, ::every]
+        ends.append(
+            along_history(np.linspace(0.0, 0.1, len(few[0])), few, soft(1), OIL, Models(tolerance=1e-6), 16)
+        )
+    np.testing.assert_allclose(ends[0][0, -1], ends[1][0, -1], atol=1e-5)
 
 
 @pytest.mark.filterwarnings("ignore::foamprb.errors.FailedParticlesWarning")

@@ -393,6 +393,28 @@ def _ends_by(sample_ahead: Function) -> Function:
     return sample_ends
 
 
+def _steps_by(parabola: Function) -> Function:
+    def sample_ends(flow: object, block: Block, hosts: Any, ahead: Any) -> None:
+        """Store the gradient over whole steps, which may end earlier; nothing moves."""
+        for i in range(LANES):
+            if block[at.moving * LANES + i] > 0.0:
+                t, size, h = block[at.t * LANES + i], block[at.dt * LANES + i], block[at.h * LANES + i]
+                t_end, most, start, middle, end = parabola(flow, hosts[i], t, t + size)
+                ahead[i] = hosts[i]
+                block[at.dt * LANES + i], block[at.h * LANES + i] = t_end - t, min(h, most)
+                added = add(load9(block, at.l, i), scale(-1.0, load9(block, during.start_l, i)))
+                store9(block, at.l, i, add(added, start))
+                store9(block, during.start_l, i, start)
+                store9(block, during.middle_l, i, middle)
+                store9(block, during.end_l, i, end)
+                block[during.room * LANES + i], block[during.entered * LANES + i] = math.inf, 0.0
+                store3(block, during.end_u, i, (0.0, 0.0, 0.0))
+                store3(block, during.end_ut, i, (0.0, 0.0, 0.0))
+                store3(block, during.ahead, i, load3(block, at.new_x, i))
+
+    return sample_ends
+
+
 def _middles_by(sample_ahead: Function) -> Function:
     def sample_middles(flow: object, block: Block, hosts: Any, every: bool) -> None:
         for i in range(LANES):
@@ -411,7 +433,9 @@ def _middles_by(sample_ahead: Function) -> Function:
 
 def sampling(kernels: Mapping[str, Function]) -> dict[Function, Function]:
     """Return the functions behind the slots by which the loop samples a flow, with its kernels inlined."""
-    sample, sample_ahead = inlined(kernels)
+    sample, sample_ahead, parabola = inlined(kernels)
+    if parabola:
+        return {sample_starts: _starts_by(sample), sample_ends: _steps_by(parabola)}
     return {
         sample_starts: _starts_by(sample),
         sample_ends: _ends_by(sample_ahead),
