@@ -102,9 +102,7 @@ sample_ahead = kernel(_ahead_by(walk, sample))
 
 
 @kernel
-def parabola(
-    flow: object, host: int, t0: float, t1: float
-) -> tuple[float, float, Tensor, Tensor, Tensor]:
+def parabola(flow: object, host: int, t0: float, t1: float) -> tuple[float, float, Tensor, Tensor, Tensor]:
     """Return the gradient over a step as a parabola in time, in flows that know it better than by samples.
 
     Returns
