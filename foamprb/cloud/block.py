@@ -91,6 +91,8 @@ class Rows(NamedTuple):
     verdict: Annotated[int, Row(1, "", "reason why the new state is not sound; 0 if it is")]
     length: Annotated[int, Row(1, "m", "longest semi-axis, or a little more", lasting=True)]
     clearance: Annotated[int, Row(1, "m", "gap between the body and the nearest wall", lasting=True)]
+    reaction: Annotated[int, Row(3, "m2/s", "reactions of up to three walls in the step, over μ_f")]
+    contact_normal: Annotated[int, Row(9, "1", "normals of these walls, into the fluid")]
     maxStretch: Annotated[int, Row(1, "1", "largest stretch of F that is allowed", lasting=True)]
     maxLength: Annotated[int, Row(1, "m", "longest semi-axis that is allowed", lasting=True)]
     taken: Annotated[

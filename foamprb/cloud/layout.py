@@ -52,7 +52,7 @@ class Row(NamedTuple):
 MOST_TIMES, MOST_FIELDS = 60, 60
 """Relaxation times of a solid, and components of the fields that forces need, at most."""
 _ROOMS: tuple[tuple[int, tuple[str, ...]], ...] = (
-    (160, ("Rows",)),
+    (172, ("Rows",)),
     (80, ("StepRows",)),
     (180, ("RelaxationRows", "StiffnessRows")),
     (12, ("LargestRows",)),

@@ -45,7 +45,7 @@ from foamprb.cloud.contact import first_contact, gap_of_lane, on_cubic, record_c
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK
 from foamprb.cloud.paths import note_passage
-from foamprb.cloud.pressing import approach, push_out, redirect
+from foamprb.cloud.pressing import approach, carries_reaction, push_out, reaction_on, redirect
 from foamprb.cloud.state import Particles, Reason, Status
 from foamprb.compile.link import separate, slot
 from foamprb.compile.record import record
@@ -67,7 +67,7 @@ SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is joined to the next."""
 UNLISTED = 1
 """Value of :attr:`~foamprb.cloud.block.Scratch.outgrown`: a body may touch walls that are not listed."""
-_TOUCH = 1e-6
+TOUCH = 1e-6
 """Gap, in radii, that may be round-off of a body in contact."""
 _OTHER_WALL = 0.1
 """Distance of a wall before a step, in radii beyond the gap, from which on another wall was nearest."""
@@ -586,8 +586,9 @@ def touch(
         return f
     after, patch, triangle = clearance_of(flow, s, i, t + h)
     block[at.clearance * LANES + i] = after
-    rests = _TOUCH * block[at.R * LANES + i]
-    if after > 0.0:
+    rests = TOUCH * block[at.R * LANES + i]
+    held = patch >= 0 and patches.code[patch] == REBOUND and carries_reaction(block, i)
+    if after > 0.0 and not held:
         if after <= rests and before <= rests:
             form_bond(flow, patches, s, i, patch, t + h, h)
         return 1.0
@@ -656,11 +657,11 @@ def meet_wall(
     # A step that ended on the wall, by chance, was no contact: a body at rest has no speed towards the wall.
     came, towards = approach(block, i, n)
     came, towards = came - inner(W, n), towards - inner(W, n)
-    flew = came < 0.5 * min(towards, 0.0) and (fall < -_CAME * R or before > _TOUCH * R)
-    rests = before <= _TOUCH * R or (bouncing > 0 and before <= _CAME * R and not flew)
+    flew = came < 0.5 * min(towards, 0.0) and (fall < -_CAME * R or before > TOUCH * R)
+    rests = before <= TOUCH * R or (bouncing > 0 and before <= _CAME * R and not flew)
     if bouncing > 0 and not turned and (flew or not rests):
         return bounce(flow, patches, s, i, way, met, n, before, after, t, h)
-    f = before / (before - after) if before > 0.0 else 0.0
+    f = before / (before - after) if before > 0.0 >= after else 0.0
     if not rests:
         record_contact(s, i, patch, t + f * h, between(start, goal, f), n)
     e = 0.0 if rests and bouncing > 0 else patches.e[patch]
@@ -681,9 +682,11 @@ def meet_wall(
         store3(block, at.x, i, place)
         into, patch, triangle = clearance_of(flow, s, i, t + h)
         block[at.clearance * LANES + i] = into
-        if into >= -_TOUCH * R or patch < 0 or patches.code[patch] != REBOUND:
+        if abs(into) <= TOUCH * R or patch < 0 or patches.code[patch] != REBOUND:
             break
         x, n = place, normal(flow, triangle, place, t + h)
+        if into > 0.0 and (reflected or reaction_on(block, i, n) == 0.0):
+            break
         bounce_along(block, i, n)
         goal = push_out(block, i, n, x, -into, 0.0, W)
     return 1.0

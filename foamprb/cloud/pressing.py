@@ -52,6 +52,8 @@ from foamprb.compile.link import separate, slot
 
 _MOST_TURN = 0.2
 """Largest strain or angle of one push."""
+SAME_NORMAL = 0.9999
+"""Cosine of the angle between two walls above which they are one."""
 _FLATTEST = 0.2
 """Reach to a wall, in radii, below which a solid is pressed no flatter: it would not keep its volume."""
 
@@ -82,20 +84,19 @@ class Push(NamedTuple):
 
 def push_of(block: Block, i: int, n: Vector, h: Scalar) -> Push:
     """Return the response of lane i to a reaction along n at its point of contact, for h, s."""
-    F = load9(block, at.F, i)
+    F, Q = load9(block, at.F, i), load9(block, at.frame, i)
     # Those in the block are of the last evaluation, which may be one that other lanes needed.
-    stretches, _ = stretches_in_frame(F, load9(block, at.frame, i))
+    stretches, _ = stretches_in_frame(F, Q)
     store3(block, at.stretch, i, stretches)
     store_integrals(block, i, integrals(stretches))
-    return _push_at(block, i, n, point_of_contact(block, i, F, n), h)
+    return push_at(block, i, Q, n, point_of_contact(block, i, F, n), h)
 
 
-def _push_at(block: Block, i: int, n: Vector, r: Vector, h: Scalar) -> Push:
-    """Return the response of lane i to a unit force along n at r that lasts for h, s.
+def push_at(block: Block, i: int, Q: Tensor, n: Vector, r: Vector, h: Scalar) -> Push:
+    """Return the response of lane i, whose shape is in the block, to a unit force along n at r for h, s.
 
     Over a time h elasticity is as stiff as a viscosity μ h, and a mass m as a resistance m/h.
     """
-    Q = load9(block, at.frame, i)
     K = hindered_resistance(resistances(block, i), hindrance_by_walls(block, i))
     mass, inertia, dilation = inertia_over(block, i, h)
     v = vector_dot(dot_vector(inverse(add_identity(K, mass)), dot_vector(Q, n)), Q)
@@ -205,26 +206,58 @@ def push_along_mobility(
     The new place of its centre. It is so to first order; call again for what is left.
     """
     F = load9(block, at.F, i)
+    h = block[at.dt * LANES + i]
+    # The reaction in the step may become less by it.
+    carried = h * reaction_on(block, i, n)
     c = _push_of_step(block, i, n)
-    N = _reaction(c, width)
+    N = _reaction(c, width, carried)
     # The reaction at half of the way: a body that turns is pushed along a curve.
     _set_shape(block, i, dot(group_exponential(scale(0.5 * N, c.l)), F))
     c = _push_of_step(block, i, n)
-    N = _reaction(c, width)
+    N = _reaction(c, width, carried)
+    _add_reaction(block, i, n, N / h)
     v, l = minus(load3(block, at.v, i), W), dot(load9(block, at.A, i), inverse(F))
-    slip = scale_vector(block[at.dt * LANES + i], _slip(v, l, c.r, n))
-    way, turn = _with_friction(block, i, c, N, mu, slip, (0.0, 0.0, 0.0), ZERO)
+    slip = scale_vector(h, _slip(v, l, c.r, n))
+    way, turn = _with_friction(block, i, c, N, mu * (N + carried), slip, (0.0, 0.0, 0.0), ZERO)
     F = dot(group_exponential(turn), F)
     _set_shape(block, i, F)
     store9(block, at.A, i, dot(l, F))
     return plus(x, way)
 
 
-def _reaction(c: Push, width: float) -> float:
-    """Return the reaction over μ_f and time that widens the gap, less if the body would turn by too much."""
-    N = width / c.rate
+def _reaction(c: Push, width: float, carried: float) -> float:
+    """Return the reaction over μ_f and time that widens the gap, less if the body would turn by too much.
+
+    A wall does not pull: with ``carried``, the reaction already in the step, it is not negative.
+    """
+    N = max(width / c.rate, -carried)
     most = abs(N) * max(norm(c.l[:3]), norm(c.l[3:6]), norm(c.l[6:]))
     return float(N * min(1.0, _MOST_TURN / (most + 1e-300)))
+
+
+def reaction_on(block: Block, i: int, n: Vector) -> float:
+    """Return the reaction over μ_f, m²/s, of a wall of normal n on lane i in the step."""
+    N = 0.0
+    for k in range(3):
+        same = inner(load3(block, at.contact_normal + 3 * k, i), n) > SAME_NORMAL
+        N += block[(at.reaction + k) * LANES + i] if same else 0.0
+    return N
+
+
+def carries_reaction(block: Block, i: int) -> bool:
+    """Return whether lane i carries a reaction of any wall in the step."""
+    x, y, z = load3(block, at.reaction, i)
+    return bool(x + y + z > 0.0)
+
+
+def _add_reaction(block: Block, i: int, n: Vector, N: float) -> None:
+    """Add to the reaction of the wall of normal n, of up to three."""
+    for k in range(3):
+        same = inner(load3(block, at.contact_normal + 3 * k, i), n) > SAME_NORMAL
+        if same or block[(at.reaction + k) * LANES + i] == 0.0:
+            block[(at.reaction + k) * LANES + i] += N
+            store3(block, at.contact_normal + 3 * k, i, n)
+            return
 
 
 def _set_shape(block: Block, i: int, F: Tensor) -> None:
@@ -253,14 +286,18 @@ def push_solid(block: Block, i: int, n: Vector, x: Vector, width: float, mu: flo
     c, F = _push_of_step(block, i, n), load9(block, at.F, i)
     v, l = minus(load3(block, at.v, i), W), dot(load9(block, at.A, i), inverse(F))
     P = -min(speed_at(v, l, c.r, n), 0.0) / c.rate
-    v, l = _with_friction(block, i, c, P, mu, _slip(v, l, c.r, n), v, l)
+    v, l = _with_friction(block, i, c, P, mu * P, _slip(v, l, c.r, n), v, l)
     store3(block, at.v, i, plus(v, W))
     store9(block, at.A, i, dot(l, F))
     return x
 
 
 def _push_of_step(block: Block, i: int, n: Vector) -> Push:
-    c = push_of(block, i, n, block[at.dt * LANES + i])
+    return unstrained_if_hindered(block, i, n, push_of(block, i, n, block[at.dt * LANES + i]))
+
+
+def unstrained_if_hindered(block: Block, i: int, n: Vector, c: Push) -> Push:
+    """Return the push of lane i, without strain where a wall hinders the body: its load has strained it."""
     if largest(hindrance_by_walls(block, i)) > 0.0:
         l = skew(c.l)
         return Push(c.v, l, c.r, speed_at(c.v, l, c.r, n))
@@ -274,13 +311,13 @@ def _slip(v: Vector, l: Tensor, r: Vector, n: Vector) -> Vector:
 
 
 def _with_friction(
-    block: Block, i: int, c: Push, N: float, mu: float, slip: Vector, v: Vector, l: Tensor
+    block: Block, i: int, c: Push, N: float, most: float, slip: Vector, v: Vector, l: Tensor
 ) -> tuple[Vector, Tensor]:
-    """Return v and l with the push by N, and by friction of up to mu N against the slip."""
+    """Return v and l with the push by N, and by friction of up to ``most`` against the slip."""
     v, l = plus_scaled(v, N, c.v), add(l, scale(N, c.l))
-    if mu == 0.0:
+    if most <= 0.0:
         return v, l
-    size = norm(slip)
-    t = _push_at(block, i, scale_vector(-1.0 / (size + 1e-300), slip), c.r, block[at.dt * LANES + i])
-    T = min(mu * N, size / (t.rate + 1e-300))
+    size, Q = norm(slip), load9(block, at.frame, i)
+    t = push_at(block, i, Q, scale_vector(-1.0 / (size + 1e-300), slip), c.r, block[at.dt * LANES + i])
+    T = min(most, size / (t.rate + 1e-300))
     return plus_scaled(v, T, t.v), add(l, scale(T, t.l))

@@ -22,7 +22,7 @@ from foamprb.cloud.contact import CROWDED, GAPS, contact_normals, gap, in_order
 from foamprb.cloud.drops import DROP
 from foamprb.cloud.elastic import functions_of_solid
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose, sum_of_forces
-from foamprb.cloud.integrators.adaptive import sampling, stretch_of
+from foamprb.cloud.integrators.adaptive import apply_reactions, find_reactions, sampling, stretch_of
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.lanes import PAUSED
 from foamprb.cloud.layout import LANES, load_rows, rows_of, save_rows
@@ -213,7 +213,7 @@ class Tracker:
             or models.touching == "centre"
         ):
             # Contact moves the centre alone.
-            for one in (approach, redirect, push_out):
+            for one in (approach, redirect, push_out, find_reactions, apply_reactions):
                 self.slots.pop(one, None)
         self.kernels = kernels
         self.switches = integrator.switches._replace(**composed.switches)

@@ -316,6 +316,17 @@ def correct_path(_block: Block) -> None:
 
 
 @slot
+def find_reactions(_flow: object, _patches: PatchTable, _s: Scratch, _medium: Medium, _share: float) -> int:
+    """Return 0: no body carries reactions of walls through a step."""
+    return 0
+
+
+@slot
+def apply_reactions(_block: Block) -> None:
+    """No-op: there are none."""
+
+
+@slot
 def end_slope(_block: Block, _medium: Medium) -> None:
     """Compute the rates at the ends of calls."""
 
@@ -506,7 +517,7 @@ def track_adaptive(
             drop_unfinished(scratch)
             break
         if updates_end > 0 and (moving == 0 or scratch.counts[ENDED] >= LANES) and has_ended(scratch):
-            update_ends(flow, medium, p, scratch, last)
+            update_ends(flow, patches, medium, p, scratch, last)
             continue
         if moving == 0:
             break
@@ -528,11 +539,14 @@ def track_adaptive(
         begin_stage(block)
         update_surroundings(flow, scratch, medium)
         evaluate_shape(block, medium, 0.0)
+        resting = find_reactions(flow, patches, scratch, medium, 1.0)
         predict(block, medium)
         sample_ends(flow, block, scratch.host, scratch.ahead)
         look_ahead(flow, scratch, medium)
         first_slope(block, medium)
         evaluate_shape(block, medium, 1.0)
+        if resting:
+            apply_reactions(block)
         second_slope(block, medium, enough)
         thirds = count_thirds(block)
         if rough or thirds:
@@ -540,6 +554,8 @@ def track_adaptive(
         if thirds:
             last_argument(block, medium)
             evaluate_shape(block, medium, 1.0)
+            if resting:
+                apply_reactions(block)
             third_slope(block, medium, enough)
         if rough:
             correct_path(block)
@@ -733,7 +749,9 @@ def has_ended(s: Scratch) -> bool:
 
 
 @separate
-def update_ends(flow: object, medium: Medium, p: Particles, s: Scratch, last: int) -> None:
+def update_ends(
+    flow: object, patches: PatchTable, medium: Medium, p: Particles, s: Scratch, last: int
+) -> None:
     """Apply ``end_slope`` to finished particles, and save them.
 
     ``last`` is the tracking step after the last.
@@ -752,9 +770,11 @@ def update_ends(flow: object, medium: Medium, p: Particles, s: Scratch, last: in
             u, l_f, u_t = sample(flow, s.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
+            store9(block, during.start_l, i, l_f)
             block[during.held_from * LANES + i], block[during.remaining * LANES + i] = last - 1.0, 0.0
     update_surroundings(flow, s, medium)
     evaluate_shape(block, medium, 0.0)
+    find_reactions(flow, patches, s, medium, 0.0)
     end_slope(block, medium)
     for i in range(LANES):
         if s.member[i] >= 0 and not interrupted(s):

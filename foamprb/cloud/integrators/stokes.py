@@ -68,6 +68,7 @@ from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE,
     acceleration_at_end,
     add_disturbance_error,
+    apply_reactions,
     choose_order,
     correct_path,
     counted_error,
@@ -76,6 +77,7 @@ from foamprb.cloud.integrators.adaptive import (
     end_acceleration,
     end_slope,
     error_share,
+    find_reactions,
     finish_path,
     first_slope,
     fluid_acceleration,
@@ -94,6 +96,7 @@ from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, layout, offsets
 from foamprb.cloud.paths import RecordedRows
 from foamprb.cloud.pressing import push_along_mobility, push_out
+from foamprb.cloud.reactions import add_reactions, balance_walls, free_motion
 from foamprb.compile.link import traced
 
 
@@ -319,9 +322,19 @@ def end_inertialess(block: Block, medium: Medium) -> None:
         l_s = _gradient(block, i, medium)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         store9(block, at.A, i, choose(moving, dot(l_s, F), A))
-        slip = slip_of_body(block, i, medium, load9(block, at.l, i), load3(block, at.DuDt, i))
+        slip = slip_of_body(block, i, medium, load9(block, during.start_l, i), load3(block, at.DuDt, i))
         v = plus(load3(block, at.u, i), slip)
         store3(block, at.v, i, choose3(moving, v, load3(block, at.v, i)))
+
+
+def free_motion_inertialess(block: Block, i: int, medium: Medium, h: float) -> tuple[Vector, Tensor]:
+    """Return v, m/s, and l_s, 1/s, at the start of a step h, with elasticity as a viscosity μ h."""
+    eta = block[at.eta * LANES + i]
+    block[at.eta * LANES + i] = eta + block[at.mu * LANES + i] * h
+    l = _gradient(block, i, medium)
+    block[at.eta * LANES + i] = eta
+    slip = slip_of_body(block, i, medium, load9(block, during.start_l, i), load3(block, at.DuDt, i))
+    return plus(load3(block, at.u, i), slip), l
 
 
 def _response(
@@ -436,6 +449,9 @@ STOKES = Integrator(
         correct_path: correct_inertialess,
         end_slope: end_inertialess,
         push_out: push_along_mobility,
+        find_reactions: balance_walls,
+        apply_reactions: add_reactions,
+        free_motion: free_motion_inertialess,
     },
     switches=Switches(updates_end=1),
     adaptive=True,
