@@ -13,9 +13,10 @@ from typing import Annotated, ClassVar, NamedTuple
 import numpy as np
 
 from foamprb.body.bonds import exponential_deviate, force_on_held_sphere, off_rate
+from foamprb.body.tensor import Vector, dot
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud import lanes, motion
-from foamprb.cloud.block import Scratch, at, load3, store3
+from foamprb.cloud.block import Scratch, at, load3, load9, store3, store9
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
@@ -34,7 +35,7 @@ from foamprb.cloud.patches import STICK
 from foamprb.cloud.paths import record_rest
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import Slots
-from foamprb.flow.kernels import sample
+from foamprb.flow.kernels import ride, sample
 
 _KIND = np.uint64(5)
 """Second word of the key of these random numbers; the seed is the first."""
@@ -60,9 +61,9 @@ def hazard_until_change(patches: PatchTable, s: Scratch, i: int, patch: int) -> 
     return float(exponential_deviate(number, change, key) - s.block[bonds.hazard * LANES + i])
 
 
-def rate_of_shear(flow: object, s: Scratch, i: int, t: float) -> float:
-    """Return the shear rate of the fluid at lane i at a time, 1/s."""
-    _, l_f, _ = sample(flow, s.host[i], load3(s.block, at.x, i), t)
+def rate_of_shear(flow: object, s: Scratch, i: int, x: Vector, t: float) -> float:
+    """Return the shear rate of the fluid around lane i, at x, at a time, 1/s."""
+    _, l_f, _ = sample(flow, s.host[i], x, t)
     return float(shear_rate(l_f))
 
 
@@ -77,7 +78,7 @@ def form_bond(flow: object, patches: PatchTable, s: Scratch, i: int, patch: int,
     rate = patches.bonds[patch, BOND_FORMS]
     if not (rate > 0.0 and h > 0.0 and s.status[i] == ACTIVE):
         return
-    if rate_of_shear(flow, s, i, t) > patches.bonds[patch, BOND_LIMIT]:
+    if rate_of_shear(flow, s, i, load3(s.block, at.x, i), t) > patches.bonds[patch, BOND_LIMIT]:
         return
     if rate * h < hazard_until_change(patches, s, i, patch):
         s.block[bonds.hazard * LANES + i] += rate * h
@@ -99,7 +100,9 @@ def hold(flow: object, patches: PatchTable, s: Scratch, i: int, last: int, dt: f
         end = start + (s.step[i] + 1) * dt
         since = max(block[at.t * LANES + i], block[bonds.held * LANES + i])
         if end - since > SHORTEST_STEP * dt:
-            gamma = rate_of_shear(flow, s, i, 0.5 * (since + end))
+            now = 0.5 * (since + end)
+            x, _, _ = ride(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i], now)
+            gamma = rate_of_shear(flow, s, i, x, now)
             force = force_on_held_sphere(block[at.R * LANES + i], gamma, 1.0)
             rate = off_rate(bond[BOND_LOOSENS], force, bond[BOND_FORCE])
             hazard_left = hazard_until_change(patches, s, i, s.patch[i])
@@ -114,14 +117,18 @@ def hold(flow: object, patches: PatchTable, s: Scratch, i: int, last: int, dt: f
 
 
 def let_go(flow: object, s: Scratch, i: int, t: float, dt: float) -> None:
-    """Let the stuck particle in lane i move again from a time on, at rest at first."""
+    """Let the stuck particle in lane i move again from a time on, with the velocity of the wall at first."""
     block = s.block
+    x, turn, v = ride(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i], t)
+    if turn[0] < 1.0 or turn[4] < 1.0:
+        store9(block, at.F, i, dot(turn, load9(block, at.F, i)))
     record_rest(s, i, t)
     change_bond(s, i)
     s.status[i], s.patch[i] = ACTIVE, -1
     block[at.t * LANES + i], block[at.h * LANES + i] = t, dt
     block[at.taken * LANES + i], block[at.renewed * LANES + i] = 0.0, 1.0
-    store3(block, at.v, i, (0.0, 0.0, 0.0))
+    store3(block, at.x, i, x)
+    store3(block, at.v, i, v)
     renew_clearance(flow, s, i)
 
 

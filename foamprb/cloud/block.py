@@ -101,6 +101,7 @@ class Rows(NamedTuple):
     substeps: Annotated[
         int, Row(1, "1", "the same of the last tracking step that is done", of="substeps", saved=True)
     ]
+    passed: Annotated[int, Row(1, "1", "share of the time of the step at an evaluation")]
 
 
 at = offsets(Rows)

@@ -39,17 +39,17 @@ from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import as_slice, path_stokes_number, shape_stokes_number, shear_rate_at
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.needs import check_needs
-from foamprb.cloud.patches import CYCLIC, Adhere, Interaction, stopping
+from foamprb.cloud.patches import CYCLIC, Interaction, stopping
 from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
-from foamprb.cloud.surroundings.base import Surrounding, Survey
+from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.surroundings.memory import FadingMemory
 from foamprb.cloud.surroundings.quadratic import QuadraticSolid
 from foamprb.cloud.tracker import Models, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import conform, link, packed
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
-from foamprb.flow.base import Floats, Flow, Patch
+from foamprb.flow.base import Floats, Flow
 from foamprb.flow.fields import columns_of
 from foamprb.flow.nodes import NodeValues
 
@@ -175,8 +175,8 @@ class Cloud:
             for kernel in model.kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
-        if "wall_velocity" in self.flow.kernels:
-            refuse_on_moving_mesh(around, self.flow.patches, self.interactions)
+        if "wall_velocity" in self.flow.kernels and any(isinstance(m, QuadraticSolid) for m in around):
+            raise InputError("the mesh moves, but shapeModel quadratic needs one at rest. Allowed: affine.")
         self.map_ranks(_begin, around)
         self._warned: set[str] = set()
         self._next_check = self.step + _FIRST_CHECK
@@ -744,20 +744,6 @@ def _longer_than(p: Particles, most: float) -> tuple[NDArray[np.int64], NDArray[
 def _last_end(p: Particles) -> float:
     """Return the latest time of particles that were released, s; −∞ without any."""
     return float(p.t[p.status != Status.PENDING].max(initial=-np.inf))
-
-
-def refuse_on_moving_mesh(
-    models: Sequence[Surrounding], patches: Sequence[Patch], interactions: Sequence[Interaction]
-) -> None:
-    """Raise InputError if a model or an interaction requires that walls are at rest."""
-    for model in models:
-        if model.walls(patches)[1]:
-            name = type(model).__name__
-            raise InputError(f"the mesh moves, but {name} requires walls at rest. Allowed: no {name}.")
-    if any(isinstance(model, QuadraticSolid) for model in models):
-        raise InputError("the mesh moves, but shapeModel quadratic requires walls at rest. Allowed: affine.")
-    if any(isinstance(interaction, Adhere) for interaction in interactions):
-        raise InputError("the mesh moves, but adhere requires walls at rest. Allowed: stick, rebound.")
 
 
 def find_hosts(p: Particles, flow: Flow) -> None:

@@ -38,16 +38,17 @@ from foamprb.body.tensor import (
 )
 from foamprb.compile.link import link
 from foamprb.compile.record import record, stand_in
-from foamprb.flow.base import Floats, Ints, Turbulence
+from foamprb.flow.base import Floats, Ints, Planes, Turbulence
 from foamprb.flow.kernels import named
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, frame, point
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.locator import locate as locate_mesh
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.tree import tree_with
+from foamprb.flow.mesh.tree import Tree, pairs_near, tree_with
 from foamprb.flow.meshflow import folds_of, graded
 from foamprb.flow.motion import Deformation
 from foamprb.flow.moving import MovingMeshFlow, any_interval, hermite, hermite_rate
+from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.series import _OF_VELOCITY as OF_VELOCITY
 from foamprb.flow.series import _OF_VISCOSITY as OF_VISCOSITY
 from foamprb.flow.series import SeriesArrays, SeriesFlow
@@ -356,6 +357,38 @@ def gap(
     return gap_mesh(mesh_at(flow, t), host, x, F, R, mode)
 
 
+def walls(
+    flow: DeformingArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8], t: float
+) -> Planes:
+    """See :func:`foamprb.flow.planes.walls`."""
+    return walls_mesh(mesh_at(flow, t), host, x, cut, chosen)
+
+
+def wall_speeds(flow: DeformingArrays, host: int, x: Vector, planes: Planes, t: float) -> Vector:
+    """See :func:`foamprb.flow.kernels.wall_speeds`."""
+    h1, n1, h2, n2, h3, n3 = planes
+    return (
+        _speed(flow, host, x, h1, n1, t),
+        _speed(flow, host, x, h2, n2, t),
+        _speed(flow, host, x, h3, n3, t),
+    )
+
+
+def _speed(flow: DeformingArrays, host: int, x: Vector, h: float, n: Vector, t: float) -> float:
+    """Return the velocity along n of the wall that is seen from x at the distance h against n, m/s."""
+    if h == math.inf:
+        return 0.0
+    mesh, now, foot = flow.mesh, nodes_at(flow, interval(flow.series, t), t), plus_scaled(x, -h, n)
+    cell, best, nearest = mesh.tets[host, 0] - mesh.n_points, math.inf, 0
+    for k in range(mesh.seen_start[cell], mesh.seen_start[cell + 1]):
+        triangle = mesh.seen[k] >> 1
+        a, b, c = mesh.triangles[triangle, 0], mesh.triangles[triangle, 1], mesh.triangles[triangle, 2]
+        p = nearest_point(arm(now, a, foot), arm(now, b, foot), arm(now, c, foot))
+        if inner(p, p) < best:
+            best, nearest = inner(p, p), triangle
+    return inner(n, wall_velocity(flow, nearest, foot, t))
+
+
 def normal(flow: DeformingArrays, triangle: int, x: Vector, t: float) -> Vector:  # noqa: ARG001
     """See :func:`foamprb.flow.walk.normal`."""
     return inward(mesh_at(flow, t), triangle)
@@ -499,8 +532,8 @@ class DeformingFlow(MovingMeshFlow):
     """
 
     kernels = named(
-        sample, sample_ahead, curvature, walk, walk_on, gap, normal, wall_velocity, cross, recover,
-        ride, turbulence, viscosity, cell_volume
+        sample, sample_ahead, curvature, walk, walk_on, gap, walls, wall_speeds, normal, wall_velocity,
+        cross, recover, ride, turbulence, viscosity, cell_volume
     )  # fmt: skip
     around = 4
 
@@ -571,13 +604,21 @@ class DeformingFlow(MovingMeshFlow):
         self,
         reach: float,
         touchable: Sequence[int],
-        _sight: float,
-        _seen: Sequence[int],
+        sight: float,
+        seen: Sequence[int],
     ) -> MeshArrays:
-        mesh = self._reference
+        mesh, arrays = self._reference, self._arrays
+        names = np.flatnonzero(np.isin(mesh.triangle_patch, seen)).astype(np.int32)
+        if len(names) > 0:
+            # Each of them may be the nearest wall of some place at some time.
+            corners = mesh.points[mesh.triangles[names]]
+            far = sight + self._off[mesh.triangles[names]].max(axis=1)[:, None]
+            targets = np.concatenate([corners.min(axis=1) - far, corners.max(axis=1) + far], axis=1)
+            start, found = pairs_near(self._boxes, Tree(arrays.tree_boxes, arrays.tree_cells), targets)
+            arrays = arrays._replace(seen_start=start, seen=2 * names[found] + 1)
         names = np.flatnonzero(np.isin(mesh.triangle_patch, touchable)).astype(np.int32)
         if len(names) == 0:
-            return self._arrays
+            return arrays
         triangles = mesh.triangles[names]
         # Without normals no triangle stands for others in its plane.
         tree = wall_tree(mesh.points[triangles], np.zeros((len(names), 3)), seen=False)
@@ -586,7 +627,7 @@ class DeformingFlow(MovingMeshFlow):
         size = float(np.cbrt(np.median(mesh.volumes)))
         start, near = near_walls(tree, self._boxes, reach + off, names, size)
         leaves = np.where(tree.leaves < 0, np.int32(-1), names[tree.leaves])
-        return self._arrays._replace(near_start=start, near=near, wall_boxes=tree.boxes, wall_leaves=leaves)
+        return arrays._replace(near_start=start, near=near, wall_boxes=tree.boxes, wall_leaves=leaves)
 
     def _make_room(self, wanted: Sequence[int]) -> None:
         super()._make_room(wanted)

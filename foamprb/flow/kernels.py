@@ -37,6 +37,7 @@ __all__ = [
     "viscosity",
     "walk",
     "walk_on",
+    "wall_speeds",
     "wall_velocity",
     "walls",
 ]
@@ -118,6 +119,12 @@ def parabola(flow: object, host: int, t0: float, t1: float) -> tuple[float, floa
 def walls(flow: object, host: int, x: Vector, cut: float, chosen: Floats, t: float) -> Planes:
     """Return the walls nearer to x than ``cut``, of the patches for which ``chosen`` is 1."""
     return NO_PLANES
+
+
+@kernel
+def wall_speeds(flow: object, host: int, x: Vector, planes: Planes, t: float) -> Vector:
+    """Return the velocities of the three ``planes`` around x along their normals, m/s."""
+    return _ZERO
 
 
 @kernel

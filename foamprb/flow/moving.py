@@ -39,7 +39,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.compile.link import link
 from foamprb.compile.record import record
-from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra, Turbulence
+from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra, Turbulence
 from foamprb.flow.kernels import linked_with, named
 from foamprb.flow.kernels import recover as recover_kernel
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, nodes_of
@@ -49,6 +49,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import build_tree, next_node, square_to_box
 from foamprb.flow.meshflow import MeshFlow, shortest_extent
 from foamprb.flow.motion import Motion, spins
+from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with, with_velocity
 from foamprb.flow.series import SeriesArrays, SeriesFlow
 from foamprb.flow.series import _interval as interval_of
@@ -348,6 +349,20 @@ def gap(
     return gap_mesh(flow.mesh, host, pull(q, x), dot(transpose(q.Q), F), R, mode)
 
 
+def walls(flow: MovingArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8], t: float) -> Planes:
+    """See :func:`foamprb.flow.planes.walls`; the walls of the host's piece."""
+    q = pose(flow, piece_of(flow, host), t)
+    h1, n1, h2, n2, h3, n3 = walls_mesh(flow.mesh, host, pull(q, x), cut, chosen)
+    return Planes(h1, dot_vector(q.Q, n1), h2, dot_vector(q.Q, n2), h3, dot_vector(q.Q, n3))
+
+
+def wall_speeds(flow: MovingArrays, host: int, x: Vector, planes: Planes, t: float) -> Vector:
+    """See :func:`foamprb.flow.kernels.wall_speeds`: along a normal of a piece its velocity is the same."""
+    p = piece_of(flow, host)
+    w = speed(pose(flow, p, t), rates(flow, p, t), x)
+    return inner(planes.n1, w), inner(planes.n2, w), inner(planes.n3, w)
+
+
 def _piece_of_triangle(flow: MovingArrays, triangle: int) -> int:
     return piece_at(flow, flow.mesh.nodes[flow.mesh.triangles[triangle, 0], 0])
 
@@ -531,8 +546,8 @@ class MovingFlow(MovingMeshFlow):
     """
 
     kernels = named(
-        sample, sample_ahead, curvature, walk, walk_on, gap, normal, wall_velocity, cross, recover,
-        ride, turbulence, viscosity, cell_volume
+        sample, sample_ahead, curvature, walk, walk_on, gap, walls, wall_speeds, normal, wall_velocity,
+        cross, recover, ride, turbulence, viscosity, cell_volume
     )  # fmt: skip
 
     def __init__(

@@ -172,7 +172,7 @@ def test_the_nearest_of_all_walls_is_told():
     every, near = np.ones(len(flow.patches), dtype=np.int8), np.full(len(x), np.inf)
     arrays, cuts = flow.arrays(0.0, (), 0.3, range(len(every))), np.full(len(x), 0.3)
     find, packed_flow = linked_with(flow.kernels, arrays, wall_lift._nearest_walls)
-    find(packed_flow, x, flow.locate(x), cuts, every, near)
+    find(packed_flow, x, flow.locate(x), cuts, every, 0.0, near)
     expected = np.minimum(x, 1.0 - x).min(axis=1)
     expected[expected > 0.3] = np.inf
     assert near == pytest.approx(expected, rel=1e-9)

@@ -12,10 +12,10 @@ import pytest
 from foam_writer import header, put_linear, write_case
 from mesh_shapes import cyclic_row, layer
 
-from foamprb import Cloud, Escape, Medium, Rebound, Status, Stick, spheres
+from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, WallLift, spheres
 from foamprb.cloud.injection.models import BoxInjection
 from foamprb.cloud.injection.shapes import Sphere
-from foamprb.cloud.patches import Mirror
+from foamprb.cloud.patches import Adhere, Mirror
 from foamprb.errors import InputError
 from foamprb.flow.deforming import DeformingFlow
 from foamprb.flow.fluxes import Conservation
@@ -186,6 +186,52 @@ def test_a_body_that_sticks_to_a_piston_rides_along(piston):
     now = cloud.comm.rank.at_instant(0.9, False)
     assert now.x[:, 0] == pytest.approx(place(0.9) + 0.01, abs=1e-4)
     assert now.v == pytest.approx(np.broadcast_to([speed(0.9), 0.0, 0.0], (2, 3)), abs=1e-6)
+
+
+SPEED, OIL = 1.0, Medium(1.0, 1000.0, (-9.81, 0.0, 0.0))
+
+
+def box(speed):
+    """A box of fluid of which one side moves in with a speed, and the fluid before it."""
+
+    def motion(x, t):
+        return x + np.stack([(1.0 - x[:, 0]) * speed * t, 0.0 * x[:, 0], 0.0 * x[:, 0]], axis=1)
+
+    def u(x, _t):
+        return np.broadcast_to([speed, 0.0, 0.0], x.shape)
+
+    mesh = layer((0.0, 1.0), (0.0, 1.0), 8, 6, right="patch")
+    return deforming(mesh, motion, u, np.linspace(0.0, 0.5, 6))
+
+
+def settled(flow, interaction, models, steps, n):
+    """Return n stiff balls that settle onto the left wall."""
+    x = np.column_stack([np.full(n, 0.04), np.linspace(0.3, 0.7, n), np.full(n, 0.05)])
+    p = spheres(x, d=0.02, rho=2000.0, mu=1e7)
+    patches = [interaction if patch.name == "left" else Mirror() for patch in flow.patches]
+    cloud = Cloud(p, flow, OIL, patches, 0.005, models, threads=1)
+    cloud.advance(steps)
+    return cloud.comm.rank.at_instant(cloud.time, False)
+
+
+def test_a_ball_settles_onto_a_wall_that_moves_as_onto_one_at_rest():
+    """In the frame of the wall."""
+    models = Models(integrator="stokes", surroundings=(WallLift(),))
+    there, p = (settled(box(speed), Stick(), models, 20, 1) for speed in (0.0, SPEED))
+    assert 0.02 < there.x[0, 0] < 0.03
+    assert p.x[:, 0] - SPEED * 0.1 == pytest.approx(there.x[:, 0], abs=1e-6)
+    assert p.v[:, 0] - SPEED == pytest.approx(there.v[:, 0], abs=2e-6)
+
+
+def test_bonds_hold_bodies_on_a_wall_that_moves():
+    """As many as on one at rest, and each rides along, also after its bond broke."""
+    models = Models(integrator="stokes")
+    there, p = (settled(box(speed), Adhere(kOn=30.0, kOff=20.0), models, 60, 40) for speed in (0.0, SPEED))
+    held = there.status == Status.STUCK
+    assert 5 < np.count_nonzero(held) < 35
+    assert np.array_equal(p.status, there.status)
+    assert p.x[:, 0] == pytest.approx(SPEED * 0.3 + 0.01, abs=1e-5)
+    assert p.v[:, 0] == pytest.approx(SPEED + np.where(held, 0.0, there.v[:, 0]), abs=1e-6)
 
 
 def test_patches_zones_and_hosts_are_where_they_are_at_a_time(piston):

@@ -12,7 +12,7 @@ from foam_writer import GRADIENT, Format, header, number_list, put_linear, put_s
 from mesh_shapes import block, box_patches, layer, rings
 from scipy.spatial.transform import Rotation
 
-from foamprb import Cloud, Medium, Rebound, Status, Stick, spheres
+from foamprb import Cloud, Medium, Models, Rebound, Status, Stick, WallLift, spheres
 from foamprb.cloud.patches import Cyclic, Mirror
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
@@ -160,16 +160,32 @@ def test_a_fluid_that_is_shaken_with_its_box_stays_in_place(writes, limit):
     assert np.sqrt(np.mean(np.sum(off[:, :2] ** 2, axis=1))) < limit
 
 
-def shaken(interaction, speed=1.0):
-    """A box that moves along x at a constant speed, in it a fluid that is all but absent."""
+def box_at(speed):
+    """Return a fluid in a box that both move along x at a constant speed."""
     shape = block(3, 0.0)
     mesh = build_mesh(shape, [p._replace(type="wall") for p in box_patches(shape)])
     way = np.array([speed, 0.0, 0.0])
-    flow = moved_by(mesh, lambda x, t: x + t * way, lambda x, _t: np.broadcast_to(way, x.shape))
+    return moved_by(mesh, lambda x, t: x + t * way, lambda x, _t: np.broadcast_to(way, x.shape))
+
+
+def shaken(interaction):
+    """Bodies in a box that moves, in it a fluid that is all but absent."""
+    flow = box_at(1.0)
     bodies = spheres([[0.2, 0.5, 0.5], [0.2, 0.4, 0.6]], d=1e-2, rho=1e9, mu=1e9)
     bodies.v[:] = 0.0
     air = Medium(1e-9, 1e-9, (0.0, 0.0, 0.0))
     return Cloud(bodies, flow, air, [interaction] * len(flow.patches), 0.01, threads=1)
+
+
+def test_a_ball_settles_in_a_box_that_moves_as_in_one_at_rest():
+    models, found = Models(integrator="stokes", surroundings=(WallLift(),)), []
+    for speed in (0.0, 1.0):
+        ball, flow = spheres([[0.04, 0.5, 0.5]], d=0.02, rho=2000.0, mu=1e7), box_at(speed)
+        oil = Medium(1.0, 1000.0, (-9.81, 0.0, 0.0))
+        Cloud(ball, flow, oil, [Stick()] * len(flow.patches), 0.005, models, threads=1).advance(40)
+        found.append([ball.x[0, 0] - 0.2 * speed, ball.v[0, 0] - speed])
+    assert 0.012 < found[0][0] < 0.02
+    assert found[1] == pytest.approx(found[0], abs=1e-6)
 
 
 @pytest.mark.parametrize("e", [1.0, 0.5])

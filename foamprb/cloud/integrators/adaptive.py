@@ -32,6 +32,7 @@ from foamprb.body.error_control import (
     share_of_slope,
     step_factor,
 )
+from foamprb.body.exponential_runge_kutta import NODE
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -350,11 +351,14 @@ ADAPTIVE: dict[Function, Function] = {limit_next_step: limit_by_path}
 """What every integrator of this loop puts behind slots."""
 
 
-def evaluate_shape(block: Block, medium: Medium, share: float) -> None:
+def evaluate_shape(block: Block, medium: Medium, share: float, passed: float) -> None:
     """Compute frame, stretches and integrals of the shape in the block, and apply the surroundings.
 
-    It precedes each slope; ``share`` is the part of the way to new_x that the body has gone.
+    It precedes each slope; ``share`` is the part of the way to new_x that the body has gone, and ``passed``
+    that of the time of the step.
     """
+    for i in range(LANES):
+        block[at.passed * LANES + i] = passed
     new_frames(block)
     new_integrals(block)
     apply_surroundings(block, medium, share)
@@ -538,13 +542,13 @@ def track_adaptive(
                 block[during.discount * LANES + i] = 0.0
         begin_stage(block)
         update_surroundings(flow, scratch, medium)
-        evaluate_shape(block, medium, 0.0)
+        evaluate_shape(block, medium, 0.0, 0.0)
         resting = find_reactions(flow, patches, scratch, medium, 1.0)
         predict(block, medium)
         sample_ends(flow, block, scratch.host, scratch.ahead)
         look_ahead(flow, scratch, medium)
         first_slope(block, medium)
-        evaluate_shape(block, medium, 1.0)
+        evaluate_shape(block, medium, 1.0, NODE)
         if resting:
             apply_reactions(block)
         second_slope(block, medium, enough)
@@ -553,7 +557,7 @@ def track_adaptive(
             sample_middles(flow, block, scratch.host, rough)
         if thirds:
             last_argument(block, medium)
-            evaluate_shape(block, medium, 1.0)
+            evaluate_shape(block, medium, 1.0, 1.0)
             if resting:
                 apply_reactions(block)
             third_slope(block, medium, enough)
@@ -773,7 +777,7 @@ def update_ends(
             store9(block, during.start_l, i, l_f)
             block[during.held_from * LANES + i], block[during.remaining * LANES + i] = last - 1.0, 0.0
     update_surroundings(flow, s, medium)
-    evaluate_shape(block, medium, 0.0)
+    evaluate_shape(block, medium, 0.0, 0.0)
     find_reactions(flow, patches, s, medium, 0.0)
     end_slope(block, medium)
     for i in range(LANES):

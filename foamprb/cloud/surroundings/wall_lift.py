@@ -98,7 +98,7 @@ from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.dictionary.patterns import matches
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Flow, Ints, Patch
-from foamprb.flow.kernels import linked_with, walls
+from foamprb.flow.kernels import linked_with, wall_speeds, walls
 from foamprb.flow.patches import PatchKind
 
 CLOSE = 2.0
@@ -115,6 +115,7 @@ class WallRows(NamedTuple):
 
     wall_distance: Annotated[int, Row(3, "m", "distances of the centre from up to three walls", _FAR)]
     wall_normal: Annotated[int, Row(9, "1", "their unit normals into the fluid")]
+    wall_speed: Annotated[int, Row(3, "m/s", "their velocities along these")]
     counted: Annotated[int, Row(1, "s", "start of the last step begun near a wall", -1e300, lasting=True)]
     counted_for: Annotated[int, Row(1, "s", "its length", lasting=True)]
     close: Annotated[int, Row(1, "s", "total length of such steps", of="close", saved=True)]
@@ -147,7 +148,9 @@ def find_walls(
     block = s.block
     R = block[at.R * LANES + i]
     t = block[at.t * LANES + i]
-    p = walls(flow, s.host[i], load3(block, at.x, i), cut_off * R, patch_mask, t)
+    x = load3(block, at.x, i)
+    p = walls(flow, s.host[i], x, cut_off * R, patch_mask, t)
+    store3(block, near.wall_speed, i, wall_speeds(flow, s.host[i], x, p, t))
     store3(block, near.wall_distance, i, (min(p.h1, _FAR * R), min(p.h2, _FAR * R), min(p.h3, _FAR * R)))
     block[near.least_gap * LANES + i] = least_gap
     store3(block, near.wall_normal, i, p.n1)
@@ -165,12 +168,11 @@ def stays_by_planes(flow: object, s: Scratch, i: int, _medium: Medium, coefficie
     """Return a half for a step of lane i after which the nearest wall is off its plane, else 1."""
     block, cut = s.block, coefficients[0] * s.block[at.R * LANES + i]
     x = load3(block, at.new_x, i)
-    way, expected = minus(x, load3(block, at.x, i)), cut
+    way, expected, dt = minus(x, load3(block, at.x, i)), cut, block[at.dt * LANES + i]
     for k in range(3):
         h, n = block[(near.wall_distance + k) * LANES + i], load3(block, near.wall_normal + 3 * k, i)
-        expected = min(expected, h + inner(way, n))
-    t = block[at.t * LANES + i] + block[at.dt * LANES + i]
-    p = walls(flow, s.ahead[i], x, cut, coefficients[4], t)
+        expected = min(expected, h + inner(way, n) - dt * block[(near.wall_speed + k) * LANES + i])
+    p = walls(flow, s.ahead[i], x, cut, coefficients[4], block[at.t * LANES + i] + dt)
     distance = min(p.h1, p.h2, p.h3, cut)
     return 0.5 if abs(expected - distance) > _OFF_PLANE * distance else 1.0
 
@@ -401,7 +403,9 @@ def select_wall(block: Block, wall: int, share: float, least_gap: float) -> None
     Loops that index rows by a variable are not vectorised.
     """
     for i in range(LANES):
-        block[near.one_distance * LANES + i] = block[(near.wall_distance + wall) * LANES + i]
+        passed = block[at.passed * LANES + i] * block[at.dt * LANES + i] if share > 0.0 else 0.0
+        came = passed * block[(near.wall_speed + wall) * LANES + i]
+        block[near.one_distance * LANES + i] = block[(near.wall_distance + wall) * LANES + i] - came
         for k in range(3):
             block[(near.one_normal + k) * LANES + i] = block[(near.wall_normal + 3 * wall + k) * LANES + i]
     place_stage(block, share, least_gap)
@@ -608,17 +612,18 @@ def nearest_walls(p: Particles, arrays: Any, flow: Flow, cut_off: float, patch_m
     """Return distances of particles from the nearest wall, in radii, (n,); infinite beyond ``cut_off``."""
     nearest = np.full(p.size, np.inf)
     find, packed_flow = linked_with(flow.kernels, arrays, _nearest_walls)
-    find(packed_flow, p.x, p.host, cut_off * p.R, patch_mask, nearest)
+    start = float(p.t0.min(initial=np.inf))
+    find(packed_flow, p.x, p.host, cut_off * p.R, patch_mask, start, nearest)
     distances: Floats = nearest / p.R
     return distances
 
 
 def _nearest_walls(
-    flow: object, x: Floats, hosts: Ints, cuts: Floats, patch_mask: Floats, nearest: Floats
+    flow: object, x: Floats, hosts: Ints, cuts: Floats, patch_mask: Floats, t: float, nearest: Floats
 ) -> None:
     for k in range(len(nearest)):
         if hosts[k] >= 0:
-            planes = walls(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), cuts[k], patch_mask, 0.0)
+            planes = walls(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), cuts[k], patch_mask, t)
             nearest[k] = min(planes.h1, planes.h2, planes.h3)
 
 
@@ -660,9 +665,9 @@ class WallLift(Surrounding):
 
     rows: ClassVar = (WallRows,)
     each_step: ClassVar = False
-    surveys: ClassVar = ("x", "host", "R")
+    surveys: ClassVar = ("x", "host", "R", "t0")
     stages: ClassVar = (
-        Stage("start", find_walls, writes=(near.wall_distance, near.wall_normal)),
+        Stage("start", find_walls, writes=(near.wall_distance, near.wall_normal, near.wall_speed)),
         Stage("accept", stays_by_planes),
         Stage("fluid", lift, reads=(near.wall_distance,), adds=(at.u, at.l), before=(at.l,)),
     )
