@@ -21,7 +21,7 @@ def cgns(parent, name, label, data=None):
 
 
 def write_cgns(path, shape, u):
-    """Write hexahedra or tetrahedra with velocities at their cells, or at their points if u has as many."""
+    """Write hexahedra, prisms or tetrahedra with velocities at cells, or at points if u has as many."""
     (vtk_type, cells), at_cells = *shape.cells_dict.items(), len(u) == shape.n_cells
     cells = cells.astype(np.int32) + 1
     counts = np.array([[shape.n_points], [shape.n_cells], [0]], np.int32)
@@ -37,7 +37,9 @@ def write_cgns(path, shape, u):
         zone = cgns(base, "Zone", "Zone_t", counts)
         cgns(zone, "ZoneType", "ZoneType_t", "Unstructured")
         places = cgns(zone, "GridCoordinates", "GridCoordinates_t")
-        elements = cgns(zone, "Cells", "Elements_t", np.array([{12: 17, 10: 10}[vtk_type], 0], np.int32))
+        elements = cgns(
+            zone, "Cells", "Elements_t", np.array([{12: 17, 10: 10, 13: 14}[vtk_type], 0], np.int32)
+        )
         cgns(elements, "ElementRange", "IndexRange_t", np.array([1, shape.n_cells], np.int32))
         cgns(elements, "ElementConnectivity", "DataArray_t", cells.ravel())
         solution = cgns(zone, "Solution", "FlowSolution_t")
