@@ -31,7 +31,7 @@ _AXIS, _AWAY, _PLACE, _HALF = 1, 2, 3, 12
 
 def is_wedge(layer: Floats) -> bool:
     """Return True for a wedge, False for a layer between parallel planes and all other meshes."""
-    return layer.shape[0] > _AXIS * 3
+    return bool(layer.shape[0] > 3)
 
 
 def _row(layer: Floats, k: int) -> Vector:

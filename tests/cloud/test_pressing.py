@@ -7,7 +7,7 @@ import pytest
 from mesh_shapes import block, boundary, box_patches, grid
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
-from scipy.stats import kstest
+from scipy.stats import chisquare, kstest
 
 from foamprb.body.brownian import BOLTZMANN, shape_resistance
 from foamprb.body.drag import drag
@@ -19,6 +19,7 @@ from foamprb.cloud.patches import Rebound
 from foamprb.cloud.pressing import push_of
 from foamprb.cloud.state import Status, set_rest_shape, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloud.surroundings.dispersion import StochasticDispersion
 from foamprb.cloud.surroundings.swimming import Swimming
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
@@ -225,16 +226,41 @@ FAST = 1e-3 / (6.0 * np.pi * 1e-3)
 """Diffusivity of spheres of 1 mm with kT of 1 mJ, which only their ratio makes fast."""
 
 
+def still_box():
+    """A still fluid in a unit box of 27 cells; eddies of 0.58 m/s live 0.2 s in it."""
+    shape = block(3)
+    mesh = build_mesh(shape, box_patches(shape))
+    turbulence = np.tile([0.5, 2.5, *6 * [0.0]], (len(mesh.nodes), 1))
+    u = np.zeros((len(mesh.nodes), 3))
+    return MeshFlow(mesh, u, np.zeros((*u.shape, 3)), turbulence=turbulence)
+
+
 @pytest.mark.filterwarnings("ignore:molecules move particles")
 def test_no_body_leaves_a_closed_box():
     """Random steps of a tenth of the box meet two walls at once near each edge."""
-    shape = block(3)
-    mesh = build_mesh(shape, box_patches(shape))
-    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
-    x = np.random.default_rng(3).uniform(0.01, 0.99, (600, 3))
+    flow, x = still_box(), np.random.default_rng(3).uniform(0.01, 0.99, (600, 3))
     x = enclosed(flow, x, BrownianMotion(T=1e-3 / BOLTZMANN, shape=False), 0.005 / FAST, 100)
     assert ((x >= 0.0) & (x <= 1.0)).all()
     assert min(kstest(x[:, k], "uniform").pvalue for k in range(3)) > 1e-3
+
+
+@pytest.mark.nightly
+@pytest.mark.filterwarnings("ignore:molecules move", "ignore:swimmers turn", "ignore:eddies move")
+@pytest.mark.parametrize(
+    ("model", "dt"),
+    [
+        (BrownianMotion(T=1e-3 / BOLTZMANN, shape=False), 0.002 / FAST),
+        (Swimming(speed=1.0, rotationalDiffusivity=2.0), 0.03),
+        (StochasticDispersion(), 0.03),
+        (StochasticDispersion(fluctuations="OpenFOAM"), 0.03),
+    ],
+)
+def test_bodies_in_a_closed_box_stay_uniform(model, dt):
+    """4000 bodies over 1000 steps, in 64 parts of the box, by χ²."""
+    x = enclosed(still_box(), np.random.default_rng(3).uniform(0.01, 0.99, (4000, 3)), model, dt, 1000)
+    assert ((x >= 0.0) & (x <= 1.0)).all()
+    counts, _ = np.histogramdd(x, bins=4, range=[(0.0, 1.0)] * 3)
+    assert chisquare(counts.ravel()).pvalue > 1e-3
 
 
 @pytest.mark.filterwarnings("ignore:molecules move particles", "ignore:swimmers turn at random")
