@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import ctypes
 import math
-import os
-import sys
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -335,22 +331,6 @@ def film(scene: Scene, path: Path, size: tuple[int, int], style: Style) -> None:
         ) from error
     finally:
         temporary.unlink(missing_ok=True)
-
-
-def has_display() -> bool:
-    """Return whether a window can be shown."""
-    return sys.platform in ("darwin", "win32") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
-
-
-def require_graphics() -> None:
-    """Check that VTK can draw; without a display it needs one of two libraries, else it crashes."""
-    if has_display():
-        return
-    for library in ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so"):
-        with suppress(OSError):
-            ctypes.CDLL(library)
-            return
-    raise InputError("no display and no libEGL: VTK cannot draw. On Debian: apt-get install libegl1.")
 
 
 def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool) -> Drawing:

@@ -39,9 +39,9 @@ from foamprb.view.colours import Style, number, written
 from foamprb.view.deposits import painted
 from foamprb.view.flowfield import FlowField, field_of
 from foamprb.view.geometry import Geometry, boundary
+from foamprb.view.graphics import has_display, require_graphics
 from foamprb.view.page import Page
 from foamprb.view.paraview import write_state
-from foamprb.view.picture import film, has_display, picture, require_graphics
 from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import (
     MOST_TRAILS,
@@ -381,6 +381,8 @@ def picture_of(request: Request, path: Path, size: tuple[int, int], style: Style
     """Write a picture of one time."""
     refuse_other_kind(path, b"\x89PNG")
     require_graphics()
+    from foamprb.view.picture import picture
+
     scene = make_still(request, _run_of(request))
     picture(scene, path, size, style)
     log.info("%d bodies: %s", len(scene.bodies.ids), path)
@@ -390,6 +392,8 @@ def film_of(request: Request, path: Path, size: tuple[int, int], style: Style) -
     """Write a film of all times."""
     refuse_other_kind(path, b"GIF8", b"\0\0\0")
     require_graphics()
+    from foamprb.view.picture import film
+
     run = _run_of(request)
     request = replace(request, bodies=request.bodies or MOST_DRAWN)
     scene = make_scene(request, run, range(len(run.entries)), drawn=True)

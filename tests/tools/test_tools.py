@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from benchmarks import observed, pipe
+from benchmarks import looking, observed, pipe
 from benchmarks.records import Results, Row, isolated, peak_memory, read_rows
 from benchmarks.report import TARGETS, Target, costs_table, written_table
 
@@ -48,6 +48,15 @@ def test_a_process_of_its_own_has_its_own_memory():
     _ballast = np.ones(50_000_000)
     assert peak_memory() > 4e8
     assert isolated(peak_memory).result < 2e8
+
+
+@pytest.mark.nightly
+def test_many_bodies_are_looked_at_in_little_memory(tmp_path):
+    case = looking.write_run(tmp_path, 100_000, 51)
+    for command, most in {"view": 500.0, "report": 800.0}.items():
+        words = [command, "-noBrowser", "-case", str(case)]
+        code = f"from foamprb.cli import main\nassert main({words}) == 0\n"
+        assert looking.cost(code, tmp_path)[1] < most
 
 
 def test_results_come_back_from_their_file(tmp_path):

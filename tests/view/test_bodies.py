@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from view_run import INJECTORS, clouds, motion, write_run
 from foamprb.errors import InputError
 from foamprb.results.folder import TOUCHED, ResultsFolder
 from foamprb.results.pvd import Series
+from foamprb.results.shapes import DERIVED, derived
 from foamprb.results.tables import read_table, write_table
 from foamprb.results.vtk import write_snapshot
 from foamprb.view.bodies import UNNAMED, fates_of, fields_of_fates, gather, require_array
@@ -242,3 +244,28 @@ def test_a_cloud_without_particles(tmp_path):
     Series(ResultsFolder(folder, "softCloud")).append(none)
     bodies = gather(open_run(tmp_path), [0])
     assert bodies.x.shape == (1, 0, 3)
+
+
+def test_few_of_many_bodies_take_memory_for_one_file_only(tmp_path):
+    write_run(tmp_path, motion(20_000, 4), mesh=False)
+    run = open_run(tmp_path)
+    size = sum(array.nbytes for array in run.cloud(-1, set(run.components) - set(DERIVED)).arrays.values())
+    tracemalloc.start()
+    gather(run, range(4), most=10)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 2.0 * size
+
+
+@pytest.mark.parametrize(("one", "equal"), [(0, 0), (0, 1), (1, 2)])
+def test_shapes_in_single_precision_need_no_eigenvectors(one, equal):
+    F = motion(500, 1).F[0] + 0.3 * np.random.default_rng(3).standard_normal((500, 3, 3))
+    U, s, V = np.linalg.svd(F)
+    s[:, equal] = s[:, one]
+    F = (U * s[:, None]) @ V
+    d, status = np.full(500, 2.0), np.ones(500)
+    glyph = F.swapaxes(1, 2).reshape(-1, 9)
+    names = ("semiAxes", "taylorDeformation")
+    quick, exact = (derived(array, d, status, names) for array in (glyph.astype(np.float32), glyph))
+    for name in names:
+        np.testing.assert_allclose(quick[name], exact[name], rtol=0.0, atol=4e-7)

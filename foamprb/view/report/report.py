@@ -30,7 +30,8 @@ from foamprb.run.validity import COLUMNS, excesses, limits_of, warnings_of
 from foamprb.view.colours import DARK, LIGHT, number, with_interval, written
 from foamprb.view.deposits import ends_of, painted, ways
 from foamprb.view.geometry import Geometry, boundary
-from foamprb.view.picture import picture, require_graphics
+from foamprb.view.graphics import require_graphics
+from foamprb.view.picture import picture
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
