@@ -52,11 +52,11 @@ def safe_step(stretches: Vector, c: Scalar, mu_f: Scalar, eta: Scalar) -> Scalar
     return 2.0 * least * least / (c * x * y * z * (_TRACTION * mu_f + 2.0 * eta))
 
 
-def _pair_is_stable(a: Scalar, b: Scalar, c: Scalar, d: Scalar) -> Any:
+def _pair_is_stable(a: Scalar, b: Scalar, c: Scalar, d: Scalar) -> Scalar:
     return (a + d > 0.0) & (a * d - b * c > 0.0)
 
 
-def _is_stable(M: Tensor) -> Any:
+def _is_stable(M: Tensor) -> Scalar:
     """Return whether the eigenvalues of M have positive real parts (Routh and Hurwitz)."""
     t = trace(M)
     minors = M[0] * M[4] - M[1] * M[3] + M[0] * M[8] - M[2] * M[6] + M[4] * M[8] - M[5] * M[7]

@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf, isinf, nan
 from types import FunctionType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -170,7 +170,7 @@ def dilation(J: Scalar, mu: Scalar, lame: Scalar) -> Scalar:
     return neo_hooke_dilation(J, mu, lame)
 
 
-def unknown(*_: Scalar) -> Any:
+def unknown(*_: Scalar) -> Scalar:
     """Return NaN in place of the energy and its derivatives, if a solid is given by its stress."""
     return nan
 

@@ -102,13 +102,13 @@ def stress_of(law: str, C: float) -> Callable[..., Tensor]:
     return membrane_stress
 
 
-def product_of_invariants(F: Tensor) -> Any:
+def product_of_invariants(F: Tensor) -> Scalar:
     """Return I₁ I₂ of a deformation gradient with det F = 1, 9 at rest."""
     c = cofactor(F)
     return ddot(F, F) * ddot(c, c)
 
 
-def least_tensions(F: Any, law: str, C: float) -> Any:
+def least_tensions(F: Any, law: str, C: float) -> Scalar:
     """Return the least principal tension of membranes over G_s, (n,), for F (n, 9); NaN beyond the table.
 
     A membrane without bending stiffness wrinkles where it is negative.

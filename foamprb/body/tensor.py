@@ -23,7 +23,7 @@ _SMALL = 1e-150
 ZERO: Tensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def select(condition: Any, a: Scalar, b: Scalar) -> Scalar:
+def select(condition: Scalar, a: Scalar, b: Scalar) -> Scalar:
     """Return ``a`` where ``condition`` holds, else ``b``; both are evaluated.
 
     Examples

@@ -127,7 +127,7 @@ class Medium(NamedTuple):
 
     mu: Any
     """Viscosity, Pa s, or a model of it (:mod:`foamprb.cloud.viscosity`)."""
-    rho: Any
+    rho: Scalar
     """kg/m³, a number; at each of some particles, (n,), where it varies."""
     gravity: Vector = (0.0, 0.0, 0.0)
     """m/s²."""
@@ -147,7 +147,7 @@ class LocalMedium(NamedTuple):
     """The same at a particle, as forces read it."""
 
     mu: Any
-    rho: Any
+    rho: Scalar
     gravity: Vector = (0.0, 0.0, 0.0)
     forces: Any = ()
 
@@ -499,12 +499,12 @@ def accept_stage(block: Block, tolerance: float) -> None:
         store3(block, at.new_v, i, choose3(sound, w, v))
 
 
-def choose3(condition: Any, v: Vector, w: Vector) -> Vector:
+def choose3(condition: Scalar, v: Vector, w: Vector) -> Vector:
     """Return v where the condition holds, else w."""
     return select(condition, v[0], w[0]), select(condition, v[1], w[1]), select(condition, v[2], w[2])
 
 
-def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
+def choose(condition: Scalar, S: Tensor, T: Tensor) -> Tensor:
     """Return S where the condition holds, else T."""
     return (
         select(condition, S[0], T[0]), select(condition, S[1], T[1]), select(condition, S[2], T[2]),
@@ -525,7 +525,7 @@ def new_integrals(block: Block) -> None:
         elongated_stage(block)
 
 
-def is_elongated(stretches: Vector) -> Any:
+def is_elongated(stretches: Vector) -> Scalar:
     """Return True if the integrals of a body need the formulas for elongated bodies."""
     x, y, z = stretches
     return np.maximum(np.maximum(x, y), z) > COMPACT * np.minimum(np.minimum(x, y), z)

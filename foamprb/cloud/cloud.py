@@ -218,18 +218,18 @@ class Cloud:
         """Number of particles, on all ranks."""
         return self.comm.n_particles
 
-    def map_ranks(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+    def map_ranks(self, function: Callable[..., Value], *arguments: object) -> list[Value]:
         """Apply a function to the particles of each rank, in any order, and the arguments."""
         return self.comm.call(applied, function, None, *arguments)
 
-    def map_by_id(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+    def map_by_id(self, function: Callable[..., Value], *arguments: object) -> Iterator[Value]:
         """Apply a function to blocks of particles sorted by number, and the arguments.
 
         A cloud without particles has one block.
         """
         return self.comm.map_by_id(function, *arguments)
 
-    def map_in_flow(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+    def map_in_flow(self, function: Callable[..., Value], *arguments: object) -> list[Value]:
         """Apply a function to the particles of each rank, the flow around them, the time (s), and others."""
         self.publish()
         return self.comm.call(in_flow, function, self.time, *arguments)

@@ -49,7 +49,7 @@ class Share(NamedTuple):
         memory = {name: array[rows] for name, array in self.memory.items()}
         return Share(self.particles.take(rows), memory)
 
-    def apply(self, function: Callable[..., Value], of: str | None, *arguments: Any) -> Value:
+    def apply(self, function: Callable[..., Value], of: str | None, *arguments: object) -> Value:
         """Apply a function to the particles and, with a name ``of`` a cloud function, to its arrays.
 
         An empty name stands for the arrays of all cloud functions, by ``function/array``.
@@ -144,7 +144,7 @@ class Communicator:
         """Number of particles of all ranks."""
         return self.rank.particles.size
 
-    def call(self, function: Callable[..., Value], *arguments: Any) -> list[Value]:
+    def call(self, function: Callable[..., Value], *arguments: object) -> list[Value]:
         """Return the results of a function of a :class:`Rank` and the arguments on each rank."""
         return [function(self.rank, *arguments)]
 
@@ -168,7 +168,7 @@ class Communicator:
         self.rank.share = Share(p)
 
     def map_by_id(
-        self, function: Callable[..., Value], *arguments: Any, of: str | None = None
+        self, function: Callable[..., Value], *arguments: object, of: str | None = None
     ) -> Iterator[Value]:
         """Apply a function to blocks of particles sorted by number, at least one; see :meth:`Share.apply`."""
         share = self.rank.share
@@ -232,7 +232,7 @@ class Communicator:
         return []
 
 
-def applied(rank: Rank, function: Callable[..., Value], of: str | None, *arguments: Any) -> Value:
+def applied(rank: Rank, function: Callable[..., Value], of: str | None, *arguments: object) -> Value:
     """Apply a function to the particles of a rank; see :meth:`Share.apply`."""
     return rank.share.apply(function, of, *arguments)
 
@@ -248,7 +248,7 @@ def values_of(rank: Rank, numbers: NDArray[np.int64], name: str) -> tuple[NDArra
     return rank.particles.number[rows], getattr(rank.particles, name)[rows]
 
 
-def in_flow(rank: Rank, function: Callable[..., Value], time: float, *arguments: Any) -> Value:
+def in_flow(rank: Rank, function: Callable[..., Value], time: float, *arguments: object) -> Value:
     """Apply a function to the particles of a rank, the flow around them, the time, and the arguments."""
     return function(rank.particles, rank.seen, time, *arguments)
 

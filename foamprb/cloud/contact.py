@@ -72,7 +72,7 @@ def mode_of(_p: Particles, _k: int, _F: Tensor) -> Any:
 
 @choice
 def gap(
-    flow: Any,
+    flow: object,
     host: int,
     x: Vector,
     F: Tensor,

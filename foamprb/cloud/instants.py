@@ -148,7 +148,7 @@ def _walk_all(
             reached[k] = host if patch == -1 else recover(flow, goal, t1[k])
 
 
-def ridden(kernels: Mapping[str, Any], flow: Any, p: Particles, time: float) -> Particles:
+def ridden(kernels: Mapping[str, Any], flow: object, p: Particles, time: float) -> Particles:
     """Return particles with those that stick to walls where these have carried them until a time, s."""
     rows = np.flatnonzero((p.status == Status.STUCK) & (p.t < time) & (p.host >= 0))
     if "ride" not in kernels or len(rows) == 0:
@@ -166,7 +166,7 @@ def ridden(kernels: Mapping[str, Any], flow: Any, p: Particles, time: float) -> 
 
 
 def _ride_all(
-    flow: Any, hosts: NDArray[np.int64], t: Floats, time: float, x: Floats, v: Floats, turns: Floats
+    flow: object, hosts: NDArray[np.int64], t: Floats, time: float, x: Floats, v: Floats, turns: Floats
 ) -> None:
     for k in range(len(hosts)):
         place, turn, speed = ride(flow, hosts[k], (x[k, 0], x[k, 1], x[k, 2]), t[k], time)

@@ -37,7 +37,7 @@ needed = offsets(NeededRows)
 
 
 def sample_start(
-    _flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+    _flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: object
 ) -> None:
     """Store the fluid and the fields at the start of a step of lane i."""
     block = s.block
@@ -45,7 +45,7 @@ def sample_start(
     _store(s, i, needed.start, s.host[i], load3(block, at.x, i), block[at.t * LANES + i], u, l)
 
 
-def sample_end(_flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> None:
+def sample_end(_flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: object) -> None:
     """Store the fluid and the fields at the predicted end of a step of lane i."""
     block = s.block
     t = block[at.t * LANES + i] + block[at.dt * LANES + i]

@@ -80,6 +80,6 @@ def report(
     return Parts(time, number_of_contexts(len(injected(particles))), parts())
 
 
-def _single(array: NDArray[Any]) -> NDArray[Any]:
+def _single(array: NDArray[np.generic]) -> NDArray[Any]:
     """Return numbers in single precision; integers unchanged."""
     return array.astype(np.float32) if array.dtype == np.float64 else array

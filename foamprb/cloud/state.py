@@ -11,7 +11,7 @@ from enum import IntEnum
 from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.compressibility import lame_from_bulk_modulus
 from foamprb.body.material import lame_parameter
@@ -298,17 +298,17 @@ def concatenate(parts: Iterable[Particles]) -> Particles:
 
 
 def spheres(
-    x: Any,
+    x: ArrayLike,
     *,
-    d: Any,
-    rho: Any,
-    mu: Any,
+    d: ArrayLike,
+    rho: ArrayLike,
+    mu: ArrayLike,
     poissons_ratio: float = 0.499,
-    bulk_modulus: Any = None,
-    k: Any = 0.0,
-    eta: Any = 0.0,
-    gamma: Any = 0.0,
-    t0: Any = 0.0,
+    bulk_modulus: ArrayLike | None = None,
+    k: ArrayLike = 0.0,
+    eta: ArrayLike = 0.0,
+    gamma: ArrayLike = 0.0,
+    t0: ArrayLike = 0.0,
 ) -> Particles:
     """Return pending spheres at rest.
 
@@ -332,7 +332,7 @@ def spheres(
     >>> p.size, p.mu.tolist()
     (2, [100.0, 200.0])
     """
-    p = empty(len(x))
+    p = empty(len(np.asarray(x)))
     p.x[:] = p.x0[:] = x
     p.R[:] = np.asarray(d) / 2.0
     p.rho[:], p.mu[:], p.k[:], p.eta[:], p.gamma[:] = rho, mu, k, eta, gamma
@@ -361,7 +361,7 @@ def drops(x: Any, *, d: Any, rho: Any, gamma: Any, eta: Any, t0: Any = 0.0) -> P
 
 
 def set_rest_shape(
-    p: Particles, ratios: Any, axes: Any = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    p: Particles, ratios: ArrayLike, axes: ArrayLike = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 ) -> None:
     """Turn spheres at rest into ellipsoids of the same volume, in place.
 

@@ -41,7 +41,7 @@ from foamprb.cloud.block import (
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey
-from foamprb.cloud.surroundings.quadratic import QuadraticInVarying, QuadraticSolid
+from foamprb.cloud.surroundings.quadratic import Numbers, QuadraticInVarying, QuadraticSolid
 from foamprb.compile.link import Slots, traced
 from foamprb.flow.base import Patch, Sampled
 from foamprb.flow.kernels import viscosity
@@ -99,7 +99,7 @@ def law(_rate: Scalar, *_coefficients: Scalar) -> Scalar:
 
 
 @traced
-def evaluate_law(block: Block, _medium: Medium, _share: float, coefficients: Any) -> None:
+def evaluate_law(block: Block, _medium: Medium, _share: float, coefficients: Numbers) -> None:
     """Compute μ_f of all lanes from the velocity gradient of the flow."""
     for i in range(LANES):
         rate = shear_rate(load9(block, at.l, i))
@@ -107,14 +107,14 @@ def evaluate_law(block: Block, _medium: Medium, _share: float, coefficients: Any
 
 
 def start_law(
-    _flow: object, s: Scratch, i: int, _step: int, _remaining: float, _medium: Medium, coefficients: Any
+    _flow: object, s: Scratch, i: int, _step: int, _remaining: float, _medium: Medium, coefficients: Numbers
 ) -> None:
     """Compute μ_f where a step of lane i starts, for the other models' updates."""
     s.block[fluid.mu_f * LANES + i] = law(shear_rate(load9(s.block, at.l, i)), *coefficients)
 
 
 def sample_field(
-    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Numbers
 ) -> None:
     """Store the field and its gradient at the position of lane i."""
     block = s.block
@@ -129,7 +129,7 @@ def _middle(block: Block, i: int, remaining: float) -> float:
 
 
 @traced
-def evaluate_field(block: Block, _medium: Medium, share: float, _coefficients: Any) -> None:
+def evaluate_field(block: Block, _medium: Medium, share: float, _coefficients: object) -> None:
     """Compute μ_f of all lanes on their way, from the field where their steps start."""
     for i in range(LANES):
         mu = block[fluid.mu_there * LANES + i]
@@ -140,7 +140,7 @@ def evaluate_field(block: Block, _medium: Medium, share: float, _coefficients: A
 
 
 def sample_fraction(
-    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Numbers
 ) -> None:
     """Store the volume fraction and its gradient at the position of lane i, and the fluid there."""
     block = s.block
@@ -150,7 +150,7 @@ def sample_fraction(
     store_mixture(block, i, a, coefficients)
 
 
-def store_mixture(block: Block, i: int, fraction: Scalar, coefficients: Any) -> None:
+def store_mixture(block: Block, i: int, fraction: Scalar, coefficients: Numbers) -> None:
     """Store μ_f and ρ_f of lane i."""
     a = np.maximum(0.0, np.minimum(1.0, fraction))
     mu, other_mu, rho, other_rho = coefficients
@@ -159,7 +159,7 @@ def store_mixture(block: Block, i: int, fraction: Scalar, coefficients: Any) -> 
 
 
 @traced
-def evaluate_mixture(block: Block, _medium: Medium, share: float, coefficients: Any) -> None:
+def evaluate_mixture(block: Block, _medium: Medium, share: float, coefficients: Numbers) -> None:
     """Compute μ_f and ρ_f of all lanes on their way."""
     for i in range(LANES):
         # At the start of a step new_x is not known.
@@ -168,17 +168,17 @@ def evaluate_mixture(block: Block, _medium: Medium, share: float, coefficients: 
         store_mixture(block, i, block[mixture.fraction * LANES + i] + more, coefficients)
 
 
-def law_beside(_flow: Any, _host: int, _x: Vector, _t: float, l: Tensor, coefficients: Any) -> Scalar:
+def law_beside(_flow: object, _host: int, _x: Vector, _t: float, l: Tensor, coefficients: Numbers) -> Scalar:
     """Return μ_f by the gradient at a point, Pa s."""
     return law(shear_rate(l), *coefficients)
 
 
-def field_beside(flow: Any, host: int, x: Vector, t: float, _l: Tensor, coefficients: Any) -> Scalar:
+def field_beside(flow: object, host: int, x: Vector, t: float, _l: Tensor, coefficients: Numbers) -> Scalar:
     """Return μ_f of the field at a point, Pa s."""
     return coefficients[0] * viscosity(flow, host, x, t)[0]
 
 
-def mixture_beside(flow: Any, host: int, x: Vector, t: float, _l: Tensor, coefficients: Any) -> Scalar:
+def mixture_beside(flow: object, host: int, x: Vector, t: float, _l: Tensor, coefficients: Numbers) -> Scalar:
     """Return μ_f of the phases at a point, Pa s."""
     a = np.maximum(0.0, np.minimum(1.0, viscosity(flow, host, x, t)[0]))
     return coefficients[1] + a * (coefficients[0] - coefficients[1])
@@ -195,7 +195,7 @@ class VaryingViscosity(Surrounding):
         """Return the functions that read its rows."""
         return {viscosity_at: felt_viscosity}
 
-    def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:
+    def of(self, flow: object, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:
         """Return μ_f, (n,), Pa s, at points in their hosts and the shear rates there, at time t, s."""
         raise NotImplementedError
 
@@ -251,7 +251,7 @@ class RateViscosity(laws.RateLaw, VaryingViscosity):
         named = {name.replace("nu", "mu"): value for name, value in coefficients.items()}
         return cls(**{name: rho * v if name in cls.by_density else v for name, v in named.items()})
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:  # noqa: ARG002
         """Return the coefficients of the law."""
         return tuple(map(float, astuple(self)))
 
@@ -318,7 +318,7 @@ class FieldViscosity(VaryingViscosity):
         Stage("properties", evaluate_field, writes=(fluid.mu_f,)),
     )
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:  # noqa: ARG002
         """Return the factor."""
         return (float(self.factor),)
 
@@ -358,7 +358,7 @@ class PhaseMixture(VaryingViscosity):
         """Return also the density."""
         return {**super().slots(inertia), local_medium: mixed_medium}
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:  # noqa: ARG002
         """Return viscosities and densities."""
         return tuple(map(float, (*self.mu, *self.rho)))
 
@@ -400,7 +400,7 @@ def in_fluid(model: Surrounding, mu: float | VaryingViscosity) -> Surrounding:
 
 
 def viscosity_of(
-    mu: float | VaryingViscosity, flow: Any, x: Floats, hosts: NDArray[Any], l_f: Floats, t: float | Floats
+    mu: float | VaryingViscosity, flow: object, x: Floats, hosts: NDArray[Any], l_f: Floats, t: float | Floats
 ) -> float | Floats:
     """Return μ_f, Pa s, at points in their hosts, NaN where l_f is; a constant as it is.
 

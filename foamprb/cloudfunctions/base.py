@@ -121,7 +121,7 @@ class ObservedCloud:
         ]
         return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
 
-    def map(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+    def map(self, function: Callable[..., Value], *arguments: object) -> Iterator[Value]:
         """Apply a function to blocks of particles, sorted by number; once to a cloud without particles.
 
         Parameters
@@ -283,11 +283,11 @@ def masses(p: Particles, rows: Rows) -> NDArray[np.float64]:
     return mass
 
 
-def names_of(names: Sequence[str], codes: NDArray[Any]) -> list[str]:
+def names_of(names: Sequence[str], codes: NDArray[np.generic]) -> list[str]:
     """Return the name of each code."""
     return [names[code] for code in codes.astype(np.int64)]
 
 
-def columns(names: Sequence[str], array: NDArray[Any]) -> dict[str, Column]:
+def columns(names: Sequence[str], array: NDArray[np.generic]) -> dict[str, Column]:
     """Return the columns of an array by their names."""
     return dict(zip(names, array.T, strict=True))

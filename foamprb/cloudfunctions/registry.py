@@ -128,7 +128,7 @@ class CloudFunctions:
         for name, function in self.functions.items():
             function.write(self._memory[name], self._seen_by(name), folder / name)
 
-    def with_fates(self, function: Callable[..., Value], *arguments: Any) -> Iterator[Value]:
+    def with_fates(self, function: Callable[..., Value], *arguments: object) -> Iterator[Value]:
         """Apply a function to blocks of particles, and the columns that are added to ``fates`` for these.
 
         See :meth:`ObservedCloud.map`.
@@ -188,7 +188,7 @@ def _with_fates(
     function: Callable[..., Value],
     functions: Mapping[str, CloudFunction],
     fields: Sequence[FieldColumns],
-    *arguments: Any,
+    *arguments: object,
 ) -> Value:
     """Apply a function to particles and to the columns that cloud functions add to ``fates``."""
     columns: dict[str, Column] = {}

@@ -24,7 +24,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
 from types import SimpleNamespace
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from llvmlite import binding, ir  # type: ignore[import-untyped]
 from numba import _dynfunc, config, types
@@ -43,7 +43,14 @@ from foamprb.compile.cache import Store
 from foamprb.compile.part import Keys, Part
 from foamprb.compile.processor import processor
 from foamprb.compile.record_type import RecordType, read_item
-from foamprb.compile.trace import TRACED, Code, Numbers, UntraceableError, trace
+from foamprb.compile.trace import TRACED, Code, Numbers, Path, UntraceableError, trace
+
+if TYPE_CHECKING:
+    from numba.core.base import BaseContext
+    from numba.core.codegen import CodeLibrary
+    from numba.core.compiler import StateDict
+    from numba.core.funcdesc import FunctionDescriptor
+    from numba.core.typing.templates import Signature
 
 __all__ = ["Role", "pipeline", "use_cache", "widen_indices"]
 
@@ -52,6 +59,10 @@ log = logging.getLogger("foamprb")
 Role: TypeAlias = Literal["entry", "lanes", "scalar", "inlined"]
 """Python calls an entry; compiled code calls, by name, functions of all lanes and scalar ones; an inlined one
 is a part of its callers."""
+
+Function: TypeAlias = Callable[..., Any]
+Called: TypeAlias = tuple[str, tuple[types.Type, ...], types.Type, str]
+"""Key and types of a function that compiled code calls, and the end of its name."""
 
 _NAMED = "code_"
 """Start of the names of functions that callers find by a name."""
@@ -81,7 +92,7 @@ _helpers: dict[Any, Any] = {}
 """Functions that numba compiles for its own ones."""
 
 
-def _target(context: Any) -> Any:
+def _target(context: BaseContext) -> BaseContext:
     """Return a copy of numba's context with the code generator of this module."""
     target = context.subtarget(_internal_codegen=_codegen())
     target.cached_internal_func = _helpers
@@ -91,7 +102,7 @@ def _target(context: Any) -> Any:
 class _Inlined(JITCodeLibrary):  # type: ignore[misc]
     """LLVM IR that is linked into its callers before these are optimised."""
 
-    def _optimize_functions(self, module: Any) -> None:
+    def _optimize_functions(self, module: binding.ModuleRef) -> None:
         """Simplify functions as numba does, but unroll no loop around calls that are inlined later."""
         module.data_layout = self._codegen._data_layout
         tuning = binding.create_pipeline_tuning_options(speed_level=config.OPT)
@@ -112,7 +123,7 @@ class _Inlined(JITCodeLibrary):  # type: ignore[misc]
                 function.linkage = "linkonce_odr"
         self._finalized = True
 
-    def _get_module_for_linking(self) -> Any:
+    def _get_module_for_linking(self) -> binding.ModuleRef:
         return self._final_module
 
 
@@ -120,7 +131,7 @@ class _Entry(_Inlined):
     """Machine code, linked with inlined functions before its optimisation."""
 
     def finalize(self) -> None:
-        inlined: dict[Any, None] = {}
+        inlined: dict[CodeLibrary, None] = {}
         _collect(self, inlined)
         # Callers first: a function to which nothing refers yet is left out.
         for library in reversed(inlined):
@@ -162,7 +173,7 @@ class _Scalar(_Entry):
 class _Lanes(_Scalar):
     """The same, with wide registers."""
 
-    def add_ir_module(self, ir_module: Any) -> None:
+    def add_ir_module(self, ir_module: binding.ModuleRef) -> None:
         for function in ir_module.functions:
             # llvmlite rejects attributes of this kind.
             set.add(function.attributes, _WIDE)
@@ -184,7 +195,7 @@ class _Traced(_Lanes):
         self._finish()
 
 
-def _collect(library: Any, inlined: dict[Any, None]) -> None:
+def _collect(library: CodeLibrary, inlined: dict[CodeLibrary, None]) -> None:
     """Collect the inlined libraries that a library refers to, directly or not, each after its own."""
     for other in library._linking_libraries:
         if other not in inlined and not isinstance(other, _Scalar):
@@ -198,7 +209,7 @@ def _is_absent(name: str) -> bool:
     return name.startswith(_NAMED) and not _codegen()._engine.is_symbol_defined(name)
 
 
-def _name_by_key(qualified: str, kinds: Sequence[Any]) -> str:
+def _name_by_key(qualified: str, kinds: Sequence[types.Type]) -> str:
     """Return the name of a function for arguments of some types in machine code.
 
     Of ``qualified`` only the key at the end counts, in whose place a caller's code may have another.
@@ -207,12 +218,12 @@ def _name_by_key(qualified: str, kinds: Sequence[Any]) -> str:
     return f"{_NAMED}{qualified.rpartition('_')[2]}_{kind}"
 
 
-def _kind_in(compiled: Any) -> str:
+def _kind_in(compiled: CompileResult) -> str:
     """Return the last part of a name by key, which depends on the types of the arguments."""
     return str(compiled.fndesc.mangled_name).rpartition("_")[2]
 
 
-def _context(target: Any, named: str = "") -> Any:
+def _context(target: BaseContext, named: str = "") -> BaseContext:
     """Return a copy of a context for functions that Python does not call.
 
     ``named`` is the qualified name, with its key, of a function that is found by a name.
@@ -221,7 +232,7 @@ def _context(target: Any, named: str = "") -> Any:
     context.get_executable = _without_executable
     if named:
 
-        def mangler(name: str, kinds: Sequence[Any], **more: Any) -> Any:
+        def mangler(name: str, kinds: Sequence[types.Type], **more: object) -> str:
             is_named = name.endswith(named) and not name.startswith(".NumbaEnv")
             return _name_by_key(named, kinds) if is_named else target.mangler(name, kinds, **more)
 
@@ -229,7 +240,7 @@ def _context(target: Any, named: str = "") -> Any:
     return context
 
 
-def _without_executable(library: Any, fndesc: Any, env: Any) -> Any:
+def _without_executable(library: CodeLibrary, fndesc: FunctionDescriptor, env: Environment) -> object:
     """Return a dummy for the Python function that numba expects of each compilation."""
     library._ensure_finalized()
     name = fndesc.qualname.split(".")[-1]
@@ -257,7 +268,7 @@ def _lowering(role: Role) -> type:
     class Lowering(NativeLowering):  # type: ignore[misc]
         _name = f"lowering_of_{role}"
 
-        def run_pass(self, state: Any) -> bool:
+        def run_pass(self, state: StateDict) -> bool:
             before, name = state.targetctx, state.func_id.func_qualname
             target = _target(before)
             state.library = _LIBRARIES[role](target.codegen(), name)
@@ -274,7 +285,7 @@ def _lowering(role: Role) -> type:
     return Lowering
 
 
-def pipeline(role: Role) -> dict[str, Any]:
+def pipeline(role: Role) -> dict[str, type]:
     """Return the option of ``numba.njit`` with which a function of a role is compiled."""
     return {"pipeline_class": _COMPILERS[role]}
 
@@ -283,7 +294,7 @@ def _compiler(role: Role) -> type:
     lowering = _lowering(role)
 
     class Compiler(CompilerBase):  # type: ignore[misc]
-        def compile_extra(self, function: Any) -> Any:
+        def compile_extra(self, function: Function) -> CompileResult:
             with _rare_collection(), _resolved_operators():
                 if hasattr(function, TRACED):
                     try:
@@ -293,7 +304,7 @@ def _compiler(role: Role) -> type:
                         log.warning("The stage %s compiles slowly, as it cannot be traced: %s", name, reason)
                 return super().compile_extra(function)
 
-        def define_pipelines(self) -> list[Any]:
+        def define_pipelines(self) -> list[PassManager]:
             passes = _Passes(f"foamprb_{role}")
             for step, description in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
                 passes.add_pass(lowering if step is NativeLowering else step, description)
@@ -329,7 +340,7 @@ def _resolved_operators() -> Iterator[None]:
     resolve = functions.get_call_type
     operands = types.Number | types.Boolean | types.Array | types.BaseTuple
 
-    def resolve_once(function: Any, context: Any, args: tuple[Any, ...], kws: dict[str, Any]) -> Any:
+    def resolve_once(function: Any, context: BaseContext, args: tuple[Any, ...], kws: dict[str, Any]) -> Any:
         if kws or not all(isinstance(arg, operands) for arg in args):
             return resolve(function, context, args, kws)
         resolved = vars(function).setdefault("_resolved", {})
@@ -344,7 +355,7 @@ def _resolved_operators() -> Iterator[None]:
         functions.get_call_type = resolve
 
 
-def _traced(state: Any, function: Callable[..., Any]) -> Any:
+def _traced(state: StateDict, function: Function) -> CompileResult:
     """Return the result of the compilation of a stage, made from its trace.
 
     Raises
@@ -356,7 +367,7 @@ def _traced(state: Any, function: Callable[..., Any]) -> Any:
     context = _context(_target(state.targetctx), identity.func_qualname)
     flags = " ".join(sorted(state.flags.fastmath.flags))
 
-    def arguments(code: Code) -> list[Any]:
+    def arguments(code: Code) -> list[object]:
         return [_symbols(kind, code, (k,)) for k, kind in enumerate(state.args)]
 
     code = trace(function, processor().register, flags, arguments)
@@ -402,7 +413,7 @@ def _traced(state: Any, function: Callable[..., Any]) -> Any:
     )
 
 
-def _symbols(kind: Any, code: Code, path: tuple[int | str, ...]) -> Any:
+def _symbols(kind: types.Type, code: Code, path: Path) -> object:
     """Return the symbol of an argument of some type, found under ``path`` among the arguments."""
     if kind == types.Array(types.float64, 1, "C") and path == (0,):
         return code.block
@@ -420,7 +431,7 @@ def _symbols(kind: Any, code: Code, path: tuple[int | str, ...]) -> Any:
     return object()
 
 
-def _caller(context: Any, library: Any, descriptor: Any, code: Code) -> Any:
+def _caller(context: BaseContext, library: CodeLibrary, descriptor: FunctionDescriptor, code: Code) -> Any:
     """Return the LLVM module of a function with numba's signature that calls the traced one."""
     module = library.create_ir_module(descriptor.unique_name)
     outer = context.declare_function(module, descriptor)
@@ -437,8 +448,13 @@ def _caller(context: Any, library: Any, descriptor: Any, code: Code) -> Any:
 
 
 def _number(
-    context: Any, builder: Any, kinds: Sequence[Any], arguments: Sequence[Any], path: Any, item: int | None
-) -> Any:
+    context: Any,
+    builder: Any,
+    kinds: Sequence[Any],
+    arguments: Sequence[Any],
+    path: tuple[Any, ...],
+    item: int | None,
+) -> ir.Value:
     """Return the number under a path among the arguments, or the item of the array there."""
     kind, value = kinds[path[0]], arguments[path[0]]
     for k in path[1:]:
@@ -455,14 +471,14 @@ def _number(
 class _Reader:
     """Code generator that reads the saved code of a function that Python does not call."""
 
-    def __init__(self, codegen: Any) -> None:
+    def __init__(self, codegen: JITCPUCodegen) -> None:
         self._codegen = codegen
 
-    def create_library(self, name: str) -> Any:
+    def create_library(self, name: str) -> CodeLibrary:
         """Return an empty library for machine code."""
         return _Scalar(self._codegen, name)
 
-    def unserialize_library(self, state: Any) -> Any:
+    def unserialize_library(self, state: StateDict) -> CodeLibrary:
         return _Scalar._unserialize(self, state)
 
 
@@ -490,7 +506,7 @@ class _Cache:
         self._keys = [keys, *(part.keys for part in named.values())]
         self.cache_path = str(store.folder)
 
-    def load_overload(self, signature: Any, context: Any) -> Any:
+    def load_overload(self, signature: Signature, context: BaseContext) -> CompileResult | None:
         context.refresh()
         saved = self._store.load(signature)
         if saved is None:
@@ -500,7 +516,7 @@ class _Cache:
             return self._rebuilt(_target(context), saved)
         return None
 
-    def save_overload(self, signature: Any, result: Any) -> None:
+    def save_overload(self, signature: Signature, result: CompileResult) -> None:
         # Machine code that holds addresses serves one process only.
         if not result.library.has_dynamic_globals:
             state = dumps(result._reduce())
@@ -511,7 +527,7 @@ class _Cache:
     def flush(self) -> None:
         self._store.flush()
 
-    def _rebuilt(self, context: Any, saved: Any) -> Any:
+    def _rebuilt(self, context: BaseContext, saved: tuple[list[Called], bytes]) -> CompileResult | None:
         called, state = saved
         for key, kinds, returned, kind in called:
             dispatcher = self._named[key].dispatcher
@@ -528,7 +544,7 @@ class _Cache:
         # Without the environments of interpreted code, which belong to entries.
         return CompileResult._rebuild(target, *pickle.loads(state)[:-1], ())
 
-    def _called(self, result: Any) -> list[tuple[str, Any, Any, str]]:
+    def _called(self, result: CompileResult) -> list[Called]:
         """Return keys and types of the functions that compiled code calls, and the ends of their names."""
         declared = {f.name for f in result.library._final_module.functions if f.is_declaration}
         return [
@@ -543,7 +559,7 @@ def widen_indices(dispatcher: Any) -> None:
     """Compile a function for 64-bit integers where a caller has 32-bit ones, as for items of arrays."""
     template = dispatcher.get_call_template
 
-    def of_wide(args: Sequence[Any], kws: dict[str, Any]) -> Any:
+    def of_wide(args: Sequence[types.Type], kws: dict[str, types.Type]) -> Any:
         return template([types.int64 if arg == types.int32 else arg for arg in args], kws)
 
     dispatcher.get_call_template = of_wide

@@ -40,6 +40,8 @@ from foamprb.compile.processor import processor
 from foamprb.compile.trace import LANES, TRACED, branch
 
 if TYPE_CHECKING:
+    from numba.core.dispatcher import Dispatcher
+
     from foamprb.compile.internals import Role
 
 __all__ = [
@@ -210,7 +212,7 @@ def allocating(function: Function) -> Function:
     return function
 
 
-def is_compiled(dispatcher: Any) -> bool:
+def is_compiled(dispatcher: Dispatcher) -> bool:
     """Return True if a function that :func:`link` returned is compiled, here or in the cache."""
     import numba
 

@@ -11,8 +11,8 @@ import functools
 import hashlib
 import operator
 import struct
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from llvmlite import ir  # type: ignore[import-untyped]
@@ -33,9 +33,14 @@ from numba.extending import (
 
 from foamprb.compile.record import RECORDS
 
+if TYPE_CHECKING:
+    from numba.core.base import BaseContext
+    from numba.core.pythonapi import UnboxContext
+    from numba.core.typing.templates import Signature
+
 __all__ = ["Packed", "RecordType", "read_item", "register_records", "unpack_as"]
 
-_registered: set[type[tuple[Any, ...]]] = set()
+_registered: set[type[tuple[object, ...]]] = set()
 
 
 def register_records() -> None:
@@ -47,11 +52,11 @@ def register_records() -> None:
 
 
 @functools.cache
-def register_stand_in(cls: Any) -> None:
+def register_stand_in(cls: type) -> None:
     """Make numba use a class of :func:`~foamprb.compile.record.stand_in`."""
 
     class Template(AbstractTemplate):  # type: ignore[misc]
-        def generic(self, items: Any, _kws: Any) -> Any:
+        def generic(self, items: tuple[types.Type, ...], _kws: object) -> Signature:
             return signature(StandInType(cls, items), *items)
 
     infer_global(cls)(Template)
@@ -72,11 +77,11 @@ class StandInType(types.Type):  # type: ignore[misc]
 class _StandInModel(models.StructModel):  # type: ignore[misc]
     """Its items."""
 
-    def __init__(self, manager: Any, kind: StandInType) -> None:
+    def __init__(self, manager: models.DataModelManager, kind: StandInType) -> None:
         super().__init__(manager, kind, list(kind.items.items()))
 
 
-def _made(context: Any, builder: Any, made: Any, values: Any) -> Any:
+def _made(context: BaseContext, builder: ir.IRBuilder, made: Any, values: Any) -> Any:
     """Return a new object."""
     new = cgutils.create_struct_proxy(made.return_type)(context, builder)
     for name, value, given, kind in zip(
@@ -97,7 +102,7 @@ class _StandInItems(AttributeTemplate):  # type: ignore[misc]
 
 
 @lower_getattr_generic(StandInType)  # type: ignore[untyped-decorator]
-def _read_stand_in(context: Any, builder: Any, kind: StandInType, value: Any, name: str) -> Any:
+def _read_stand_in(context: BaseContext, builder: Any, kind: StandInType, value: Any, name: str) -> Any:
     items = cgutils.create_struct_proxy(kind)(context, builder, value)
     if name in kind.items:
         return getattr(items, name)
@@ -106,7 +111,7 @@ def _read_stand_in(context: Any, builder: Any, kind: StandInType, value: Any, na
 
 @infer_global(operator.getitem)
 class _Element(AbstractTemplate):  # type: ignore[misc]
-    def generic(self, args: Any, _kws: Any) -> Any:
+    def generic(self, args: Sequence[types.Type], _kws: object) -> Signature | None:
         """Return the types of an element of a stand-in for a table."""
         if isinstance(args[0], StandInType):
             return signature(types.float64, args[0], types.UniTuple(types.int64, 2))
@@ -114,7 +119,7 @@ class _Element(AbstractTemplate):  # type: ignore[misc]
 
 
 @lower_builtin(operator.getitem, StandInType, types.BaseTuple)  # type: ignore[untyped-decorator]
-def _read_element(context: Any, builder: Any, asked: Any, values: Any) -> Any:
+def _read_element(context: BaseContext, builder: ir.IRBuilder, asked: Any, values: Any) -> Any:
     table, place = values
     i, j = (builder.extract_value(place, k) for k in range(2))
     made = types.float64(asked.args[0], types.int64, types.int64)
@@ -131,7 +136,7 @@ class RecordType(types.Type):  # type: ignore[misc]
         super().__init__(name=f"{cls.__name__}_{digest}")
 
 
-def _typeof_record(record: tuple[Any, ...], context: Any) -> RecordType:
+def _typeof_record(record: tuple[object, ...], context: BaseContext) -> RecordType:
     return RecordType(type(record), tuple(typeof_impl(item, context) for item in record))
 
 
@@ -150,7 +155,7 @@ class _Items(AttributeTemplate):  # type: ignore[misc]
 
 
 @unbox(RecordType)  # type: ignore[untyped-decorator]
-def _unbox_record(record: RecordType, value: Any, c: Any) -> NativeValue:
+def _unbox_record(record: RecordType, value: ir.Value, c: UnboxContext) -> NativeValue:
     place = cgutils.alloca_once(c.builder, _structure(c.context, record))
     failed, cleanups = cgutils.false_bit, []
     for k, item in enumerate(record.items.values()):
@@ -172,7 +177,7 @@ def _unbox_record(record: RecordType, value: Any, c: Any) -> NativeValue:
 
 
 @lower_getattr_generic(RecordType)  # type: ignore[untyped-decorator]
-def read_item(context: Any, builder: Any, record: RecordType, address: Any, name: str) -> Any:
+def read_item(context: BaseContext, builder: Any, record: RecordType, address: Any, name: str) -> Any:
     """Return an item of a record."""
     place = builder.bitcast(address, _structure(context, record).as_pointer())
     path, item = _path(0, list(record.items).index(name)), record.items[name]
@@ -199,19 +204,19 @@ def read_item(context: Any, builder: Any, record: RecordType, address: Any, name
     return array
 
 
-def _structure(context: Any, record: RecordType) -> Any:
+def _structure(context: BaseContext, record: RecordType) -> ir.Type:
     """Return the LLVM type of the memory at the address of a record."""
     return ir.LiteralStructType([_packed_type(context, item) for item in record.items.values()])
 
 
-def _packed_type(context: Any, item: types.Type) -> Any:
+def _packed_type(context: BaseContext, item: types.Type) -> ir.Type:
     """Return the LLVM type of an item in memory: of a contiguous array, its address and shape."""
     if not _is_contiguous(item):
         return context.data_model_manager[item].get_data_type()
     return ir.LiteralStructType([cgutils.voidptr_t, ir.ArrayType(cgutils.intp_t, item.ndim)])
 
 
-def _packed(context: Any, builder: Any, item: types.Type, value: Any) -> Any:
+def _packed(context: BaseContext, builder: ir.IRBuilder, item: types.Type, value: ir.Value) -> ir.Value:
     """Return an item as it lies in memory."""
     if not _is_contiguous(item):
         return context.data_model_manager[item].as_data(builder, value)
@@ -225,11 +230,11 @@ def _is_contiguous(item: types.Type) -> bool:
     return isinstance(item, types.Array) and item.layout == "C"
 
 
-def _path(*indices: int) -> list[Any]:
+def _path(*indices: int) -> list[ir.Constant]:
     return [ir.Constant(ir.IntType(32), k) for k in indices]
 
 
-def _load(builder: Any, place: Any, path: list[Any]) -> Any:
+def _load(builder: ir.IRBuilder, place: ir.Value, path: list[ir.Constant]) -> ir.Value:
     """Load a constant from memory."""
     value = builder.load(builder.gep(place, path, inbounds=True))
     value.set_metadata("invariant.load", builder.module.add_metadata([]))
@@ -262,12 +267,12 @@ class Packed:
 
     def __init__(self, argument: Any) -> None:
         self.layout: types.Type = typeof(argument)
-        self._held: list[Any] = [argument]
+        self._held: list[object] = [argument]
         words = self._record(argument) if isinstance(self.layout, RecordType) else self._words(argument)
         self._memory = np.frombuffer(words or bytes(8), dtype=np.uint8).copy()
         self.address = self._memory.ctypes.data
 
-    def _record(self, items: tuple[Any, ...]) -> bytes:
+    def _record(self, items: tuple[object, ...]) -> bytes:
         """Return the items of a record, see :func:`_structure`."""
         return b"".join(map(self._item, items))
 
@@ -298,7 +303,7 @@ class Packed:
 
 
 @typeof_impl.register(Packed)  # type: ignore[untyped-decorator]
-def _typeof_packed(_argument: Packed, _context: Any) -> types.Type:
+def _typeof_packed(_argument: Packed, _context: object) -> types.Type:
     return _PACKED
 
 
@@ -308,7 +313,7 @@ class _PackedModel(models.OpaqueModel):  # type: ignore[misc]
 
 
 @unbox(_PackedType)  # type: ignore[untyped-decorator]
-def _unbox_packed(_kind: Any, argument: Any, c: Any) -> NativeValue:
+def _unbox_packed(_kind: object, argument: ir.Value, c: UnboxContext) -> NativeValue:
     number = c.pyapi.object_getattr_string(argument, "address")
     address = c.builder.inttoptr(c.pyapi.long_as_longlong(number), cgutils.voidptr_t)
     c.pyapi.decref(number)
@@ -320,8 +325,8 @@ def unpack_as(layout: types.Type) -> Callable[[Any], Any]:
     """Return a function of compiled code that returns an argument of some type from its address."""
 
     @intrinsic  # type: ignore[untyped-decorator]
-    def unpack(_typing: Any, argument: Any) -> Any:
-        def read(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+    def unpack(_typing: object, argument: Any) -> Any:
+        def read(context: BaseContext, builder: ir.IRBuilder, _signature: object, values: Any) -> Any:
             if isinstance(layout, RecordType):
                 return values[0]
             place = builder.bitcast(values[0], context.get_data_type(layout).as_pointer())

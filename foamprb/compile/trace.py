@@ -14,7 +14,7 @@ import struct
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from functools import partial
 from types import CellType, FunctionType, SimpleNamespace
-from typing import Any
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -26,11 +26,18 @@ TRACED = "_traced"
 """Attribute of stages to be traced."""
 
 
+Path: TypeAlias = tuple[int | str, ...]
+"""Index of an argument of a stage, and names or indices of items in it."""
+Origin: TypeAlias = tuple[Path, int | None]
+"""Path of a number, or of an array and the index of the number in it."""
+T = TypeVar("T")
+
+
 class UntraceableError(Exception):
     """Error: a function is not a stage."""
 
 
-def branch(condition: Any, a: Any, b: Any) -> Any:
+def branch(condition: object, a: T, b: T) -> T:
     """Select on numbers, see :func:`foamprb.body.tensor.select`: the only branch that can be traced."""
     return a if condition else b
 
@@ -57,11 +64,11 @@ class Code:
         self._known: dict[str, str] = {}
         self._loops = self._loop = 0
         self._functions: dict[str, int] = {}
-        self._origins: list[Any] = []
+        self._origins: list[Origin] = []
         self.block = _Block(self)
         """Symbol of the block."""
 
-    def argument(self, path: Any, item: int | None = None) -> Symbol:
+    def argument(self, path: Path, item: int | None = None) -> Symbol:
         """Return the symbol of a number that all lanes share.
 
         It is found under a path among the arguments of the stage, or is an item of the array there.
@@ -72,7 +79,7 @@ class Code:
         return Symbol(self, f"%all{self._origins.index(origin)}", None)
 
     @property
-    def arguments(self) -> tuple[tuple[Any, int | None], ...]:
+    def arguments(self) -> tuple[Origin, ...]:
         """Path and item of the arguments after the block."""
         return tuple(self._origins)
 
@@ -129,7 +136,7 @@ class Code:
         text = f"load {self._numbers}, ptr {self._address(offset)}, align 8"
         return Symbol(self, self._once(text), self.loop)
 
-    def store(self, offset: int, value: Any) -> int:
+    def store(self, offset: int, value: object) -> int:
         """Record a store at an offset; return the index of its line."""
         operand = self._operand(value)
         self._lines.append(f"store {self._numbers} {operand}, ptr {self._address(offset)}, align 8")
@@ -152,11 +159,11 @@ class Code:
             raise UntraceableError("a value of one lane is used after the loop")
         return self._loop
 
-    def unary(self, operation: str, a: Any) -> Symbol:
+    def unary(self, operation: str, a: object) -> Symbol:
         """Record an operation on numbers."""
         return Symbol(*self._result(f"{operation} {self._flags} {self._numbers} {self._operand(a)}", a))
 
-    def binary(self, operation: str, a: Any, b: Any) -> Symbol:
+    def binary(self, operation: str, a: object, b: object) -> Symbol:
         """Record an operation on two numbers."""
         start = f"{operation} {self._flags} {self._numbers}"
         text, turned = f"{start} {self._operand(a)}, {self._operand(b)}", ""
@@ -164,24 +171,24 @@ class Code:
             turned = f"{start} {self._operand(b)}, {self._operand(a)}"
         return Symbol(*self._result(turned if turned in self._known else text, a, b))
 
-    def call(self, function: str, *operands: Any) -> Symbol:
+    def call(self, function: str, *operands: object) -> Symbol:
         """Record a call of an LLVM function."""
         name = f"@llvm.{function}.v{self._together}f64"
         self._functions[name] = len(operands)
         arguments = ", ".join(f"{self._numbers} {self._operand(a)}" for a in operands)
         return Symbol(*self._result(f"call {self._flags} {self._numbers} {name}({arguments})", *operands))
 
-    def compare(self, relation: str, a: Any, b: Any) -> Condition:
+    def compare(self, relation: str, a: object, b: object) -> Condition:
         """Record a comparison."""
         operands = f"{self._numbers} {self._operand(a)}, {self._operand(b)}"
         return Condition(*self._result(f"fcmp {self._flags} {relation} {operands}", a, b))
 
-    def combine(self, operation: str, a: Any, b: Any) -> Condition:
+    def combine(self, operation: str, a: object, b: object) -> Condition:
         """Record ``and`` or ``or`` of two conditions."""
         operands = f"{self._conditions} {self._condition(a)}, {self._condition(b)}"
         return Condition(*self._result(f"{operation} {operands}", a, b))
 
-    def select(self, condition: Any, a: Any, b: Any) -> Any:
+    def select(self, condition: object, a: T, b: T) -> T | Symbol:
         """Record ``a`` where a condition holds, else ``b``."""
         if isinstance(condition, bool | np.bool_):
             return a if condition else b
@@ -192,14 +199,14 @@ class Code:
     def _address(self, offset: int) -> str:
         return self._once(f"getelementptr double, ptr %here, i64 {offset}")
 
-    def _operand(self, value: Any) -> str:
+    def _operand(self, value: object) -> str:
         if type(value) is Symbol:
             return self._name(value)
         if not isinstance(value, int | float):
             raise UntraceableError(f"{value!r} is used as a number")
         return f"splat (double 0x{struct.pack('>d', value).hex()})"
 
-    def _condition(self, value: Any) -> str:
+    def _condition(self, value: object) -> str:
         if not isinstance(value, Condition):
             raise UntraceableError(f"{value!r} is used as a condition")
         return self._name(value)
@@ -209,7 +216,7 @@ class Code:
             raise UntraceableError("a value of one lane is used in another")
         return symbol.name
 
-    def _result(self, text: str, *operands: Any) -> tuple[Code, str, int | None]:
+    def _result(self, text: str, *operands: object) -> tuple[Code, str, int | None]:
         of_lane = any(isinstance(a, Symbol) and a.loop is not None for a in operands)
         return self, self._once(text), self.loop if of_lane else None
 
@@ -241,29 +248,29 @@ class Symbol:
     def __abs__(self) -> Symbol:
         return self.code.call("fabs", self)
 
-    def __add__(self, other: Any) -> Symbol:
+    def __add__(self, other: object) -> Symbol:
         return self if _is(0.0, other) else self.code.binary("fadd", self, other)
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Symbol:
+    def __sub__(self, other: object) -> Symbol:
         return self if _is(0.0, other) else self.code.binary("fsub", self, other)
 
-    def __rsub__(self, other: Any) -> Symbol:
+    def __rsub__(self, other: object) -> Symbol:
         return -self if _is(0.0, other) else self.code.binary("fsub", other, self)
 
-    def __mul__(self, other: Any) -> Symbol:
+    def __mul__(self, other: object) -> Symbol:
         return self if _is(1.0, other) else self.code.binary("fmul", self, other)
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Symbol:
+    def __truediv__(self, other: object) -> Symbol:
         return self.code.binary("fdiv", self, other)
 
-    def __rtruediv__(self, other: Any) -> Symbol:
+    def __rtruediv__(self, other: object) -> Symbol:
         return self.code.binary("fdiv", other, self)
 
-    def __pow__(self, n: Any) -> Symbol:
+    def __pow__(self, n: object) -> Symbol:
         if type(n) is not int or n < 1:
             raise UntraceableError(f"the power {n!r} is not an integer above 0")
         if n == 1:
@@ -271,32 +278,32 @@ class Symbol:
         half = self ** (n // 2)
         return half * half * self if n % 2 else half * half
 
-    def __lt__(self, other: Any) -> Condition:
+    def __lt__(self, other: object) -> Condition:
         return self.code.compare("olt", self, other)
 
-    def __le__(self, other: Any) -> Condition:
+    def __le__(self, other: object) -> Condition:
         return self.code.compare("ole", self, other)
 
-    def __gt__(self, other: Any) -> Condition:
+    def __gt__(self, other: object) -> Condition:
         return self.code.compare("ogt", self, other)
 
-    def __ge__(self, other: Any) -> Condition:
+    def __ge__(self, other: object) -> Condition:
         return self.code.compare("oge", self, other)
 
-    def __eq__(self, other: Any) -> Condition:  # type: ignore[override]
+    def __eq__(self, other: object) -> Condition:  # type: ignore[override]
         return self.code.compare("oeq", self, other)
 
-    def __ne__(self, other: Any) -> Condition:  # type: ignore[override]
+    def __ne__(self, other: object) -> Condition:  # type: ignore[override]
         return self.code.compare("une", self, other)
 
 
 class Numbers:
     """Symbol of an array of numbers that all lanes share."""
 
-    def __init__(self, code: Code, path: Any) -> None:
+    def __init__(self, code: Code, path: Path) -> None:
         self._code, self._path = code, path
 
-    def __getitem__(self, item: Any) -> Symbol:
+    def __getitem__(self, item: object) -> Symbol:
         if not isinstance(item, int):
             raise UntraceableError(f"an array is indexed with {item!r}")
         return self._code.argument(self._path, item)
@@ -308,18 +315,18 @@ class Condition(Symbol):
     __slots__ = ()
     __hash__ = None
 
-    def __and__(self, other: Any) -> Condition:
+    def __and__(self, other: object) -> Condition:
         return self.code.combine("and", self, other)
 
-    def __or__(self, other: Any) -> Condition:
+    def __or__(self, other: object) -> Condition:
         return self.code.combine("or", self, other)
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     return value.name if isinstance(value, Symbol) else repr(value)
 
 
-def _is(number: float, value: Any) -> bool:
+def _is(number: float, value: object) -> bool:
     # Infinity times 0 is NaN, so products with 0 are kept; the sign of zero is free.
     return isinstance(value, int | float) and value == number
 
@@ -329,11 +336,11 @@ class _Block:
 
     def __init__(self, code: Code) -> None:
         self._code = code
-        self.current: dict[int, Any] = {}
+        self.current: dict[int, Symbol | float] = {}
         """Symbols or numbers by offset."""
         self._stored: dict[int, int] = {}
 
-    def __getitem__(self, place: Any) -> Any:
+    def __getitem__(self, place: object) -> Symbol | float:
         offset = self._offset(place)
         if offset not in self.current:
             self.current[offset] = self._code.load(offset)
@@ -341,14 +348,14 @@ class _Block:
         # An earlier loop may have stored it.
         return Symbol(self._code, value.name, self._code.loop) if isinstance(value, Symbol) else value
 
-    def __setitem__(self, place: Any, value: Any) -> None:
+    def __setitem__(self, place: object, value: Symbol | float) -> None:
         offset = self._offset(place)
         if offset in self._stored:
             self._code.leave_out(self._stored[offset])
         self._stored[offset] = self._code.store(offset, value)
         self.current[offset] = value if isinstance(value, Symbol) else float(value)
 
-    def _offset(self, place: Any) -> int:
+    def _offset(self, place: object) -> int:
         if not (self._code.loop and isinstance(place, _Place)) or place.offset % self._code.lanes:
             raise UntraceableError(f"the block is indexed with {place!r}")
         return place.offset
@@ -378,7 +385,7 @@ def trace(
     function: Callable[..., Any],
     together: int,
     flags: str,
-    arguments: Callable[[Code], Sequence[Any]],
+    arguments: Callable[[Code], Sequence[object]],
 ) -> Code:
     """Return the LLVM code of a stage.
 
@@ -415,7 +422,7 @@ def trace(
     return code
 
 
-def _plain(function: Callable[..., Any], code: Code, made: dict[Hashable, Any]) -> Any:
+def _plain(function: Callable[..., Any], code: Code, made: dict[Hashable, FunctionType]) -> FunctionType:
     """Return a function on symbols; ``made`` holds the functions made so far."""
     text = function.__code__
     if function not in made:
@@ -429,7 +436,7 @@ def _plain(function: Callable[..., Any], code: Code, made: dict[Hashable, Any]) 
     return made[function]
 
 
-def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, Any]) -> Any:
+def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, FunctionType]) -> Any:
     """Return the value of a global for symbols."""
     if value is np or value is math:
         return _functions(code)
@@ -445,7 +452,7 @@ def _functions(code: Code) -> SimpleNamespace:
     """Return the functions of numpy and math that formulas use, for symbols."""
 
     def function(of_symbols: Callable[..., Any], plain: Callable[..., Any]) -> Callable[..., Any]:
-        def of(*operands: Any) -> Any:
+        def of(*operands: object) -> Any:
             traced = any(isinstance(a, Symbol) for a in operands)
             return of_symbols(*operands) if traced else plain(*operands)
 

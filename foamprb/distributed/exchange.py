@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.communicator import Share
 from foamprb.cloud.layout import LANES
+
+if TYPE_CHECKING:
+    from mpi4py.MPI import Comm
 
 Rows = NDArray[np.int64]
 
@@ -34,7 +38,7 @@ def with_others(share: Share, rows: Rows, others: Share) -> Share:
     return Share.of({name: _replaced(array, rows, new[name], n) for name, array in before.items()})
 
 
-def _replaced(array: NDArray[Any], rows: Rows, others: NDArray[Any], n: int) -> NDArray[Any]:
+def _replaced(array: NDArray[np.generic], rows: Rows, others: NDArray[np.generic], n: int) -> NDArray[Any]:
     """Replace rows of an array by others; fill gaps with the last rows (swap-remove), to n rows."""
     # An array of zeros takes no memory of the machine until its rows are written.
     written, both = has_bits(others), min(len(rows), len(others))
@@ -54,7 +58,7 @@ def _replaced(array: NDArray[Any], rows: Rows, others: NDArray[Any], n: int) -> 
     return array
 
 
-def _with_room(array: NDArray[Any], n: int) -> NDArray[Any]:
+def _with_room(array: NDArray[np.generic], n: int) -> NDArray[Any]:
     """Extend an array to n rows, in its memory if that suffices."""
     memory = array if array.base is None else array.base
     if (
@@ -141,7 +145,7 @@ class Route:
         Process to which each row goes, (n,).
     """
 
-    def __init__(self, MPI: Any, comm: Any, to: NDArray[np.int64]) -> None:
+    def __init__(self, MPI: ModuleType, comm: Comm, to: NDArray[np.int64]) -> None:
         self._MPI, self._comm = MPI, comm
         most = max(1, min(_ROWS, _AT_ONCE // comm.size))
         self._rounds: list[tuple[Any, NDArray[np.int64], NDArray[np.int64]]] = []
@@ -154,7 +158,7 @@ class Route:
         self.size = sum(int(received.sum()) for _, _, received in self._rounds)
         """Number of rows that arrive."""
 
-    def send(self, array: NDArray[Any]) -> NDArray[Any]:
+    def send(self, array: NDArray[np.generic]) -> NDArray[Any]:
         """Send an array; return the rows that arrive, in the same order for every array.
 
         If no process has anything but bits that are 0, nothing is sent.
@@ -182,7 +186,7 @@ def _sorted_rows(to: NDArray[np.int64], first: int) -> NDArray[np.int64] | slice
     return first + np.argsort(to, kind="stable")
 
 
-def has_bits(array: NDArray[Any]) -> bool:
+def has_bits(array: NDArray[np.generic]) -> bool:
     """Return whether any bit of a contiguous array is 1."""
     # Most arrays that have some have one early.
     return any(bool(part.reshape(-1).view(np.uint8).any()) for part in (array[:_FIRST], array))

@@ -62,7 +62,7 @@ class Ranks(Communicator):
         self._published = b""
 
     def call(
-        self, function: Callable[..., Value], *arguments: Any, here: tuple[Any, ...] = ()
+        self, function: Callable[..., Value], *arguments: object, here: tuple[Any, ...] = ()
     ) -> list[Value]:
         """See :meth:`Communicator.call`; the other processes import the function.
 
@@ -131,7 +131,7 @@ class Ranks(Communicator):
                 self.call(Worker.put, rank, first, here=(of_rank,))
 
     def map_by_id(
-        self, function: Callable[..., Value], *arguments: Any, of: str | None = None
+        self, function: Callable[..., Value], *arguments: object, of: str | None = None
     ) -> Iterator[Value]:
         """See :meth:`Communicator.map_by_id`."""
         if self.rank.in_order:

@@ -6,12 +6,16 @@ import os
 import pickle
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import RunStopped
+
+if TYPE_CHECKING:
+    from mpi4py.MPI import Comm
 
 Array = NDArray[Any]
 
@@ -45,7 +49,7 @@ class Windows:
         All processes; the first fills the arrays.
     """
 
-    def __init__(self, MPI: Any, comm: Any) -> None:
+    def __init__(self, MPI: ModuleType, comm: Comm) -> None:
         self._MPI = MPI
         few = int(os.environ.get(NODE_RANKS, "0"))
         self.node = comm.Split(comm.rank // few, comm.rank) if few else comm.Split_type(MPI.COMM_TYPE_SHARED)
@@ -194,7 +198,7 @@ class Publisher:
         return key
 
 
-def wait_for_all(comm: Any) -> None:
+def wait_for_all(comm: Comm) -> None:
     """Wait for all processes with short pauses; MPI itself would keep the processor busy."""
     request, pause = comm.Ibarrier(), 1e-6
     while not request.Test():

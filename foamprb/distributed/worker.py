@@ -8,6 +8,7 @@ import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from types import ModuleType
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -50,7 +51,7 @@ class Answer(NamedTuple):
 class Worker(Rank):
     """Rank of several, each a process of MPI; it executes the calls of the first one."""
 
-    def __init__(self, MPI: Any) -> None:
+    def __init__(self, MPI: ModuleType) -> None:
         super().__init__()
         self._MPI = MPI
         self.comm = MPI.COMM_WORLD.Dup()
@@ -95,7 +96,7 @@ class Worker(Rank):
         yield
         self._in_collective = False
 
-    def window(self, name: str, *arguments: Any) -> None:
+    def window(self, name: str, *arguments: object) -> None:
         """Call a method of the windows of all processes."""
         with self.collective():
             getattr(self.windows, name)(*arguments)
@@ -149,7 +150,7 @@ class Worker(Rank):
     def _route(self, rank_of: NDArray[np.int64]) -> Route:
         return Route(self._MPI, self.comm, rank_of)
 
-    def sent(self, to: NDArray[np.int64], array: NDArray[Any]) -> NDArray[Any]:
+    def sent(self, to: NDArray[np.int64], array: NDArray[np.generic]) -> NDArray[Any]:
         """Send each row of an array to a rank; return the rows that arrive. All ranks call it together."""
         with self.collective():
             return self._route(to).send(array)
@@ -202,14 +203,14 @@ class Worker(Rank):
         function: Callable[..., Any],
         blocks: Sequence[tuple[int, slice]],
         of: str | None,
-        *arguments: Any,
+        *arguments: object,
     ) -> list[Any]:
         """Apply a function to some blocks of this rank, while particles are in the order of their numbers."""
         shares = (self.share.take(rows) for rank, rows in blocks if rank == self.number)
         return [share.apply(function, of, *arguments) for share in shares]
 
     def map_numbers(
-        self, function: Callable[..., Any], first: int, rows: int, of: str | None, *arguments: Any
+        self, function: Callable[..., Any], first: int, rows: int, of: str | None, *arguments: object
     ) -> Any:
         """Apply a function to particles of consecutive numbers, other ones on each rank.
 

@@ -294,7 +294,7 @@ class Equations:
         self,
         run: Callable[..., list[Any]],
         kernel: Callable[..., Any],
-        *arguments: Any,
+        *arguments: object,
         rows: Iterable[Any] = (),
     ) -> list[Any]:
         """Return the results of a kernel for the segments; its last argument is a row, if given."""

@@ -62,7 +62,7 @@ def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int,
 
 
 def gap_pipe(
-    flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+    flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float, mode: tuple[float, ...] = ()
 ) -> tuple[float, int, int]:
     """Return the clearance between the body and the wall's tangent plane, m."""
     n = normal_pipe(flow, _WALL, x)
@@ -131,7 +131,7 @@ def walk_slit(flow: SlitArrays, host: int, x0: Vector, x1: Vector) -> tuple[int,
 
 
 def gap_slit(
-    flow: SlitArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+    flow: SlitArrays, host: int, x: Vector, F: Tensor, R: float, mode: tuple[float, ...] = ()
 ) -> tuple[float, int, int]:
     """Return the clearance between the body and the nearer wall, m."""
     low, high = x[2] - extent(R, F, mode, _UP), flow.height - x[2] - extent(R, F, mode, _DOWN)
@@ -257,7 +257,7 @@ def walk_duct(flow: DuctArrays, host: int, x0: Vector, x1: Vector) -> tuple[int,
 
 
 def gap_duct(
-    flow: DuctArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+    flow: DuctArrays, host: int, x: Vector, F: Tensor, R: float, mode: tuple[float, ...] = ()
 ) -> tuple[float, int, int]:
     """Return the clearance between the body and the wall that it is nearest to, m."""
     gap, patch, distances = math.inf, _LOWER, distances_in_duct(flow, x)

@@ -156,7 +156,7 @@ class PointGradient:
         return values[: self._n]
 
 
-def grouped(rows: NDArray[Any], columns: NDArray[Any], n: int) -> tuple[Ints, Ints]:
+def grouped(rows: NDArray[np.generic], columns: NDArray[np.generic], n: int) -> tuple[Ints, Ints]:
     """Sort pairs of row and column by row; return the start of each of n rows, and the columns in order."""
     start, sorted_columns = np.zeros(n + 1, dtype=np.int32), np.empty(len(columns), dtype=np.int32)
     link(group)(

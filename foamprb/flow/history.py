@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from foamprb.body.tensor import Tensor, Vector, add, add_scaled, ddot, scale, subtract
+from foamprb.compile.link import Function
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free
 from foamprb.flow.base import Floats, Ints
@@ -154,5 +155,6 @@ def history(times: ArrayLike, gradients: ArrayLike) -> HistoryFlow:
     if not np.isfinite(g).all():
         raise InputError(f"gradients: {np.count_nonzero(~np.isfinite(g))} numbers are not finite.")
     arrays = HistoryArrays(float(t[0]), 1.0 / step, g.reshape(len(g), len(t), 9))
-    kernels = {"sample": sample_history, "gap": gap_free, "parabola": parabola_of_history}
+    kernels: dict[str, Function] = {"sample": sample_history, "gap": gap_free}
+    kernels["parabola"] = parabola_of_history
     return HistoryFlow(arrays, kernels)

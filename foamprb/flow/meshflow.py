@@ -213,7 +213,7 @@ class MeshFlow:
             layer=np.empty(0) if layer is None else np.concatenate([layer.normal, layer.axis]),
         )
 
-    def widened(self, values: NDArray[Any]) -> NDArray[Any]:
+    def widened(self, values: NDArray[np.generic]) -> NDArray[Any]:
         """Return values at the nodes or fluxes of the given mesh on that of the flow."""
         return values if self._division is None else self._division.widened(values)
 

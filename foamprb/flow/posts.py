@@ -113,7 +113,7 @@ def normal_posts(flow: PostArrays, triangle: int, x: Vector) -> Vector:
 
 
 def gap_posts(
-    flow: PostArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+    flow: PostArrays, host: int, x: Vector, F: Tensor, R: float, mode: tuple[float, ...] = ()
 ) -> tuple[float, int, int]:
     """Return the clearance between the body and the tangent plane of its post, m."""
     p, q = from_post(flow, x)

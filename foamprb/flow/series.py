@@ -195,7 +195,7 @@ def sample_ahead(
 
 
 def gap(
-    flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+    flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float, mode: tuple[float, ...] = ()
 ) -> tuple[float, int, int]:
     """See :func:`foamprb.flow.walk.gap`."""
     return gap_mesh(flow.mesh, host, x, F, R, mode)
@@ -465,7 +465,7 @@ class SeriesFlow(Timeline, MeshFlow):
             if index in self._in_memory:
                 self._in_memory[index] = self._in_memory.pop(index)
 
-    def _grown(self, array: NDArray[Any], n: int) -> NDArray[Any]:
+    def _grown(self, array: NDArray[np.generic], n: int) -> NDArray[Any]:
         """Return a copy of an array with n rows; further ones are not set."""
         grown = np.empty((n, *array.shape[1:]), dtype=array.dtype)
         grown[: len(array)] = array

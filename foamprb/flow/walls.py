@@ -37,7 +37,7 @@ _TIE = 1.0 + 1e-12
 
 
 def gap(
-    flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+    flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float, mode: tuple[float, ...] = ()
 ) -> tuple[float, int, int]:
     """Return the clearance between the ellipsoid {x + R F·ξ: ξ·ξ ≤ 1} and the nearest wall triangle.
 
@@ -67,7 +67,7 @@ def gap(
 
 @separate
 def nearest_wall(
-    flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+    flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float, mode: tuple[float, ...] = ()
 ) -> tuple[float, int, int]:
     """Return d − R, patch and index of the nearest of the entries ``begin`` to ``end``; see :func:`gap`."""
     best, nearest = NEAR * R, NO_TRIANGLE
@@ -101,7 +101,7 @@ def _any_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float)
 
 @separate
 def nearest_in_tree(
-    flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float, mode: Any = ()
+    flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float, mode: tuple[float, ...] = ()
 ) -> tuple[float, int, int]:
     """Return the same of the tree; see :func:`gap`. ``seed`` is a triangle that may be near.
 

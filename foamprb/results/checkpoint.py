@@ -181,7 +181,7 @@ def write_arrays(
     return _checksum(archive)
 
 
-def _write_array(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
+def _write_array(archive: zipfile.ZipFile, name: str, array: NDArray[np.generic]) -> None:
     # A name alone has a fixed date: equal states have equal bytes.
     with archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True) as file:
         np.lib.format.write_array_header_1_0(file, np.lib.format.header_data_from_array_1_0(array))
@@ -214,7 +214,7 @@ class _File(NamedTuple):
     header: dict[str, Any]
     arrays: dict[str, _Place]
 
-    def read_into(self, array: NDArray[Any], name: str, first: int) -> None:
+    def read_into(self, array: NDArray[np.generic], name: str, first: int) -> None:
         """Read rows of an array from a number on."""
         place = self.arrays[name]
         rows = array[:1] if place.repeated else array
@@ -283,7 +283,7 @@ class StoredCheckpoint:
         self.read_into(array, name, 0)
         return array
 
-    def read_into(self, array: NDArray[Any], name: str, first: int) -> None:
+    def read_into(self, array: NDArray[np.generic], name: str, first: int) -> None:
         """Read rows of a stored array, from ``first`` on, into a contiguous array of its type."""
         rows, start = np.atleast_1d(array), 0
         for file in (self._files[0][1], *self._parts(name)):
@@ -379,7 +379,7 @@ def _array_at(file: BinaryIO, member: zipfile.ZipInfo) -> tuple[int, tuple[int, 
     return place, shape, dtype
 
 
-def is_one_row(array: NDArray[Any]) -> bool:
+def is_one_row(array: NDArray[np.generic]) -> bool:
     """Return True if a contiguous array has two rows or more, and all are equal to the last bit."""
     if array.ndim == 0 or len(array) < 2 or not array.size or array.itemsize not in (1, 2, 4, 8):
         return False

@@ -335,7 +335,7 @@ def _add_texts(data: vtkPolyData, units: Mapping[str, str], names: Mapping[str, 
         data.GetFieldData().AddArray(array)
 
 
-def _vtk_array(name: str, array: NDArray[Any]) -> Any:
+def _vtk_array(name: str, array: NDArray[np.generic]) -> Any:
     plain = array.astype(np.int8) if array.dtype == np.bool_ else array
     result = numpy_to_vtk(np.ascontiguousarray(plain))
     result.SetName(name)

@@ -540,7 +540,7 @@ def youngs_factor(solid: Solid) -> float:
     return 3.0 if solid.poissonsRatio is None else 2.0 * (1.0 + solid.poissonsRatio)
 
 
-def spread(values: NDArray[Any], rows: NDArray[Any], n: int) -> NDArray[Any]:
+def spread(values: NDArray[np.generic], rows: NDArray[np.generic], n: int) -> NDArray[Any]:
     """Return values of some of n bodies for all: NaN or False for the others."""
     fill: Any = False if values.dtype == np.bool_ else np.nan
     every = np.full((n, *values.shape[1:]), fill, dtype=values.dtype)

@@ -350,7 +350,7 @@ def _split_tsv(path: Path, lines: Sequence[str]) -> tuple[list[str], NDArray[Any
     return names, np.array([columns[name] for name in names])
 
 
-def _of_tsv(path: Path, names: Sequence[str], values: NDArray[Any]) -> Measured:
+def _of_tsv(path: Path, names: Sequence[str], values: NDArray[np.generic]) -> Measured:
     columns = dict(zip(names, values, strict=True))
     if missing := [name for name in ("area_um", "deform") if name not in columns]:
         raise InputError(f"{path}: no feature {missing[0]}. Needed: area_um and deform.")
@@ -371,7 +371,7 @@ def _of_evaluation(path: Path, rows: Sequence[Sequence[str]]) -> Measured:
     cells, index = np.unique(columns.get("cell_id", np.arange(len(rows) - 2)), return_inverse=True)
     frames = np.bincount(index)
 
-    def mean(values: NDArray[Any]) -> Floats:
+    def mean(values: NDArray[np.generic]) -> Floats:
         return np.bincount(index, values) / frames
 
     a, b = mean(0.5e-6 * columns["long_axis"]), mean(0.5e-6 * columns["short_axis"])

@@ -404,7 +404,7 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
         yield name, value.name if isinstance(value, Path) else value
 
 
-def _of_integers(values: NDArray[Any]) -> Sums:
+def _of_integers(values: NDArray[np.generic]) -> Sums:
     """Return a fingerprint of an array of integers: their number and a checksum."""
     return [[float(values.size), float(zlib.crc32(np.ascontiguousarray(values).data))]]
 

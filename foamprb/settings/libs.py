@@ -200,7 +200,7 @@ def _check(file: Path, kind: str, name: str) -> None:
         _compile(file, model.evaluate, *model.samples, *model.coefficients(()))
 
 
-def _compile(file: Path, function: Callable[..., Any], *arguments: Any) -> None:
+def _compile(file: Path, function: Callable[..., Any], *arguments: object) -> None:
     from numba.core.errors import NumbaError
 
     try:

@@ -298,7 +298,7 @@ def stuck_at_end(run: Run) -> int:
     return int(np.isin(status, [k for k, name in enumerate(meanings) if name == "stuck"]).sum())
 
 
-def _inside(codes: NDArray[Any], meanings: Sequence[str]) -> Mask:
+def _inside(codes: NDArray[np.generic], meanings: Sequence[str]) -> Mask:
     """Return whether bodies are in the flow or on a wall."""
     inside = [k for k, name in enumerate(meanings) if name in ("active", "stuck")]
     return np.isin(codes, inside)
@@ -387,7 +387,7 @@ def _known(values: NDArray[Any], meanings: Sequence[str]) -> NDArray[np.uint8]:
     return np.where(valid, values, UNNAMED).astype(np.uint8)
 
 
-def _once(values: NDArray[Any]) -> NDArray[Any]:
+def _once(values: NDArray[np.generic]) -> NDArray[Any]:
     """Return values over the times, or only the first ones if they never change."""
     same = np.array_equal(values, np.broadcast_to(values[:1], values.shape), equal_nan=True)
     return values[:1] if same else values

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +42,9 @@ from foamprb.view.scene import (
     anchor,
 )
 from foamprb.view.surfaces import bulges
+
+if TYPE_CHECKING:
+    from pyvista import Plotter
 
 pyvista = load("pyvista")
 
@@ -80,7 +83,7 @@ class Triangles(NamedTuple):
 class Drawing:
     """Scene on a plotter, with the parts that change from time to time."""
 
-    plotter: Any
+    plotter: Plotter
     scene: Scene
     texts: bool
     style: Style
@@ -359,7 +362,7 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool) -> 
     return drawing
 
 
-def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: list[float]) -> None:
+def _place_camera(plotter: Plotter, scene: Scene, size: tuple[int, int], insets: list[float]) -> None:
     camera, eye = scene.camera, plotter.camera
     width, height = size
     above, below = insets
@@ -375,7 +378,7 @@ def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: lis
     plotter.camera_set = True
 
 
-def draw_geometry(plotter: Any, geometry: Geometry, style: Style, most_dense: float = 0.0) -> None:
+def draw_geometry(plotter: Plotter, geometry: Geometry, style: Style, most_dense: float = 0.0) -> None:
     """Draw the far side of walls, and the near side and other patches almost transparent.
 
     Up to the density ``most_dense``, 1/m², if it is given, colours of walls tell that of their deposits.
@@ -398,7 +401,7 @@ def draw_geometry(plotter: Any, geometry: Geometry, style: Style, most_dense: fl
             plotter.add_mesh(mesh, color=style.accent, opacity=0.07, ambient=1.0, diffuse=0.0, **more)
 
 
-def draw_flow(plotter: Any, field: FlowField, style: Style) -> None:
+def draw_flow(plotter: Plotter, field: FlowField, style: Style) -> None:
     """Draw streamlines, faintly, and the plane through the flow, coloured by the speed."""
     if len(field.lines.points):
         lines = pyvista.line_segments_from_points(field.lines.segments.reshape(-1, 3))

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,7 @@ from foamprb.body.error_control import (
 )
 from foamprb.body.exponential_runge_kutta import NODE
 from foamprb.body.tensor import (
+    Scalar,
     Tensor,
     Vector,
     add,
@@ -47,6 +48,7 @@ from foamprb.body.tensor import (
     select,
 )
 from foamprb.cloud.block import (
+    Ints,
     Medium,
     Scratch,
     accept_stage,
@@ -199,7 +201,7 @@ def finish_path(block: Block, i: int, v: Vector) -> None:
     store_path_error(block, i, chord_error(h, h * norm(v0) + block[at.R * LANES + i], a0, a))
 
 
-def place_after(block: Block, i: int, h: Any, v: Vector, a: Vector) -> Vector:
+def place_after(block: Block, i: int, h: Scalar, v: Vector, a: Vector) -> Vector:
     """Return the position after a time h, s, from the start of the step with v and a constant a."""
     return plus_scaled(plus_scaled(load3(block, at.x, i), h, v), 0.5 * h * h, a)
 
@@ -221,14 +223,14 @@ def add_disturbance_error(block: Block, i: int, d: Vector, dv: Vector) -> None:
     store_path_error(block, i, block[during.path * LANES + i] + select(norm(d) > 0.0, error, 0.0))
 
 
-def store_path_error(block: Block, i: int, error: Any) -> None:
+def store_path_error(block: Block, i: int, error: Scalar) -> None:
     """Store the error of the path, which is the first part of the step's error."""
     block[during.path * LANES + i] = error
     block[during.difference * LANES + i] = 0.0
     block[at.error * LANES + i] = error
 
 
-def judge_difference(block: Block, i: int, difference: Any, tolerance: float) -> None:
+def judge_difference(block: Block, i: int, difference: Scalar, tolerance: float) -> None:
     """Store δ₂, and δ₂⁴/tolerance² as error of the step: it exceeds the tolerance where δ₂^(4/3) does."""
     block[during.difference * LANES + i] = difference
     square = difference * difference
@@ -243,7 +245,7 @@ def mark_disturbed(block: Block, i: int) -> None:
     block[during.disturbed * LANES + i] = select(off > 0.0, 1.0, 0.0)
 
 
-def error_share(block: Block, i: int, rho: Any) -> Any:
+def error_share(block: Block, i: int, rho: Scalar) -> Scalar:
     """Return θ of :mod:`foamprb.body.error_control`; 1 where models of the surroundings change the gradient.
 
     They may change it faster than elasticity and the flow do. ``rho`` is the rate at which the elastic stress
@@ -254,14 +256,14 @@ def error_share(block: Block, i: int, rho: Any) -> Any:
     return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)
 
 
-def counted_error(block: Block, i: int, error_2: Any) -> Any:
+def counted_error(block: Block, i: int, error_2: Scalar) -> Scalar:
     """Return the part of θ δ₁ that counts as error of order 2: all of it where ``disturbed`` is 1."""
     block[during.error_2 * LANES + i] = error_2
     discount = select(block[during.disturbed * LANES + i] > 0.0, 0.0, block[during.discount * LANES + i])
     return (1.0 - discount) * error_2
 
 
-def choose_order(block: Block, i: int, error: Any, tolerance: float) -> None:
+def choose_order(block: Block, i: int, error: Scalar, tolerance: float) -> None:
     """Store whether the step goes to order 3: where the error of order 2 exceeds the tolerance."""
     third = select(error <= tolerance, 0.0, 1.0)
     block[during.third * LANES + i] = third
@@ -270,7 +272,7 @@ def choose_order(block: Block, i: int, error: Any, tolerance: float) -> None:
     block[during.demanding * LANES + i] = select(moving, third, block[during.demanding * LANES + i])
 
 
-def update_discount(block: Block, i: int, third: Any, difference: Any, tolerance: float) -> None:
+def update_discount(block: Block, i: int, third: Scalar, difference: Scalar, tolerance: float) -> None:
     """Store the discount of the next errors of order 2, where a step has gone to order 3 with δ₂."""
     error_2 = block[during.error_2 * LANES + i]
     share = measured_ratio(difference, error_2)
@@ -280,7 +282,7 @@ def update_discount(block: Block, i: int, third: Any, difference: Any, tolerance
     block[during.demanding * LANES + i] = select(accepts_2, 0.0, block[during.demanding * LANES + i])
 
 
-def keep_frame(block: Block, i: int, third: Any) -> None:
+def keep_frame(block: Block, i: int, third: Scalar) -> None:
     """Restore the frame of the second evaluation where lane i does not use the third."""
     Q, second = load9(block, at.Q, i), load9(block, during.second_Q, i)
     store9(block, at.Q, i, choose(third, Q, second))
@@ -365,22 +367,22 @@ def evaluate_shape(block: Block, medium: Medium, share: float, passed: float) ->
 
 
 @kernel
-def sample_starts(_flow: object, _block: Block, _hosts: Any) -> None:
+def sample_starts(_flow: object, _block: Block, _hosts: object) -> None:
     """Store the flow where the steps of the moving lanes start."""
 
 
 @kernel
-def sample_ends(_flow: object, _block: Block, _hosts: Any, _ahead: Any) -> None:
+def sample_ends(_flow: object, _block: Block, _hosts: object, _ahead: object) -> None:
     """Store the flow at the ends of the steps of the moving lanes, and the hosts there."""
 
 
 @kernel
-def sample_middles(_flow: object, _block: Block, _hosts: Any, _every: bool) -> None:
+def sample_middles(_flow: object, _block: Block, _hosts: object, _every: bool) -> None:
     """Store the fluid's gradient half-way on the steps of order 3; on every step also the velocity."""
 
 
 def _starts_by(sample: Function) -> Function:
-    def sample_starts(flow: object, block: Block, hosts: Any) -> None:
+    def sample_starts(flow: object, block: Block, hosts: Ints) -> None:
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
                 u, l_f, u_t = sample(flow, hosts[i], load3(block, at.x, i), block[at.t * LANES + i])
@@ -392,7 +394,7 @@ def _starts_by(sample: Function) -> Function:
 
 
 def _ends_by(sample_ahead: Function) -> Function:
-    def sample_ends(flow: object, block: Block, hosts: Any, ahead: Any) -> None:
+    def sample_ends(flow: object, block: Block, hosts: Ints, ahead: Ints) -> None:
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
                 x, goal, t = load3(block, at.x, i), load3(block, at.new_x, i), block[at.t * LANES + i]
@@ -409,7 +411,7 @@ def _ends_by(sample_ahead: Function) -> Function:
 
 
 def _steps_by(parabola: Function) -> Function:
-    def sample_ends(flow: object, block: Block, hosts: Any, ahead: Any) -> None:
+    def sample_ends(flow: object, block: Block, hosts: Ints, ahead: Ints) -> None:
         """Store the gradient over whole steps, which may end earlier; nothing moves."""
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
@@ -431,7 +433,7 @@ def _steps_by(parabola: Function) -> Function:
 
 
 def _middles_by(sample_ahead: Function) -> Function:
-    def sample_middles(flow: object, block: Block, hosts: Any, every: bool) -> None:
+    def sample_middles(flow: object, block: Block, hosts: Ints, every: bool) -> None:
         for i in range(LANES):
             if needs_third(block, i) or (every and block[at.moving * LANES + i] > 0.0):
                 half, t = 0.5 * block[at.dt * LANES + i], block[at.t * LANES + i]

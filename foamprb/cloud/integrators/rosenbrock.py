@@ -43,6 +43,7 @@ from foamprb.body.inertial_runge_kutta import third_order as of_third_order
 from foamprb.body.material import finger_of_body_in_frame, viscous_stress
 from foamprb.body.rosenbrock import Elasticity, Stiffness, inertial_stiffness, relaxation_rate
 from foamprb.body.tensor import (
+    Scalar,
     Tensor,
     Vector,
     add,
@@ -517,7 +518,7 @@ def _fluid_share(changes: tuple[Vector, Vector], s: float) -> Vector:
     return s * x + c * p, s * y + c * q, s * z + c * r
 
 
-def _fluid_slope(block: Block, i: int, h: Any, v: Vector, du: Vector) -> Vector:
+def _fluid_slope(block: Block, i: int, h: Scalar, v: Vector, du: Vector) -> Vector:
     """Return the initial rate of the fluid's velocity, m/s², by parabola or chord, whichever has less error.
 
     Stores that error.
@@ -549,18 +550,18 @@ def _fluid_slope(block: Block, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     return choose3(straight, scale_vector(1.0 / h, du), a_u)
 
 
-def _way(block: Block, i: int) -> Any:
+def _way(block: Block, i: int) -> Scalar:
     """Return the scale of path errors: the way of the fluid or of the body plus the radius, m."""
     h, v, u = block[at.dt * LANES + i], load3(block, at.v, i), load3(block, during.end_u, i)
     return h * np.sqrt(np.maximum(inner(v, v), inner(u, u))) + block[at.R * LANES + i]
 
 
-def _size(v: Pair, h: Any, b_e: Tensor, strain: Any) -> Any:
+def _size(v: Pair, h: Scalar, b_e: Tensor, strain: Scalar) -> Scalar:
     """Return the size of a small difference of two shapes; a difference of l_s counts times h."""
     return np.maximum(relative_size(v[0], b_e, strain), h * largest(v[1]))
 
 
-def _length(m: Motion, h: Any, way: Any) -> Any:
+def _length(m: Motion, h: Scalar, way: Scalar) -> Scalar:
     """Return the size of a small difference of two positions and velocities, over the way."""
     x, v = m
     return np.sqrt(np.maximum(inner(x, x), h * h * inner(v, v))) / way

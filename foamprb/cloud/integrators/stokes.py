@@ -7,7 +7,7 @@ as far as drag balances the forces and, to first order, its own inertia (:mod:`f
 
 from __future__ import annotations
 
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 from foamprb.body.choice import choice
 from foamprb.body.drag import drag
@@ -25,6 +25,7 @@ from foamprb.body.slip import balanced_slip
 from foamprb.body.stokes import Mobility, isochoric, velocity_gradient
 from foamprb.body.tensor import (
     ZERO,
+    Scalar,
     Tensor,
     Vector,
     add,
@@ -129,7 +130,7 @@ work = offsets(RelaxationRows)
 
 @choice
 def with_fading(
-    _block: Block, _i: int, turning: Tensor, _m: Mobility, _e: Elasticity, _G: Tensor, _mu_f: Any
+    _block: Block, _i: int, turning: Tensor, _m: Mobility, _e: Elasticity, _G: Tensor, _mu_f: Scalar
 ) -> Tensor:
     """Return the rate of change of l_s by turning as it is: the solid has no memory that fades."""
     return turning

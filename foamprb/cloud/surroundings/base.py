@@ -105,7 +105,7 @@ class Surrounding:
     surveys: ClassVar[tuple[str, ...]] = Particles._fields
     """Names of the arrays of particles that :meth:`remarks` reads."""
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> tuple[object, ...]:  # noqa: ARG002
         """Return the arguments of its functions: numbers and arrays of them, perhaps in tuples."""
         return ()
 

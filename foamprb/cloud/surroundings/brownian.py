@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +76,9 @@ from foamprb.compile.link import Slots, separate, traced
 from foamprb.dictionary.constraints import Meaning, Positive, Seed
 from foamprb.flow.base import NEAR, Patch
 
+Numbers: TypeAlias = tuple[float, np.uint64, float]
+"""k_B T, seed, and 1 if the shape fluctuates, else 0."""
+
 LARGE_STRAIN = 0.3
 """Thermal strain above which the user is warned."""
 LONG_STEP = 0.1
@@ -111,7 +114,7 @@ thermal = offsets(BrownianRows)
 
 
 def draw(
-    _flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
+    _flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Numbers
 ) -> None:
     """Draw the random numbers of lane i, which hold for the time that remains."""
     block = s.block
@@ -124,7 +127,7 @@ def draw(
         store9(block, thermal.nine, i, nine)
 
 
-def hold_of_molecules(block: Block, i: int, medium: Medium, coefficients: Any) -> float:
+def hold_of_molecules(block: Block, i: int, medium: Medium, coefficients: Numbers) -> float:
     """Return how long force and stress on lane i may be constant, s.
 
     The particle then moves by a share of the gap to a wall, and turns little, by itself or with the fluid.
@@ -139,7 +142,7 @@ def hold_of_molecules(block: Block, i: int, medium: Medium, coefficients: Any) -
     return longest if longest > 0.0 else 0.0
 
 
-def act(block: Block, medium: Medium, share: float, coefficients: Any) -> None:
+def act(block: Block, medium: Medium, share: float, coefficients: Numbers) -> None:
     """Compute force and stress of the lanes whose random numbers are new, and the gradient of the stress."""
     new = 0
     for i in range(LANES):
@@ -183,7 +186,7 @@ def gradient_stage(block: Block, medium: Medium, shape: float) -> None:
 
 
 @traced
-def apply_force(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def apply_force(block: Block, medium: Medium, share: float, coefficients: Numbers) -> None:  # noqa: ARG001
     """Change u and l so that the fluid exerts the force and stress of the molecules.
 
     The velocity is u + K⁻¹·f_B/μ_f, with K without walls: the hindrance by walls is applied by ``wallLift``.
@@ -254,7 +257,7 @@ class BrownianMotion(Surrounding):
         Stage("fluid", apply_force, reads=(thermal.thermal_force,), adds=(at.u, at.l)),
     )
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:  # noqa: ARG002
         """Return k_B T, J; the seed; whether the shape fluctuates."""
         return BOLTZMANN * self.T, np.uint64(self.seed), float(self.shape)
 

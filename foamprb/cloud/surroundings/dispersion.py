@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+from typing import Annotated, ClassVar, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -43,6 +43,9 @@ from foamprb.flow.base import Floats, Flow, Patch
 from foamprb.flow.kernels import turbulence
 from foamprb.flow.nodes import NodeValues
 
+Numbers: TypeAlias = tuple[np.uint64, float, float]
+"""Seed, how velocities are drawn, and the factor of the drift correction."""
+
 _KIND = np.uint64(2)
 """Second word of the key of these random numbers; the seed is the first."""
 _LOW, _HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
@@ -66,7 +69,7 @@ eddies = offsets(EddyRows)
 
 
 def update_eddy(
-    flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Numbers
 ) -> None:
     """Draw the next eddy of lane i at the start of a tracking step, if the particle has left the last one."""
     seed, kind, corrected = coefficients
@@ -128,7 +131,7 @@ def eddy_velocity(xi: tuple[float, float, float, float], kind: float, slope: Vec
 
 
 @traced
-def add_eddies(block: Block, _medium: Medium, _share: float, _coefficients: Any) -> None:
+def add_eddies(block: Block, _medium: Medium, _share: float, _coefficients: object) -> None:
     """Add the velocity of the eddies to that of the mean flow."""
     for i in range(LANES):
         u, w, c = load3(block, at.u, i), load3(block, eddies.eddy_velocity, i), load3(block, eddies.drift, i)
@@ -238,7 +241,7 @@ class StochasticDispersion(Dispersion):
         Meaning("whether ∇(k²/3ε) is added to the velocity, lest particles accumulate where k is low"),
     ] = False
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:  # noqa: ARG002
         """Return the seed, how velocities are drawn, and the factor of the drift correction."""
         kind = NORMAL if self.fluctuations == "normal" else OPENFOAM
         # A third of the variance disperses a third as much.
@@ -250,7 +253,7 @@ class StochasticDispersion(Dispersion):
 class GradientDispersion(Dispersion):
     """Eddies that move down the gradient of k: `dispersionModel gradientDispersionRAS;`."""
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:
         """Return the seed, how velocities are drawn, and no drift."""
         flat = any(patch.type == "empty" for patch in patches)
         return np.uint64(self.seed), DOWN_OR_UP if flat else DOWN, 0.0

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -29,6 +29,9 @@ from foamprb.compile.link import Slots
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
+
+Numbers: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
+"""Limits of ruptures and of releases."""
 
 _ABOVE_ONE = Bounds(1.0, math.inf, True, True, "a number > 1")
 _REASONS = Reason.STRETCH_REACHED, Reason.STRESS_REACHED, Reason.SHEAR_REACHED, Reason.DOSE_REACHED
@@ -66,7 +69,7 @@ def reached(values: tuple[Scalar, ...], limits: tuple[Scalar, ...], codes: tuple
     return 0
 
 
-def reached_fate(block: Block, i: int, F: Tensor, stress: Scalar, dose: Scalar, coefficients: Any) -> int:
+def reached_fate(block: Block, i: int, F: Tensor, stress: Scalar, dose: Scalar, coefficients: Numbers) -> int:
     """Return the code of the fate of lane i with F, a shear stress of the fluid and a dose; 0 for none."""
     stretch = longest_stretch(dot(F, inverse(load9(block, at.F0, i))))
     values = stretch, elastic_stress(block, i, F), stress, dose
@@ -74,7 +77,7 @@ def reached_fate(block: Block, i: int, F: Tensor, stress: Scalar, dose: Scalar, 
     return code if code > 0 else reached(values, coefficients[1], _OF_RELEASE)
 
 
-def stays_within_limits(_flow: object, s: Scratch, i: int, medium: Medium, coefficients: Any) -> float:
+def stays_within_limits(_flow: object, s: Scratch, i: int, medium: Medium, coefficients: Numbers) -> float:
     """Return a half for a step of lane i that leads beyond a limit, else 1."""
     block = s.block
     stress = viscosity_at(block, i, medium) * shear_rate(load9(block, during.end_l, i))
@@ -85,7 +88,7 @@ def stays_within_limits(_flow: object, s: Scratch, i: int, medium: Medium, coeff
 
 
 def check_limits(
-    _flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, coefficients: Any
+    _flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, coefficients: Numbers
 ) -> None:
     """Add to the dose of lane i, and end the particle where it has reached a limit."""
     block = s.block
@@ -166,7 +169,7 @@ class Fates(Surrounding):
         if self.ruptured is None and self.released is None:
             raise InputError("has no fate. Allowed: ruptured, released")
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:  # noqa: ARG002
         """Return the limits of rupture and of release."""
         none = (math.inf,) * 4
         ruptured, released = self.ruptured, self.released

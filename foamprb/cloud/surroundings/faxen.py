@@ -7,7 +7,7 @@ step and at its end, and linear between them; with ``paper`` those at the start.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 from foamprb.body.faxen import Curvature, faxen_velocity
 from foamprb.body.tensor import (
@@ -45,7 +45,7 @@ curved = offsets(FaxenRows)
 
 
 def store_curvature(
-    flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: object
 ) -> None:
     """Store the second derivatives at the position of lane i."""
     x = load3(s.block, at.x, i)
@@ -53,7 +53,7 @@ def store_curvature(
     store3(s.block, curved.curvature_way, i, (0.0, 0.0, 0.0))
 
 
-def store_curvature_ahead(flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> None:
+def store_curvature_ahead(flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: object) -> None:
     """Store the second derivatives where the step of lane i is to lead."""
     x, t = load3(s.block, at.new_x, i), s.block[at.t * LANES + i] + s.block[at.dt * LANES + i]
     _store(s.block, i, curved.curvature_end, curvature(flow, s.ahead[i], x, t))
@@ -67,7 +67,7 @@ def _store(block: Block, i: int, row: int, second: Curvature) -> None:
 
 
 @traced
-def correct(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def correct(block: Block, medium: Medium, share: float, coefficients: object) -> None:  # noqa: ARG001
     """Add ⅙ C:∇∇u to the velocity of the fluid, with the shape tensor C."""
     for i in range(LANES):
         F, R = load9(block, at.new_F, i), block[at.R * LANES + i]

@@ -8,7 +8,7 @@ their means are used: where no model needs their reconstruction, they are those 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -69,7 +69,7 @@ def amplitude_of_mode(block: Block, i: int) -> Scalar:
 
 
 def sample_curvature(
-    flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, _coefficients: object
 ) -> None:
     """Note that a step of lane i starts, and sample the second derivatives in some of them."""
     block = s.block
@@ -113,7 +113,7 @@ def raise_to(block: Block, i: int, k: int, value: Scalar) -> None:
     block[place] = np.maximum(block[place], value)
 
 
-def note_largest(block: Block, medium: Medium, share: float, _coefficients: Any) -> None:
+def note_largest(block: Block, medium: Medium, share: float, _coefficients: object) -> None:
     """Store the largest values before the surroundings change the flow at the starts of steps."""
     if share == 0.0:
         largest_stage(block, medium)

@@ -153,7 +153,7 @@ def stages_for(n_times: int) -> tuple[Callable[..., None], Callable[..., None]]:
             store6(block, past.node_strain, i, X)
             block[past.at_node * LANES + i] = 0.0
 
-    def remember(block: Block, _medium: Medium, share: float, _coefficients: Any) -> None:
+    def remember(block: Block, _medium: Medium, share: float, _coefficients: object) -> None:
         if share == 0.0:
             fade_stage(block)
         else:

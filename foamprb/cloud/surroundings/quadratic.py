@@ -79,6 +79,9 @@ from foamprb.compile.link import Slots, separate, traced
 from foamprb.flow.base import Patch
 from foamprb.flow.kernels import curvature, sample, walk
 
+Numbers: TypeAlias = tuple[float, ...]
+"""Coefficients of a varying viscosity."""
+
 Beside: TypeAlias = tuple[Tensor, float, float]
 
 
@@ -356,14 +359,14 @@ def advance_solid(
 
 @choice
 def viscosity_beside(
-    _flow: object, _host: int, _x: Vector, _t: float, _l: Tensor, _coefficients: Any
+    _flow: object, _host: int, _x: Vector, _t: float, _l: Tensor, _coefficients: object
 ) -> float:
     """Return :attr:`QuadraticInVarying.beside`, Pa s."""
     raise NotImplementedError
 
 
 @separate
-def stress_beside(flow: object, host: int, x: Vector, t: float, way: Vector, coefficients: Any) -> Beside:
+def stress_beside(flow: object, host: int, x: Vector, t: float, way: Vector, coefficients: Numbers) -> Beside:
     """Return the stress 2 μ d, Pa, a way from x, or at a boundary before; μ there; the share of the way."""
     reached, share, patch, _ = walk(flow, host, x, t, plus(x, way), t)
     if patch == -2:
@@ -375,7 +378,7 @@ def stress_beside(flow: object, host: int, x: Vector, t: float, way: Vector, coe
 
 
 def stress_parts(
-    flow: object, host: int, x: Vector, t: float, a: float, coefficients: Any
+    flow: object, host: int, x: Vector, t: float, a: float, coefficients: Numbers
 ) -> tuple[Third, Vector, float]:
     """Return means over a body of radius a: μ S and μ v, Pa/m², and the harmonic one of μ, Pa s.
 
@@ -407,7 +410,7 @@ def stress_parts(
 
 
 def stress_slope(
-    flow: object, host: int, x: Vector, t: float, way: Vector, coefficients: Any
+    flow: object, host: int, x: Vector, t: float, way: Vector, coefficients: Numbers
 ) -> tuple[Tensor, float]:
     """Return the mean derivative of the stress along a way to both sides of x, Pa/m, and the mean 1/μ."""
     after, mu_after, there = stress_beside(flow, host, x, t, way, coefficients)
@@ -425,7 +428,7 @@ def close_update(flow: object, s: Scratch, i: int, spin: Vector) -> None:
 
 
 def update_solid(
-    flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: object
 ) -> None:
     """Advance the mode of the solid in lane i."""
     mu_f = viscosity_at(s.block, i, medium)
@@ -434,7 +437,7 @@ def update_solid(
 
 
 def update_in_varying(
-    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Numbers
 ) -> None:
     """Advance the mode of the solid in lane i, in a fluid whose viscosity varies."""
     x, t, a = load3(s.block, at.x, i), s.block[at.t * LANES + i], s.block[at.R * LANES + i]
@@ -443,7 +446,7 @@ def update_in_varying(
 
 
 def update_drop(
-    flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, medium: Medium, _coefficients: object
 ) -> None:
     """Advance the mode of the drop in lane i."""
     block = s.block
@@ -487,7 +490,7 @@ def mode_on_way(block: Block, i: int, share: float) -> Third:
 
 
 @traced
-def carry_solid(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def carry_solid(block: Block, medium: Medium, share: float, coefficients: Numbers) -> None:  # noqa: ARG001
     """Add the drift of solids to the velocity of the fluid."""
     for i in range(LANES):
         E, B = sym(load9(block, at.l, i)), mode_on_way(block, i, share)
@@ -496,7 +499,7 @@ def carry_solid(block: Block, medium: Medium, share: float, coefficients: Any) -
 
 
 @traced
-def carry_drop(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def carry_drop(block: Block, medium: Medium, share: float, coefficients: Numbers) -> None:  # noqa: ARG001
     """Add the velocity of drops relative to the fluid at their centres."""
     for i in range(LANES):
         F, E = load9(block, at.new_F, i), sym(load9(block, at.l, i))
@@ -507,7 +510,7 @@ def carry_drop(block: Block, medium: Medium, share: float, coefficients: Any) ->
         add3(block, at.u, i, drift_of_drop(block[at.R * LANES + i], ratio, A, B, E, flow))
 
 
-def look_at_end(flow: object, s: Scratch, i: int, medium: Medium, _coefficients: Any) -> None:
+def look_at_end(flow: object, s: Scratch, i: int, medium: Medium, _coefficients: object) -> None:
     """Advance the mode of lane i to where the step is to lead."""
     block = s.block
     t, h = block[at.t * LANES + i], block[at.dt * LANES + i]
@@ -516,7 +519,7 @@ def look_at_end(flow: object, s: Scratch, i: int, medium: Medium, _coefficients:
     advance_ahead(block, i, mu_f, combine(mu_f, S, 0.0, S), scale_vector(mu_f, v))
 
 
-def look_in_varying(flow: object, s: Scratch, i: int, _medium: Medium, coefficients: Any) -> None:
+def look_in_varying(flow: object, s: Scratch, i: int, _medium: Medium, coefficients: Numbers) -> None:
     """Do the same in a fluid whose viscosity varies."""
     block = s.block
     a, t = block[at.R * LANES + i], block[at.t * LANES + i] + block[at.dt * LANES + i]
@@ -524,7 +527,7 @@ def look_in_varying(flow: object, s: Scratch, i: int, _medium: Medium, coefficie
     advance_ahead(block, i, mu_f, mu_S, mu_v)
 
 
-def stays_resolved(_flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> float:
+def stays_resolved(_flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: object) -> float:
     """Return the share of a step of lane i in which the source of B changes little, or changes B little."""
     block = s.block
     h, before, after = (
@@ -635,7 +638,7 @@ class QuadraticInVarying(QuadraticSolid):
 
     stages: ClassVar = _stages(update_in_varying, carry_solid, look_in_varying)
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:
+    def coefficients(self, patches: Sequence[Patch]) -> tuple[object, ...]:
         """Return those of the fluid."""
         return self.fluid.coefficients(patches)
 

@@ -72,7 +72,7 @@ class UserSurrounding(Surrounding):
     samples: ClassVar[tuple[Any, ...]]
     """Values that it needs, with which it is tried."""
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> tuple[object, ...]:  # noqa: ARG002
         """Return the entries."""
         return tuple(self._entries().values())
 

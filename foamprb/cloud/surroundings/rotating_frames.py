@@ -11,7 +11,7 @@ with relative u and l. A body that settles through the fluid with w has Du/Dt + 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -50,7 +50,7 @@ def turning_acceleration(spin: Vector, r: Vector, u: Vector) -> Vector:
 
 
 def enter_frame(
-    flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: object
 ) -> None:
     """Add the acceleration of the frame of its host to Du/Dt of lane i."""
     block = s.block
@@ -63,7 +63,7 @@ def enter_frame(
     store3(block, frames.axis_point, i, origin)
 
 
-def stays_in_frame(flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: Any) -> float:
+def stays_in_frame(flow: object, s: Scratch, i: int, _medium: Medium, _coefficients: object) -> float:
     """Return 0 for a step of lane i from one frame to another, else 1."""
     spin, _ = rotation_at(flow, s.ahead[i])
     return 1.0 if spin == load3(s.block, frames.spin, i) else 0.0

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -26,6 +26,9 @@ from foamprb.compile.link import Slots, separate, traced
 from foamprb.dictionary.constraints import Meaning, NonNegative, Positive, Seed, Vector3
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
+
+Numbers: TypeAlias = tuple[float, float, np.uint64]
+"""Speed, rotational diffusivity and seed."""
 
 LARGE_TURN = 0.02
 """D_R Δt above which the user is warned."""
@@ -48,7 +51,7 @@ swimmers = offsets(SwimmerRows)
 
 
 def draw_spin(
-    _flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Any
+    _flow: object, s: Scratch, i: int, step: int, remaining: float, _medium: Medium, coefficients: Numbers
 ) -> None:
     """Draw the spin of lane i, which holds for the time that remains."""
     block = s.block
@@ -59,13 +62,13 @@ def draw_spin(
         store3(block, swimmers.tumble, i, random_spin(coefficients[1], remaining, three))
 
 
-def hold_of_spin(_block: Block, _i: int, _medium: Medium, coefficients: Any) -> float:
+def hold_of_spin(_block: Block, _i: int, _medium: Medium, coefficients: Numbers) -> float:
     """Return how long the spin may be constant, s: the swimmer then turns little."""
-    return _HELD_TURN / (coefficients[1] + 1e-300)  # type: ignore[no-any-return]
+    return _HELD_TURN / (coefficients[1] + 1e-300)
 
 
 @traced
-def swim(block: Block, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+def swim(block: Block, medium: Medium, share: float, coefficients: Numbers) -> None:  # noqa: ARG001
     """Add the swimming velocity to u, and the random spin to l."""
     speed = coefficients[0]
     for i in range(LANES):
@@ -117,7 +120,7 @@ class Swimming(Surrounding):
         if self.direction is not None and not 0.0 < norm(self.direction) < math.inf:
             raise InputError("has a direction of length 0. Allowed: a vector (x y z)")
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:  # noqa: ARG002
         """Return the speed, the diffusivity and the seed."""
         return float(self.speed), float(self.rotationalDiffusivity), np.uint64(self.seed)
 

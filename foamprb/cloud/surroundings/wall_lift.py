@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -101,6 +101,9 @@ from foamprb.flow.base import Floats, Flow, Ints, Patch
 from foamprb.flow.kernels import linked_with, wall_speeds, walls
 from foamprb.flow.patches import PatchKind
 
+Numbers: TypeAlias = tuple[float, float, float, float, Floats]
+"""Entries, and 1 for each patch that counts."""
+
 CLOSE = 2.0
 """Distance of the centre from a wall, in radii, below which steps are counted as close."""
 _FAR = 1e9
@@ -141,7 +144,7 @@ near = offsets(WallRows)
 
 
 def find_walls(
-    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Any
+    flow: object, s: Scratch, i: int, _step: int, remaining: float, _medium: Medium, coefficients: Numbers
 ) -> None:
     """Store the walls around the particle in lane i, and add up the lengths of steps where one is close."""
     cut_off, least_gap, _, _, patch_mask = coefficients
@@ -164,7 +167,7 @@ def find_walls(
         block[near.close * LANES + i] += h - before
 
 
-def stays_by_planes(flow: object, s: Scratch, i: int, _medium: Medium, coefficients: Any) -> float:
+def stays_by_planes(flow: object, s: Scratch, i: int, _medium: Medium, coefficients: Numbers) -> float:
     """Return a half for a step of lane i after which the nearest wall is off its plane, else 1."""
     block, cut = s.block, coefficients[0] * s.block[at.R * LANES + i]
     x = load3(block, at.new_x, i)
@@ -177,7 +180,7 @@ def stays_by_planes(flow: object, s: Scratch, i: int, _medium: Medium, coefficie
     return 0.5 if abs(expected - distance) > _OFF_PLANE * distance else 1.0
 
 
-def lift(block: Block, medium: Medium, share: float, coefficients: Any) -> None:
+def lift(block: Block, medium: Medium, share: float, coefficients: Numbers) -> None:
     """Add the reflections of the particles' stresslets to u and l, and hinder motion by forces.
 
     The stresslet is that in the flow with the reflected gradient, found by iteration. The gradient of the
@@ -688,7 +691,7 @@ class WallLift(Surrounding):
         named = [any(matches(p, patch.name) for p in self.patches) for patch in patches]
         return np.array(named, dtype=np.float64)
 
-    def coefficients(self, patches: Sequence[Patch]) -> Any:
+    def coefficients(self, patches: Sequence[Patch]) -> Numbers:
         """Return the entries, and 1 for each patch that counts."""
         strain, hindered = float(self.strain), float(self.mobility)
         return self.cutOff, self.leastGap, strain, hindered, self.patch_mask(patches)

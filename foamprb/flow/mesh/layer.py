@@ -180,7 +180,7 @@ class Division(NamedTuple):
     turns: Floats
     """See :class:`Layer`; of the further points, too."""
 
-    def widened(self, values: NDArray[Any]) -> NDArray[Any]:
+    def widened(self, values: NDArray[np.generic]) -> NDArray[Any]:
         """Return values at nodes, (n_nodes, …), or fluxes through faces, (n_faces,), on the divided mesh."""
         if values.ndim == 1:
             return np.where(self.faces < 0, 0.0, values[self.faces])

@@ -8,12 +8,15 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.flow.base import Ints
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 Index: TypeAlias = NDArray[np.intp]
 Labels: TypeAlias = NDArray[np.integer[Any]]
@@ -62,7 +65,7 @@ def points_of(data: Any) -> NDArray[np.floating[Any]]:
     return points
 
 
-def cell_types(grid: Any) -> NDArray[np.uint8]:
+def cell_types(grid: vtkUnstructuredGrid) -> NDArray[np.uint8]:
     """Return VTK's type number of each cell of a vtkUnstructuredGrid."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -98,6 +101,6 @@ def share(n: int, part: Callable[[int, int], Any]) -> list[Any]:
     return together(*(partial(part, begin, end) for begin, end in pairwise(ends)))
 
 
-def int32(values: NDArray[Any]) -> Ints:
+def int32(values: NDArray[np.generic]) -> Ints:
     """Return the values as a contiguous array of 32-bit integers."""
     return np.ascontiguousarray(values, dtype=np.int32)

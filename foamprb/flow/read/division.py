@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,9 @@ from foamprb.flow.mesh.lists import Mask, starts
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.vtk_guard import load_pyvista
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 BOUNDARY = "boundary"
 _GUESSES = {"patch": "opening", "wall": "wall", "symmetryPlane": "symmetry plane"}
@@ -98,7 +101,7 @@ def boundary_velocity(
 
 
 def _beside(
-    mesh: Mesh, grid: Any, surfaces: Sequence[tuple[str, Any]], velocity: str
+    mesh: Mesh, grid: vtkUnstructuredGrid, surfaces: Sequence[tuple[str, Any]], velocity: str
 ) -> tuple[Floats, Floats, Mask] | None:
     owner = mesh.owner[mesh.n_internal :]
     if np.shape(values := _vectors(grid.cell_data, velocity)) == (mesh.n_cells, 3):
@@ -127,7 +130,7 @@ def _vectors(data: Any, name: str) -> Floats:
     return np.asarray(data.get(name, []), dtype=np.float64)
 
 
-def _means(values: Floats, start: NDArray[Any]) -> Floats:
+def _means(values: Floats, start: NDArray[np.generic]) -> Floats:
     """Return the means of consecutive lists of vectors."""
     means: Floats = np.add.reduceat(values, start[:-1].astype(np.intp)) / np.diff(start)[:, None]
     return means
@@ -376,7 +379,7 @@ def _crossings(mesh: Mesh) -> list[str]:
     ]
 
 
-def _by_angle(mesh: Mesh, angle: float, groups: NDArray[Any]) -> NDArray[np.intp]:
+def _by_angle(mesh: Mesh, angle: float, groups: NDArray[np.generic]) -> NDArray[np.intp]:
     """Return the patch of each boundary face.
 
     Edges that turn by less than the angle, in degrees, join faces of the same group.

@@ -11,7 +11,7 @@ import re
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +48,9 @@ from foamprb.flow.read.vtkfile import (
 )
 from foamprb.flow.reconstruct import Reconstruction, from_points, slide
 from foamprb.flow.series import series_of
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 _CLOSED = PatchKind.WALL, PatchKind.MIRROR
 _MOST_TIMES = 10
@@ -205,7 +208,7 @@ class _NodalVelocity:
         return u, l
 
 
-def _other_names(grid: Any, velocity: str) -> str:
+def _other_names(grid: vtkUnstructuredGrid, velocity: str) -> str:
     """Return a message that names the arrays that may be the velocity."""
     data = {**grid.point_data, **grid.cell_data}
     vectors = [shlex.quote(name) for name, values in data.items() if np.shape(values)[1:] == (3,)]
@@ -227,7 +230,7 @@ def _array(data: Any, name: str, path: Path, where: str) -> Floats:
     return values
 
 
-def _topology(grid: Any, surfaces: Sequence[tuple[str, Any]]) -> dict[str, NDArray[Any]]:
+def _topology(grid: vtkUnstructuredGrid, surfaces: Sequence[tuple[str, Any]]) -> dict[str, NDArray[Any]]:
     """Return the arrays that define a mesh and its patches."""
     arrays = {f"points of {name}": np.asarray(part.points) for name, part in surfaces}
     arrays |= {f"faces of {name}": np.asarray(part.faces) for name, part in surfaces}
@@ -248,7 +251,7 @@ class _Contents(NamedTuple):
 
     whole: Any
     """All cells."""
-    grid: Any
+    grid: vtkUnstructuredGrid
     """Those with volume."""
     surfaces: list[tuple[str, Any]]
     """Surfaces by name."""
@@ -269,7 +272,7 @@ def _contents(path: Path, time: float | str, velocity: str, scale: float) -> _Co
 class MeshFile(NamedTuple):
     """Mesh and contents of a file at a time."""
 
-    grid: Any
+    grid: vtkUnstructuredGrid
     """Cells."""
     mesh: Mesh
     surfaces: list[tuple[str, Any]]
@@ -328,7 +331,7 @@ def open_file(
     return MeshFile(grid, mesh, surfaces, patch_lines(mesh, u), remarks, faces_at_rest(mesh, u))
 
 
-def _doubtful_units(mesh: Mesh, grid: Any, velocity: str) -> list[Caveat]:
+def _doubtful_units(mesh: Mesh, grid: vtkUnstructuredGrid, velocity: str) -> list[Caveat]:
     """Return a warning if the size of the mesh, or the time to cross it, is unlikely in m and s."""
     data = grid.cell_data if velocity in grid.cell_data else grid.point_data
     size = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))

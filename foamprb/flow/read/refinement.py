@@ -202,7 +202,7 @@ class Resampling:
         w = np.linalg.solve(sides, self._arms[:, 0, :, None])[:, :, 0]
         self._weights = np.concatenate([1.0 - w.sum(axis=1, keepdims=True), w], axis=1)
 
-    def __call__(self, values: NDArray[Any]) -> NDArray[Any]:
+    def __call__(self, values: NDArray[np.generic]) -> NDArray[Any]:
         """Return values at the nodes, linear in each tetrahedron of ``there``."""
         there: NDArray[Any] = self._flow.widened(values)[self._rows]
         at_nodes: NDArray[Any] = np.einsum("ni,ni...->n...", self._weights, there)

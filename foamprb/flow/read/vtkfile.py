@@ -10,7 +10,7 @@ import re
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import TYPE_CHECKING, Any, TypedDict
 from xml.etree import ElementTree
 
 import numpy as np
@@ -26,6 +26,9 @@ from foamprb.flow.read.vtk_guard import load_pyvista, read_vtk, require_survival
 from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
 from foamprb.results.reading import read_json
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
 _PIECES = frozenset({".pvtu", ".pvti", ".pvtr", ".pvts"})
 VTK_SUFFIXES = _PIECES | {
@@ -144,7 +147,7 @@ def _require_single_entries(path: Path) -> None:
             )
 
 
-def _by_vtk(path: Path, function: Callable[..., Any], *arguments: Any) -> Any:
+def _by_vtk(path: Path, function: Callable[..., Any], *arguments: object) -> Any:
     """Call a function that reads a file by VTK; raise VTK's errors."""
     with vtk_messages() as messages, _quiet(path):
         try:
@@ -338,7 +341,7 @@ def _leaves(name: str, block: Any) -> list[tuple[str, Any]]:
     return [leaf for key, part in zip(block.keys(), block, strict=True) for leaf in _leaves(str(key), part)]
 
 
-def solid_cells(grid: Any, path: Path) -> tuple[Any, list[str]]:
+def solid_cells(grid: vtkUnstructuredGrid, path: Path) -> tuple[Any, list[str]]:
     """Return the grid without its points, lines and surfaces, coinciding points merged; and notes."""
     kinds = np.unique(grid.celltypes).tolist()
     _require_lists(grid, path)
@@ -385,7 +388,7 @@ def require_joined(mesh: Mesh, path: Path) -> None:
         )
 
 
-def _require_lists(grid: Any, path: Path) -> None:
+def _require_lists(grid: vtkUnstructuredGrid, path: Path) -> None:
     """Raise InputError for cells whose lists of points or faces are out of range or of a wrong length."""
     cells = _lists(grid.GetCells(), path, grid.n_points)
     for kind, size in _SIZES.items():

@@ -6,7 +6,7 @@ import io
 import re
 import zlib
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,10 @@ from numpy.typing import NDArray
 from foamprb.optional import load
 from foamprb.results.intervals import Estimate
 from foamprb.view.colours import NAMES, number, readable
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
 
@@ -74,12 +78,12 @@ class Plot(NamedTuple):
     """For a file, on white, 200 dots per inch."""
 
 
-def _legend(axes: Any) -> None:
+def _legend(axes: Axes) -> None:
     """Draw the legend beside the axes: to look for a free place among many bars takes matplotlib seconds."""
     axes.legend(fontsize=9, loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
-def _plot(draw: Callable[[Any, Any], None], height: float = 3.2) -> Plot:
+def _plot(draw: Callable[[Figure, Axes], None], height: float = 3.2) -> Plot:
     """Return the plot that a function draws on a figure and its axes; ``height`` in inches."""
     with load("matplotlib").rc_context(_STYLE):
         figure = load("matplotlib.figure").Figure(figsize=(6.4, height), layout="constrained")
@@ -137,7 +141,7 @@ def shares(counts: dict[str, dict[str, int]]) -> Plot:
     """Return bars of particles by patch, stacked by fate: ``{"outlet": {"escaped": 900}, …}``."""
     patches = list(counts)
 
-    def draw(_: Any, axes: Any) -> None:
+    def draw(_: object, axes: Axes) -> None:
         left = np.zeros(len(patches))
         for fate, colour in FATES.items():
             widths = np.array([counts[patch].get(fate, 0) for patch in patches], dtype=float)
@@ -161,7 +165,7 @@ def histogram(groups: dict[str, Floats], symbol: str, unit: str) -> Plot:
     everything = np.concatenate([v[np.isfinite(v)] for v in groups.values()])
     factor, name = _scaled(everything, unit)
 
-    def draw(_: Any, axes: Any) -> None:
+    def draw(_: object, axes: Axes) -> None:
         low, high = (everything.min(), everything.max()) if len(everything) else (0.0, 1.0)
         if high <= low:
             low, high = low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0)
@@ -202,7 +206,7 @@ def curves(
     fx, nx = _scaled(np.concatenate([line[1] for line in lines]), x[1])
     fy, ny = _scaled(np.concatenate([line[2] for line in lines]), y[1])
 
-    def draw(_: Any, axes: Any) -> None:
+    def draw(_: object, axes: Axes) -> None:
         if band is not None:
             axes.fill_between(band[0] / fx, band[1] / fy, band[2] / fy, color=NAMES[0], alpha=0.22,
                               linewidth=0, label="9 in 10")  # fmt: skip
@@ -248,7 +252,7 @@ def dots(
     few = slice(None, None, 1 + len(x) // _MOST_DOTS)
     (fx, nx), (fy, ny) = _scaled(x, x_axis[1]), _scaled(y, y_axis[1])
 
-    def draw(_: Any, axes: Any) -> None:
+    def draw(_: object, axes: Axes) -> None:
         if others is not None and len(others[0]):
             axes.plot(others[0] / fx, others[1] / fy, "x", color=_SOFT, markersize=3.5, markeredgewidth=0.8,
                       rasterized=True, label="left out")  # fmt: skip
@@ -284,10 +288,11 @@ def spreads(groups: dict[str, Floats], medians: dict[str, Estimate], symbol: str
     low, high = np.quantile(everything, (0.005, 0.995))
     edges = np.linspace(low, high if high > low else low + (abs(low) or 1.0), _BINS + 1)
 
-    def draw(_: Any, axes: Any) -> None:
+    def draw(_: object, axes: Axes) -> None:
         for k, (group, values) in enumerate(groups.items()):
             colour, median = NAMES[(0, 5, 2, 3, 1, 4)[k % 6]], medians[group]
-            axes.hist(values / factor, edges / factor, histtype="step", color=colour, label=group or "bodies")
+            bins, label = (edges / factor).tolist(), group or "bodies"
+            axes.hist(values / factor, bins, histtype="step", color=colour, label=label)
             axes.axvline(median.value / factor, color=colour, linestyle="--", linewidth=1.0)
             axes.axvspan(median.low / factor, median.high / factor, color=colour, alpha=0.22, linewidth=0)
         axes.set(xlabel=_label(symbol, name), ylabel="bodies")
@@ -303,7 +308,7 @@ def by_origin(x: Floats, fates: NDArray[np.str_]) -> Plot:
     factor, name = readable("m", float(extent.max()))
     groups = {fate: np.flatnonzero(fates == fate) for fate in FATES if (fates == fate).any()}
 
-    def draw(_: Any, axes: Any) -> None:
+    def draw(_: object, axes: Axes) -> None:
         for k, fate in enumerate(sorted(groups, key=lambda fate: -len(groups[fate]))):
             dots = x[groups[fate][:: 1 + len(groups[fate]) // _MOST_DOTS]] / factor
             axes.plot(
@@ -328,7 +333,7 @@ def per_length(ways: Mapping[str, Floats], longest: float) -> Plot:
     most = max(map(len, ways.values()))
     edges = np.linspace(0.0, longest, int(np.clip(most / _PER_BIN, 4, _BINS)) + 1)
 
-    def draw(_: Any, axes: Any) -> None:
+    def draw(_: object, axes: Axes) -> None:
         for k, (wall, lengths) in enumerate(ways.items()):
             numbers = np.histogram(lengths, edges)[0] / np.diff(edges)
             colour = NAMES[(0, 5, 2, 3, 1, 4)[k % 6]]
