@@ -8,7 +8,6 @@ from pair_steps import Bodies, evaluate
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from foamprb.body.memory import complex_modulus
 from foamprb.body.tensor import from_frame
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -68,23 +67,6 @@ def test_creep_and_recovery_have_their_closed_form(integrator, eta):
         rest.advance(round((4.0 + t) / cloud.dt) - rest.step)
         expected = creep(t, e, 0.0, eta)[0]
         assert strain(rest.particles)[0, 0] == pytest.approx(expected, rel=1e-4)
-
-
-@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
-def test_a_stiff_sphere_in_shear_has_the_modulus_at_the_shear_rate(integrator):
-    """e_xx + i e_xy is 5/2 i γ̇/(2 G* + 3 iγ̇ μ_f) at ω = γ̇: the material turns (Roscoe 1967).
-
-    Steps are 4e4 times as long as the elastic relaxation and a third of the shortest time of the memory.
-    """
-    rho, scale = 1e-6, 1e5
-    p = spheres([(0.0, 0.0, 0.0)], d=2.0, rho=rho, mu=scale, poissons_ratio=0.4999)
-    p = with_relaxation(p, scale * MODULI, TIMES)
-    medium, models = Medium(1.0, rho, (0.0, 0.0, 0.0)), Models(integrator=integrator, tolerance=np.inf)
-    cloud = Cloud(p, analytic.shear(1.0), medium, (), 0.1, models, threads=1)
-    cloud.advance(400)
-    e = strain(cloud.particles)
-    expected = 2.5j / (2.0 * scale * complex_modulus(1.0, 1.0, MODULI, TIMES) + 3.0j)
-    assert abs(e[0, 0] + 1j * e[0, 1] - expected) < 1e-4 * abs(expected)
 
 
 def history(t, axes=(1.0, 1.0, 1.0)):
