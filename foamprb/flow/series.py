@@ -36,7 +36,7 @@ from foamprb.flow.walk import (
     blend_turbulence,
     corners,
     correction_at,
-    curvature_in,
+    curvature_of_nodes,
     follow,
     from_middle,
     interpolate,
@@ -163,7 +163,7 @@ def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature:
 def _curvature_at(flow: SeriesArrays, host: int, x: Vector, k: int) -> Curvature:
     """Return the second derivatives at the k-th of the loaded times."""
     if flow.curvatures.shape[0] == 0:
-        return curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k])
+        return curvature_of_nodes(flow.mesh, host, x, flow.fields, 3, flow.first[k])
     rows = corners(flow.mesh, host, flow.first[k])
     h = blend_curvature(flow.curvatures, rows, shape(flow.mesh, host, x))
     return turned_curvature(flow.mesh.layer, x, h) if is_wedge(flow.mesh.layer) else h

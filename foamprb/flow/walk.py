@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.faxen import Curvature, curvature_of
-from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
+from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus, scale
 from foamprb.compile.link import separate
 from foamprb.flow.base import Floats, Turbulence
 from foamprb.flow.correction import correct_cell, is_added, is_stored, stored
@@ -32,7 +32,16 @@ from foamprb.flow.mesh.arrays import (
 )
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
-from foamprb.flow.wedge import across, distance, is_wedge, stretched, tangent, turned, turned_curvature
+from foamprb.flow.wedge import (
+    across,
+    change_around,
+    distance,
+    is_wedge,
+    stretched,
+    tangent,
+    turned,
+    turned_curvature,
+)
 
 REACHED = -1
 FAILED = -2
@@ -472,9 +481,33 @@ def curvature(flow: MeshArrays, host: int, x: Vector, t: float) -> Curvature:  #
     They are constant there if they were not reconstructed at the nodes.
     """
     if flow.curvatures.shape[0] == 0:
-        return curvature_in(flow, host, flow.nodes, GRADIENT, 0)
+        return curvature_of_nodes(flow, host, x, flow.nodes, GRADIENT, 0)
     h = blend_curvature(flow.curvatures, corners(flow, host, 0), shape(flow, host, x))
     return turned_curvature(flow.layer, x, h) if is_wedge(flow.layer) else h
+
+
+def curvature_of_nodes(flow: MeshArrays, host: int, x: Vector, f: Floats, k: int, first: int) -> Curvature:
+    """Return :func:`curvature_in`; in a wedge with the change of the gradient about the axis, at x."""
+    h = curvature_in(flow, host, f, k, first)
+    if not is_wedge(flow.layer):
+        return h
+    (a, b, c, d), at, w = nodes_of(flow, host), corners(flow, host, first), shape(flow, host, x)
+    least = 1e-6 * max(
+        distance(flow.layer, point(flow.nodes, a)), distance(flow.layer, point(flow.nodes, b)),
+        distance(flow.layer, point(flow.nodes, c)), distance(flow.layer, point(flow.nodes, d)),
+    )  # fmt: skip
+    l = (
+        blend(f, k, at, w), blend(f, k + 1, at, w), blend(f, k + 2, at, w),
+        blend(f, k + 3, at, w), blend(f, k + 4, at, w), blend(f, k + 5, at, w),
+        blend(f, k + 6, at, w), blend(f, k + 7, at, w), blend(f, k + 8, at, w),
+    )  # fmt: skip
+    n, r = change_around(flow.layer, max(distance(flow.layer, x), least), l)
+    g = curvature_of(scale(n[0], r), scale(n[1], r), scale(n[2], r))
+    h = (
+        plus(h[0], g[0]), plus(h[1], g[1]), plus(h[2], g[2]),
+        plus(h[3], g[3]), plus(h[4], g[4]), plus(h[5], g[5]),
+    )  # fmt: skip
+    return turned_curvature(flow.layer, x, h)
 
 
 def blend_curvature(f: NDArray[np.float32], nodes: Corners, w: Weights) -> Curvature:

@@ -15,11 +15,14 @@ from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import (
     Tensor,
     Vector,
+    dot,
     dot_vector,
     inner,
     minus,
     plus_scaled,
+    scale,
     scale_vector,
+    subtract,
     to_frame,
     vector_product,
 )
@@ -74,6 +77,13 @@ def _turn(layer: Floats, t: float) -> Tensor:
 def turned(layer: Floats, t: float, l: Tensor) -> Tensor:
     """Return a gradient of the middle plane turned by θ."""
     return to_frame(_turn(layer, t), l)
+
+
+def change_around(layer: Floats, rho: float, l: Tensor) -> tuple[Vector, Tensor]:
+    """Return n and the derivative of a gradient along it, (a × l − l × a)/ρ, at the middle plane."""
+    x, y, z = _row(layer, _AXIS)
+    turn = (0.0, -z, y, z, 0.0, -x, -y, x, 0.0)
+    return _row(layer, 0), scale(1.0 / rho, subtract(dot(turn, l), dot(l, turn)))
 
 
 def turned_curvature(layer: Floats, x: Vector, h: Curvature) -> Curvature:

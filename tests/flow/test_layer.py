@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from mesh_shapes import boundary, grid, wedge, wedge_patches
 
+from foamprb.compile.link import link
+from foamprb.flow.curvatures import mean_curvatures, third_order
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -115,7 +117,7 @@ def pipe_in_a_wedge(n, swirl=0.0):
     start = mesh.patch_start[[patch.name for patch in mesh.patches].index("wall")]
     given[start:] = np.array([-swirl, swirl, 0.0]) * mesh.boundary_centres[start:, [1, 0, 2]]
     u, l = Reconstruction(mesh)(velocity(mesh.centres), given)
-    return MeshFlow(mesh, u, l, fluxes=Conservation(mesh)(u, l)), velocity
+    return mesh, (u, l, Conservation(mesh)(u, l)), velocity
 
 
 def at_angles(flow, rho, z):
@@ -133,7 +135,8 @@ def at_angles(flow, rho, z):
 
 @pytest.mark.parametrize("swirl", [0.0, 0.5])
 def test_a_wedge_has_the_flow_of_its_middle_plane_at_all_angles(swirl, random):
-    flow, exact = pipe_in_a_wedge(12, swirl)
+    mesh, (u, l, fluxes), exact = pipe_in_a_wedge(12, swirl)
+    flow = MeshFlow(mesh, u, l, fluxes=fluxes)
     rho, z = random.uniform(0.0, 0.99, 400), random.uniform(0.01, 0.99, 400)
     u, l = at_angles(flow, rho, z)
     # To round-off, and to single precision, in which the correction is stored.
@@ -152,7 +155,8 @@ def test_a_wedge_has_the_flow_of_its_middle_plane_at_all_angles(swirl, random):
 
 def test_points_in_a_wedge_keep_their_angle_and_the_stream_function(random):
     """Points at all angles cover the same way, in a flow in closed form."""
-    flow, _ = pipe_in_a_wedge(12)
+    mesh, (u, l, fluxes), _ = pipe_in_a_wedge(12)
+    flow = MeshFlow(mesh, u, l, fluxes=fluxes)
     rho, tangents = np.repeat(random.uniform(0.02, 0.95, 40), len(ANGLES)), np.tile(np.tan(ANGLES), 40)
     x, dt = np.column_stack([rho, rho * tangents, np.full(200, 0.05)]), 2e-3
 
@@ -168,3 +172,37 @@ def test_points_in_a_wedge_keep_their_angle_and_the_stream_function(random):
     assert x[:, 1] == pytest.approx(x[:, 0] * tangents, abs=1e-15)
     assert np.ptp(x.reshape(40, -1, 3)[:, :, [0, 2]], axis=1).max() < 1e-8
     assert stream(x) == pytest.approx(start, abs=5e-4)
+
+
+@pytest.mark.parametrize("reconstructed", [False, True])
+def test_second_derivatives_and_a_transient_flow_in_a_wedge_are_turned(reconstructed, random):
+    """Those of the middle plane, where ∇²u_z of Poiseuille's flow is −8; half of it is around the axis."""
+    mesh, values, _ = pipe_in_a_wedge(12, 0.5)
+    bent = mean_curvatures(mesh, values[1]) if reconstructed else None
+    steady = MeshFlow(mesh, *values[:2], fluxes=values[2], curvatures=bent)
+    options = {"conservative": True, "curved": reconstructed}
+    values = (*values, bent) if reconstructed else values
+    series = SeriesFlow(mesh, [0.0, 2.0], lambda k: tuple((1 + k) * a for a in values), **options)
+    rho, z = random.uniform(0.1, 0.8, 20), random.uniform(0.2, 0.8, 20)
+    found = []
+    for angle in ANGLES:
+        x = np.column_stack([rho, rho * np.tan(angle), z])
+        hosts = series.locate(x)
+        assert series.sample(x, hosts, 1.0)[0] == pytest.approx(
+            1.5 * steady.sample(x, hosts, 0.0)[0], abs=1e-6
+        )
+        c, s = np.cos(angle), np.sin(angle)
+        turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+        both = []
+        for flow, t, factor in ((steady, 0.0, 1.0), (series, 1.0, 1.5)):
+            curvature, arrays = link(flow.kernels["curvature"]), flow.arrays()
+            h = np.array([curvature(arrays, i, tuple(y), t) for i, y in zip(hosts, x, strict=True)]) / factor
+            both.append(np.einsum("ai,bj,ck,nijk->nabc", turn, turn, turn, third_order(h.reshape(-1, 18))))
+        assert both[1] == pytest.approx(both[0], abs=1e-5)
+        found.append(both[0])
+    assert np.ptp(found, axis=0).max() < 1e-5
+    square, sine, edge = (rho / np.cos(np.radians(2.5))) ** 2, np.sin(np.pi * z), np.cos(np.radians(2.5))
+    ring = (48.0 * square - 16.0) / edge**2 - np.pi**2 * (1.0 - square) * (1.0 - 3.0 * square)
+    laplacian = np.einsum("nijj->ni", found[2])[:, 2]
+    error = laplacian - (-8.0 / edge**2 + 0.4 * ring * sine)
+    assert np.sqrt(np.mean(error**2)) < 0.06 * np.abs(laplacian).mean()
