@@ -492,17 +492,17 @@ def curvature_of_nodes(flow: MeshArrays, host: int, x: Vector, f: Floats, k: int
     if not is_wedge(flow.layer):
         return h
     (a, b, c, d), at, w = nodes_of(flow, host), corners(flow, host, first), shape(flow, host, x)
-    least = 1e-6 * max(
-        distance(flow.layer, point(flow.nodes, a)), distance(flow.layer, point(flow.nodes, b)),
-        distance(flow.layer, point(flow.nodes, c)), distance(flow.layer, point(flow.nodes, d)),
-    )  # fmt: skip
+    # Also for arrays of hosts and points.
+    p, q = distance(flow.layer, point(flow.nodes, a)), distance(flow.layer, point(flow.nodes, b))
+    r, s = distance(flow.layer, point(flow.nodes, c)), distance(flow.layer, point(flow.nodes, d))
+    least = 1e-6 * np.maximum(np.maximum(p, q), np.maximum(r, s))
     l = (
         blend(f, k, at, w), blend(f, k + 1, at, w), blend(f, k + 2, at, w),
         blend(f, k + 3, at, w), blend(f, k + 4, at, w), blend(f, k + 5, at, w),
         blend(f, k + 6, at, w), blend(f, k + 7, at, w), blend(f, k + 8, at, w),
     )  # fmt: skip
-    n, r = change_around(flow.layer, max(distance(flow.layer, x), least), l)
-    g = curvature_of(scale(n[0], r), scale(n[1], r), scale(n[2], r))
+    n, change = change_around(flow.layer, np.maximum(distance(flow.layer, x), least), l)
+    g = curvature_of(scale(n[0], change), scale(n[1], change), scale(n[2], change))
     h = (
         plus(h[0], g[0]), plus(h[1], g[1]), plus(h[2], g[2]),
         plus(h[3], g[3]), plus(h[4], g[4]), plus(h[5], g[5]),

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import (
     Tensor,
@@ -53,9 +55,9 @@ def distance(layer: Floats, x: Vector) -> Any:
 
 
 def tangent(layer: Floats, x: Vector) -> Any:
-    """Return t = tan θ at x, within the wedge."""
+    """Return t = tan θ at x, within the wedge; like the other functions also for arrays of points."""
     rho, y = distance(layer, x), inner(_row(layer, 0), minus(x, _row(layer, _PLACE)))
-    return min(max(y / max(rho, 1e-300), -layer[_HALF]), layer[_HALF])
+    return np.minimum(np.maximum(y / np.maximum(rho, 1e-300), -layer[_HALF]), layer[_HALF])
 
 
 def stretched(layer: Floats, t: float, u: Vector) -> Vector:

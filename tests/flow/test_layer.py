@@ -13,6 +13,7 @@ from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow
+from foamprb.flow.walk import curvature as walk_curvature
 
 DEPTH = 0.1
 
@@ -197,6 +198,9 @@ def test_second_derivatives_and_a_transient_flow_in_a_wedge_are_turned(reconstru
         for flow, t, factor in ((steady, 0.0, 1.0), (series, 1.0, 1.5)):
             curvature, arrays = link(flow.kernels["curvature"]), flow.arrays()
             h = np.array([curvature(arrays, i, tuple(y), t) for i, y in zip(hosts, x, strict=True)]) / factor
+            if flow is steady and not reconstructed:
+                at_once = walk_curvature(arrays, hosts, tuple(x.T), t)
+                assert np.moveaxis(at_once, 2, 0) == pytest.approx(h, abs=1e-9)
             both.append(np.einsum("ai,bj,ck,nijk->nabc", turn, turn, turn, third_order(h.reshape(-1, 18))))
         assert both[1] == pytest.approx(both[0], abs=1e-5)
         found.append(both[0])
