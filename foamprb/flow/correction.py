@@ -42,8 +42,6 @@ class NodalFlow(NamedTuple):
     k_u: int
     k_l: int
     k_free: int
-    layer: Floats
-    """See :class:`MeshArrays`; velocities in a wedge are those of the middle plane."""
 
 
 class Work(NamedTuple):
@@ -81,11 +79,13 @@ def triangle_flux(at: NodalFlow, a: int, b: int, c: int) -> float:
 
 def _velocity(at: NodalFlow, node: int) -> Vector:
     row, k = at.first + node, at.k_u
-    v = at.u[row, k], at.u[row, k + 1], at.u[row, k + 2]
-    if is_wedge(at.layer):
-        # What goes round the axis makes no volume.
-        return stretched(at.layer, tangent(at.layer, point(at.x, node)), across(at.layer, v))
-    return v
+    return at.u[row, k], at.u[row, k + 1], at.u[row, k + 2]
+
+
+def _velocity_at(at: NodalFlow, layer: Floats, node: int) -> Vector:
+    """Return the velocity of a node, in a wedge without that around the axis, which makes no volume."""
+    v = _velocity(at, node)
+    return stretched(layer, tangent(layer, point(at.x, node)), across(layer, v)) if is_wedge(layer) else v
 
 
 def _free(at: NodalFlow, node: int) -> float:
@@ -94,15 +94,23 @@ def _free(at: NodalFlow, node: int) -> float:
 
 def _edge_bend(at: NodalFlow, i: int, j: int) -> Vector:
     """Return (l_i − l_j)·(x_j − x_i)/24, m/s: a third of what an edge adds to a mean velocity."""
-    d, s = arm(at.x, j, point(at.x, i)), 1.0 / 24.0
-    a, b, k, wedge = at.first + i, at.first + j, at.k_l, is_wedge(at.layer)
-    d = across(at.layer, d) if wedge else d
-    v = (
+    return _bend_along(at, i, j, arm(at.x, j, point(at.x, i)))
+
+
+def _bend_along(at: NodalFlow, i: int, j: int, d: Vector) -> Vector:
+    a, b, k, s = at.first + i, at.first + j, at.k_l, 1.0 / 24.0
+    return (
         s * _change(at.l, a, b, k, d),
         s * _change(at.l, a, b, k + 3, d),
         s * _change(at.l, a, b, k + 6, d),
     )
-    return across(at.layer, v) if wedge else v
+
+
+def _edge_bend_at(at: NodalFlow, layer: Floats, i: int, j: int) -> Vector:
+    """Return :func:`_edge_bend`, in a wedge along its middle plane."""
+    if not is_wedge(layer):
+        return _edge_bend(at, i, j)
+    return across(layer, _bend_along(at, i, j, across(layer, arm(at.x, j, point(at.x, i)))))
 
 
 def _change(l: Floats, i: int, j: int, k: int, d: Vector) -> float:
@@ -146,10 +154,10 @@ def correct_cell(
     )  # fmt: skip
     fluxes, lacking, weight, sides, work = memory
     rest, change, volume = work[0], work[4], work[5]
-    at = NodalFlow(flow.nodes, f, f, flow.nodes, first, k, k + 3, FREE, flow.layer)
+    at = NodalFlow(flow.nodes, f, f, flow.nodes, first, k, k + 3, FREE)
     total = space = 0.0
     for t in range(n):
-        volume[t] = _measure_sides(at, tets, begin + t, t, memory)
+        volume[t] = _measure_sides(at, flow.layer, tets, begin + t, t, memory)
         space += volume[t]
     # The triangles of a face share its flux by their areas and free nodes.
     t = 0
@@ -311,7 +319,7 @@ def stored(correction: NDArray[np.float32], row: Any, k: int) -> Any:
     return np.float32(correction[row, k] - _ZERO)
 
 
-def _measure_sides(at: NodalFlow, tets: Ints, tet: int, row: int, memory: Work) -> float:
+def _measure_sides(at: NodalFlow, layer: Floats, tets: Ints, tet: int, row: int, memory: Work) -> float:
     """Measure the sides of a tetrahedron; return its signed volume, m³.
 
     Side k is opposite vertex k. The interpolated velocity (:func:`foamprb.flow.walk.interpolate`) is straight
@@ -330,10 +338,15 @@ def _measure_sides(at: NodalFlow, tets: Ints, tet: int, row: int, memory: Work) 
     p, q, r = arm(nodes, a, x), arm(nodes, b, x), arm(nodes, c, x)
     so, sa = _half_product(minus(q, p), minus(r, p)), _half_product(r, q)
     sb, sc = _half_product(p, r), _half_product(q, p)
-    oa, ob, oc = _edge_bend(at, o, a), _edge_bend(at, o, b), _edge_bend(at, o, c)
-    ab, bc, ca = _edge_bend(at, a, b), _edge_bend(at, b, c), _edge_bend(at, c, a)
+    oa, ob, oc = (
+        _edge_bend_at(at, layer, o, a), _edge_bend_at(at, layer, o, b), _edge_bend_at(at, layer, o, c)
+    )  # fmt: skip
+    ab, bc, ca = (
+        _edge_bend_at(at, layer, a, b), _edge_bend_at(at, layer, b, c), _edge_bend_at(at, layer, c, a)
+    )  # fmt: skip
     fo, fa, fb, fc = _free(at, o), _free(at, a), _free(at, b), _free(at, c)
-    uo, ua, ub, uc = _velocity(at, o), _velocity(at, a), _velocity(at, b), _velocity(at, c)
+    uo, ua = _velocity_at(at, layer, o), _velocity_at(at, layer, a)
+    ub, uc = _velocity_at(at, layer, b), _velocity_at(at, layer, c)
     _put_side(memory, row, 0, so, plus(plus(ua, ub), uc), (fa, fb, fc), (ab, bc, ca))
     _put_side(memory, row, 1, sa, plus(plus(uo, uc), ub), (fo, fc, fb), (oc, bc, ob))
     _put_side(memory, row, 2, sb, plus(plus(uo, ua), uc), (fo, fa, fc), (oa, ca, oc))

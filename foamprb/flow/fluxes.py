@@ -187,12 +187,17 @@ class Conservation:
         return fluxes
 
     def _at_nodes(self, u: Floats, l: Floats) -> NodalFlow:
-        numbers, layer = np.empty(0), self._layer
+        layer, l = self._layer, l.reshape(-1, 3, 3)
         if layer is not None and len(layer.axis):
-            u, l, numbers = u.copy(), l.reshape(-1, 3, 3).copy(), np.concatenate([layer.normal, layer.axis])
+            # Of a wedge those along the middle plane, and out of it as far as the distance from the axis
+            # grows: flat faces have the same velocity at all depths.
+            u, l = u.copy(), l.copy()
             turn_nodes(layer.turns, u)
             turn_nodes(layer.turns, l)
-        return NodalFlow(self._nodes, u, l.reshape(-1, 9), self._free[:, None], 0, 0, 0, 0, numbers)
+            plane = np.eye(3) - np.outer(layer.normal, layer.normal)
+            u, l = u @ plane, plane @ l @ plane
+            turn_nodes(layer.turns, u, back=True)
+        return NodalFlow(self._nodes, u, l.reshape(-1, 9), self._free[:, None], 0, 0, 0, 0)
 
 
 def sides_of(mesh: Mesh) -> Sides:

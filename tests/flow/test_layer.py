@@ -154,6 +154,20 @@ def test_a_wedge_has_the_flow_of_its_middle_plane_at_all_angles(swirl, random):
     assert np.sqrt(np.mean(divergence**2)) < 3e-3
 
 
+def test_a_uniform_stream_along_the_axis_of_a_wedge_is_uniform():
+    shape = wedge(3)
+    mesh = build_mesh(
+        shape, [p._replace(type="patch") if p.name == "wall" else p for p in wedge_patches(shape)]
+    )
+    along = np.array([0.0, 0.0, 1.0])
+    u, l = Reconstruction(mesh)(mesh.centres * 0.0 + along, mesh.boundary_centres * 0.0 + along)
+    assert u == pytest.approx(np.broadcast_to(along, u.shape), abs=1e-13)
+    fluxes = Conservation(mesh)(u, l)[mesh.n_internal :]
+    assert fluxes == pytest.approx(mesh.boundary_areas[:, 2], abs=1e-15)
+    flow = MeshFlow(mesh, u, l)
+    assert flow.at_nodes()[1] == pytest.approx(np.broadcast_to(along, flow.mesh.nodes.shape), abs=1e-13)
+
+
 def test_points_in_a_wedge_keep_their_angle_and_the_stream_function(random):
     """Points at all angles cover the same way, in a flow in closed form."""
     mesh, (u, l, fluxes), _ = pipe_in_a_wedge(12)

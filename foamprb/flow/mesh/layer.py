@@ -56,7 +56,7 @@ class Layer(NamedTuple):
             return
         n, axis, away, place = mesh.n_points, *self.axis[:9].reshape(3, 3)
         longer, points = 1.0 / _cosines(self.turns), u[: mesh.n_points]
-        points *= longer
+        points += (longer - 1.0) * (points - np.outer(points @ axis, axis))
         nearer = (longer - 1.0) * ((mesh.points - place) @ away)[:, None] * (l[:n] @ away)
         if walls is not None:
             nearer[walls] = (1.0 - longer[walls]) * (points[walls] - np.outer(points[walls] @ axis, axis))
@@ -68,7 +68,8 @@ class Layer(NamedTuple):
 def turn_nodes(turns: Floats, values: Floats, back: bool = False) -> None:
     """Turn velocities or their derivatives at the first n nodes of a wedge, in place; see :class:`Layer`.
 
-    At the angle θ a velocity is also multiplied by cos θ: between two planes it is linear then.
+    At the angle θ the part of a velocity across the axis is also multiplied by cos θ: it is linear between
+    two planes then.
 
     Parameters
     ----------
@@ -79,12 +80,15 @@ def turn_nodes(turns: Floats, values: Floats, back: bool = False) -> None:
     back
         Whether to turn out of the middle plane.
     """
-    own, turned = turns.transpose(0, 2, 1) if back else turns, values[: len(turns)]
+    reverse, turned = turns.transpose(0, 2, 1), values[: len(turns)]
+    own = reverse if back else turns
+    if values.ndim == 2:
+        cosine = _cosines(turns)[:, :, None]
+        unit = cosine * np.eye(3)
+        own = (0.5 * (reverse - turns) + unit) / cosine if back else cosine * turns - unit
+        own = own if back else own + 0.5 * (turns + reverse)
     for k in range(1, values.ndim):
         turned = np.moveaxis(np.einsum("nij,n...j->n...i", own, np.moveaxis(turned, k, -1)), -1, k)
-    if values.ndim == 2:
-        cosine = _cosines(turns)
-        turned = turned / cosine if back else turned * cosine
     values[: len(turns)] = turned
 
 
