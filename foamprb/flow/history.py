@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from foamprb.body.tensor import Tensor, Vector, add, add_scaled, ddot, scale, subtract
+from foamprb.body.tensor import Tensor, Vector, add, add_scaled, ddot, subtract
 from foamprb.compile.link import Function
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free
@@ -66,44 +66,48 @@ def parabola_of_history(
     a, b, most = (t0 - flow.start) * flow.rate, (t1 - flow.start) * flow.rate, math.inf
     first = int(a + _ROUND_OFF)
     mean, slope, bend = _moments(flow.gradients, host, a, b)
-    while b > first + 1 + _ROUND_OFF and _bends(mean, slope, bend):
-        b = max(first + 1.0, np.floor(a + 0.5 * (b - a)))
+    excess = _bending(mean, slope, bend)
+    while b > first + 1 + _ROUND_OFF and excess > 1.0:
+        b = max(first + 1.0, np.floor(a + max(0.25, 0.9 / excess) * (b - a)))
         t1 = flow.start + b / flow.rate
         most = max(t1 - t0, 1.0 / flow.rate)
         mean, slope, bend = _moments(flow.gradients, host, a, b)
+        excess = _bending(mean, slope, bend)
     ends = add(mean, bend)
     return t1, most, subtract(ends, slope), add_scaled(mean, -0.5, bend), add(ends, slope)
 
 
-def _bends(mean: Tensor, slope: Tensor, bend: Tensor) -> bool:
-    """Return True if the gradient bends too much for one step, beyond round-off."""
-    least = _LEAST_BEND**2 * ddot(mean, mean)
-    return bool(ddot(bend, bend) > _BEND**2 * ddot(slope, slope) + least)
+def _bending(mean: Tensor, slope: Tensor, bend: Tensor) -> float:
+    """Return how much the gradient bends, over the limit and beyond round-off."""
+    least = _LEAST_BEND**2 * ddot(mean, mean) + 1e-300
+    return float(np.sqrt(ddot(bend, bend) / (_BEND**2 * ddot(slope, slope) + least)))
 
 
 def _moments(g: Floats, host: int, a: float, b: float) -> tuple[Tensor, Tensor, Tensor]:
     """Return the coefficients of Legendre's polynomials 1, 2s − 1, 6s² − 6s + 1, s from 0 to 1 in [a, b]."""
     zero = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     mean, slope, bend = zero, zero, zero
-    most, per_step = g.shape[1] - 2, 1.0 / (b - a)
+    most, per_step, before = g.shape[1] - 2, 1.0 / (b - a), (0.0, 0.0, 0.0)
     first, last = min(max(int(a + _ROUND_OFF), 0), most), min(max(math.ceil(b - _ROUND_OFF) - 1, 0), most)
-    for k in range(first, last + 1):
-        low, high = a if k == first else float(k), b if k == last else k + 1.0
-        # Between two times the gradient is p (1 - f) + q f.
-        f, d, c = 0.5 * (low + high) - k, (high - low) * per_step, (0.5 * (low + high) - a) * per_step
-        change, odd, even = high - low, 2.0 * c - 1.0, 1.5 * (2.0 * c - 1.0) ** 2 - 0.5 + 0.5 * d * d
-        p = (
+    for k in range(first, last + 2):
+        here, after = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        if k <= last:
+            low, high = a if k == first else float(k), b if k == last else k + 1.0
+            f, d, change = 0.5 * (low + high) - k, (high - low) * per_step, high - low
+            odd = 2.0 * (f + k - a) * per_step - 1.0
+            even, rise = 1.5 * odd * odd - 0.5 + 0.5 * d * d, 0.5 * d * d * change
+            # Weights of the two times between which the gradient is linear.
+            p, q = d * (1.0 - f), d * f
+            here = (p, 3.0 * odd * p - rise, 5.0 * (even * p - odd * rise))
+            after = (q, 3.0 * odd * q + rise, 5.0 * (even * q + odd * rise))
+        l = (
             g[host, k, 0], g[host, k, 1], g[host, k, 2], g[host, k, 3], g[host, k, 4],
             g[host, k, 5], g[host, k, 6], g[host, k, 7], g[host, k, 8],
         )  # fmt: skip
-        q = (
-            g[host, k + 1, 0], g[host, k + 1, 1], g[host, k + 1, 2], g[host, k + 1, 3], g[host, k + 1, 4],
-            g[host, k + 1, 5], g[host, k + 1, 6], g[host, k + 1, 7], g[host, k + 1, 8],
-        )  # fmt: skip
-        m, rise = add_scaled(scale(1.0 - f, p), f, q), scale(change, subtract(q, p))
-        mean = add_scaled(mean, d, m)
-        slope = add_scaled(add_scaled(slope, 3.0 * d * odd, m), 0.5 * d * d, rise)
-        bend = add_scaled(add_scaled(bend, 5.0 * d * even, m), 2.5 * d * d * odd, rise)
+        mean = add_scaled(mean, before[0] + here[0], l)
+        slope = add_scaled(slope, before[1] + here[1], l)
+        bend = add_scaled(bend, before[2] + here[2], l)
+        before = after
     return mean, slope, bend
 
 
