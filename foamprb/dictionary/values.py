@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple, NewType
+from typing import Any, NamedTuple, NewType, TypeAlias, TypeVar
 
 from foamprb.dictionary.constraints import Axes, Constant, Numbers, Pairs, Vector3, Words
 from foamprb.dictionary.dimensions import (
@@ -20,6 +20,9 @@ from foamprb.dictionary.dimensions import (
 )
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList, Stream, unquoted
 
+T = TypeVar("T")
+Item: TypeAlias = "str | tuple[Item, ...]"
+"""A word, or a list of items."""
 Line = NewType("Line", str)
 """An entry's whole text, of one word or more."""
 Files = NewType("Files", tuple[Path, ...])
@@ -105,7 +108,7 @@ def _constant(entry: Stream) -> float | None:
     return None
 
 
-def _vector(entry: Stream) -> Any:
+def _vector(entry: Stream) -> tuple[float, ...] | None:
     return _numbers(_nested(entry.tokens), 3)
 
 
@@ -117,53 +120,53 @@ def unit_of(tokens: Sequence[str]) -> tuple[str, Sequence[str]]:
     return " ".join(tokens[start:end]), (*tokens[:start], *tokens[end:])
 
 
-def _acceleration(entry: Stream) -> Any:
+def _acceleration(entry: Stream) -> tuple[float, ...] | None:
     """Return a vector in m/s2."""
     unit, tokens = unit_of(entry.tokens)
     vector = _numbers(_nested(tokens), 3)
     return vector and tuple((factor_of(unit, ACCELERATION) if unit else 1.0) * x for x in vector)
 
 
-def _pairs(entry: Stream) -> Any:
+def _pairs(entry: Stream) -> tuple[tuple[float, ...], ...] | None:
     return _each(_nested(entry.tokens), lambda item: _numbers(item, 2))
 
 
-def _axes(entry: Stream) -> Any:
+def _axes(entry: Stream) -> tuple[tuple[tuple[float, ...], ...], ...] | None:
     return _each(_nested(entry.tokens), _two_vectors)
 
 
-def _words(entry: Stream) -> Any:
+def _words(entry: Stream) -> tuple[str, ...] | None:
     return _each(_nested(entry.tokens), lambda item: unquoted(item) if isinstance(item, str) else None)
 
 
-def _list_of_numbers(entry: Stream) -> Any:
+def _list_of_numbers(entry: Stream) -> tuple[float, ...] | None:
     return _each(_nested(entry.tokens), lambda item: _number(item) if isinstance(item, str) else None)
 
 
-def _two_vectors(item: Any) -> Any:
+def _two_vectors(item: Item) -> tuple[tuple[float, ...], ...] | None:
     vectors = _each(item, lambda part: _numbers(part, 3))
     return vectors if vectors is not None and len(vectors) == 2 else None
 
 
-def _numbers(item: Any, n: int) -> Any:
+def _numbers(item: Item | None, n: int) -> tuple[float, ...] | None:
     """Return a tuple of n numbers; None if the item is something else."""
     numbers = _each(item, lambda part: _number(part) if isinstance(part, str) else None)
     return numbers if numbers is not None and len(numbers) == n else None
 
 
-def _each(item: Any, read: Callable[[Any], Any]) -> Any:
+def _each(item: Item | None, read: Callable[[Item], T | None]) -> tuple[T, ...] | None:
     """Return a tuple of the values of a list's items; None if it is no list, or an item cannot be read."""
     if not isinstance(item, tuple):
         return None
-    parts = tuple(map(read, item))
-    return None if any(part is None for part in parts) else parts
+    parts = tuple(part for part in map(read, item) if part is not None)
+    return parts if len(parts) == len(item) else None
 
 
-def _nested(tokens: Sequence[str]) -> Any:
+def _nested(tokens: Sequence[str]) -> Item | None:
     """Return parentheses as nested tuples of words, without the number of items before them."""
     if len(tokens) > 1 and _INTEGER.fullmatch(tokens[0]):
         tokens = tokens[1:]
-    lists: list[list[Any]] = [[]]
+    lists: list[list[Item]] = [[]]
     for token in tokens:
         if token == "(":
             lists.append([])

@@ -160,7 +160,7 @@ def _arrays_of(p: Particles, names: Sequence[str]) -> dict[str, NDArray[Any]]:
     return {name: getattr(p, name) for name in (*names, "number")}
 
 
-def _viscosity(settings: Settings, cloud: Cloud) -> dict[str, Any]:
+def _viscosity(settings: Settings, cloud: Cloud) -> dict[str, object]:
     """Return the viscosities; of one that varies, its ranges over the nodes and its origin."""
     fluid = settings.fluid
     if fluid.varying is None:
@@ -176,7 +176,7 @@ def write_record(path: Path, description: Mapping[str, Any]) -> None:
         temporary.write_text(f"{text}\n", encoding="utf-8")
 
 
-def _text_of(settings: Settings) -> dict[str, Any]:
+def _text_of(settings: Settings) -> dict[str, object]:
     try:
         text = settings.file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
@@ -192,7 +192,7 @@ def _written(selected: Mapping[str, object]) -> dict[str, str]:
     return {name: str(model) for name, model in selected.items()}
 
 
-def _ranges(cloud: Cloud) -> dict[str, Any]:
+def _ranges(cloud: Cloud) -> dict[str, object]:
     """Return the time of the flow, s, and the ranges of |U|, m/s, and shear rate, 1/s, at its nodes.
 
     ``direction`` is the mean velocity of some nodes over their mean speed, ``gradientJump`` the median
@@ -221,7 +221,7 @@ def _viscosities_in(law: VaryingViscosity, rho: float, values: NodeValues) -> tu
     return mu, mu / (law.density_at_nodes(values) if isinstance(law, PhaseMixture) else rho)
 
 
-def _times(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
+def _times(settings: Settings, cloud: Cloud, steps: int) -> dict[str, object]:
     return {
         "deltaT": cloud.dt,
         "start": cloud.start,
@@ -238,12 +238,12 @@ def _mesh(cloud: Cloud) -> dict[str, int]:
     return {"cells": mesh.n_cells, "points": mesh.n_points, "tetrahedra": len(mesh.tets)}
 
 
-def _places(cloud: Cloud) -> list[dict[str, Any]]:
+def _places(cloud: Cloud) -> list[dict[str, object]]:
     """Return the area, m², and its centre, m, of each patch that has faces in the mesh of this process."""
     mesh: Mesh | None = getattr(cloud.flow, "mesh", None)
     if mesh is None:
         return [{} for _ in cloud.flow.patches]
-    places: list[dict[str, Any]] = []
+    places: list[dict[str, object]] = []
     for first, end in pairwise(mesh.patch_start):
         sizes = np.linalg.norm(mesh.boundary_areas[first:end], axis=1)
         area = float(sizes.sum())
@@ -252,7 +252,7 @@ def _places(cloud: Cloud) -> list[dict[str, Any]]:
     return places
 
 
-def _as_json(value: Any) -> Any:
+def _as_json(value: object) -> Any:
     """Return a value with lists for tuples, and None for numbers that are not finite."""
     if isinstance(value, Mapping):
         return {key: _as_json(item) for key, item in value.items()}

@@ -10,7 +10,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,7 +83,7 @@ class Page:
             "policy": _policy([script], [style]),
             "version": self._version,
             "title": html.escape(f"{self.scene.title} – {self.scene.subtitle}"),
-            "made": html.escape(self._header["made"]),
+            "made": html.escape(str(self._header["made"])),
             "style": style,
             "licence": html.escape("\n".join(map(_text, ("LICENSE.three", "LICENSE.uplot"))), quote=False),
             # Only this character could end a script element.
@@ -98,7 +97,7 @@ class Page:
             for k, data in enumerate(self._sections):
                 yield f'<script type="text/plain" id="section-{k}">{data}</script>\n'
 
-    def _described(self, halves: NDArray[np.float64]) -> dict[str, Any]:
+    def _described(self, halves: NDArray[np.float64]) -> dict[str, object]:
         scene = self.scene
         return {
             "title": scene.title,
@@ -124,7 +123,7 @@ class Page:
             "planeMaps": {"light": LIGHT.plane.tobytes().hex(), "dark": DARK.plane.tobytes().hex()},
         }
 
-    def _camera(self, camera: Camera) -> dict[str, Any]:
+    def _camera(self, camera: Camera) -> dict[str, object]:
         return {
             "focus": self._inside(camera.focus),
             "towards": _rounded(camera.towards),
@@ -138,7 +137,7 @@ class Page:
             "insets": INSETS,
         }
 
-    def _bodies(self, grid: Grid) -> dict[str, Any]:
+    def _bodies(self, grid: Grid) -> dict[str, object]:
         bodies, colour = self.scene.bodies, self.scene.colour[0]
         useful = {name: code for name, code in bodies.codes.items() if _has_names(code) or name == colour}
         codes = {"status": bodies.status} | useful | {"fate": self.scene.fate}
@@ -158,7 +157,7 @@ class Page:
             },
         }
 
-    def _surroundings(self, grid: Grid) -> dict[str, Any]:
+    def _surroundings(self, grid: Grid) -> dict[str, object]:
         scene, geometry = self.scene, self.scene.geometry
         surfaces = geometry.surfaces if geometry is not None else ()
         return {
@@ -169,7 +168,7 @@ class Page:
             "paths": self._paths(grid),
         }
 
-    def _surface(self, surface: Surface, grid: Grid) -> dict[str, Any]:
+    def _surface(self, surface: Surface, grid: Grid) -> dict[str, object]:
         density = surface.density
         shares = None if density is None else np.clip(density / self.scene.most_dense, 0.0, 1.0)
         return {
@@ -181,7 +180,7 @@ class Page:
             "density": None if shares is None else self._add(encode.pack(np.rint(255.0 * shares))),
         }
 
-    def _flow(self, field: FlowField, grid: Grid) -> dict[str, Any]:
+    def _flow(self, field: FlowField, grid: Grid) -> dict[str, object]:
         volume, plane = field.grid, field.plane
         values = []
         for name, component in volume.values.items():
@@ -207,7 +206,7 @@ class Page:
             "plane": None if plane is None else [self._inside(plane[0]), _rounded(plane[1])],
         }
 
-    def _paths(self, grid: Grid) -> dict[str, Any] | None:
+    def _paths(self, grid: Grid) -> dict[str, object] | None:
         paths, ids = self.scene.paths, self.scene.bodies.ids
         if paths is None or len(ids) == 0:
             return None
@@ -222,7 +221,7 @@ class Page:
             "times": self._add(encode.pack_values(paths.values["time"])),
         }
 
-    def _field(self, name: str, column: Column) -> dict[str, Any]:
+    def _field(self, name: str, column: Column) -> dict[str, object]:
         bodies = self.scene.bodies
         field = bodies.fields[name]
         ranges = {}
@@ -237,7 +236,7 @@ class Page:
         described = {"name": name, "label": field.label, "unit": field.unit, "parts": field.parts}
         return described | {"ranges": ranges} | self._add(column)
 
-    def _add(self, column: Column) -> dict[str, Any]:
+    def _add(self, column: Column) -> dict[str, object]:
         """Add a section with the data of a column; return its description."""
         self._sections.append(column.data)
         described = {"shape": column.shape, "order": column.order, "bytes": column.bytes}

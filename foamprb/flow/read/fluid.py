@@ -8,11 +8,12 @@ from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, TypeVar
+from typing import Annotated, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.tensor import Scalar
 from foamprb.body.viscosity import LAWS
 from foamprb.dictionary.constraints import Choice, Positive
 from foamprb.dictionary.dimensions import DYNAMIC_VISCOSITY, KINEMATIC_VISCOSITY
@@ -26,6 +27,9 @@ from foamprb.flow.read.case import find_dictionary, find_files, word_of
 from foamprb.flow.read.cell_values import cell_values, has_field, solution_times
 from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, Kind
 from foamprb.flow.read.times import pick_time
+
+Law: TypeAlias = Callable[[Scalar], Scalar]
+"""Dynamic viscosity, Pa s, by temperature, K."""
 
 _NU = Kind("volScalarField", "scalar", (KINEMATIC_VISCOSITY,), "a kinematic viscosity")
 _MU = Kind("volScalarField", "scalar", (DYNAMIC_VISCOSITY,), "a dynamic viscosity")
@@ -88,7 +92,7 @@ class ViscosityField(NamedTuple):
     kind: Kind
     mean: float
     """Mean viscosity over the cells, m²/s if ``kinematic``, else Pa s."""
-    law: Callable[[Any], Any] | None = None
+    law: Law | None = None
     """Viscosity, Pa s, by the field's values; None for the values themselves."""
 
     @property
@@ -300,7 +304,7 @@ class _Fields(NamedTuple):
     time: float | str | None
     transient: bool
 
-    def viscosity(self, kind: Kind, *names: str, law: Any = None) -> ViscosityField | None:
+    def viscosity(self, kind: Kind, *names: str, law: Law | None = None) -> ViscosityField | None:
         """Return the first of some fields that is there; None if there is none."""
         if self.time is None:
             return None
@@ -364,17 +368,17 @@ def _not_read(root: Dictionary, law: str) -> str:
     return "" if law in known else f"the viscosity of transport {law or '(none)'} is not read"
 
 
-def _sutherland(transport: Dictionary) -> Callable[[Any], Any]:
+def _sutherland(transport: Dictionary) -> Law:
     """Return μ(T) = A_s √T/(1 + T_s/T)."""
     As, Ts = (float(read_entry(transport, key, Annotated[float, Positive])) for key in ("As", "Ts"))
     return partial(_sutherlands_law, As, Ts)
 
 
-def _sutherlands_law(As: float, Ts: float, T: Any) -> Any:
+def _sutherlands_law(As: float, Ts: float, T: Scalar) -> Scalar:
     return As * np.sqrt(T) / (1.0 + Ts / T)
 
 
-def _polynomial(transport: Dictionary) -> Callable[[Any], Any]:
+def _polynomial(transport: Dictionary) -> Law:
     """Return μ(T) = Σ c_k T^k."""
     return partial(_sum_of_powers, _coefficients(transport, "muCoeffs<") or (math.nan,))
 
@@ -389,11 +393,11 @@ def _coefficients(dictionary: Dictionary, start: str) -> tuple[float, ...]:
         raise entries[0].mistake(f"is {entries[0]}. Allowed: a list of numbers.") from None
 
 
-def _sum_of_powers(coefficients: tuple[float, ...], T: Any) -> Any:
+def _sum_of_powers(coefficients: tuple[float, ...], T: Scalar) -> Scalar:
     return sum(c * T**k for k, c in enumerate(coefficients))
 
 
-_LAWS: dict[str, Callable[[Dictionary], Callable[[Any], Any]]] = {
+_LAWS: dict[str, Callable[[Dictionary], Law]] = {
     "sutherland": _sutherland,
     "polynomial": _polynomial,
 }
