@@ -97,7 +97,7 @@ def read_entries(schema: type[S], dictionary: Dictionary, also: Iterable[str] = 
         raise dictionary.mistake(f"{error}.") from error
 
 
-def read_entry(dictionary: Dictionary, key: str, hint: Any) -> Any:
+def read_entry(dictionary: Dictionary, key: str, hint: object) -> Any:
     """Read one entry of a dictionary by a type hint; see :func:`read_entries`."""
     if key not in dictionary.entries:
         raise dictionary.missing(key, allowed(hint))
@@ -155,7 +155,7 @@ def read_model(registry: Mapping[str, type[S]], dictionary: Dictionary, also: It
     return read_entries(selected(registry, dictionary), dictionary, also=("type", *also))
 
 
-def allowed(hint: Any, text: str = "") -> str:
+def allowed(hint: object, text: str = "") -> str:
     """Return the part of a message that lists the allowed values of an entry, given the value found."""
     kind, rule = _kind(hint)
     match rule:
@@ -191,17 +191,17 @@ def rule_of(hint: Any) -> Rule | None:
     return _kind(hint)[1]
 
 
-def _kind(hint: Any) -> tuple[Any, Rule | None]:
+def _kind(hint: object) -> tuple[Any, Rule | None]:
     """Split a hint into its first type (a key of ``READERS``, or a schema) and the rule for the value."""
     kind, rule = members(hint)[0], note_of(hint, Rule)
     return (str, Choice(get_args(kind))) if get_origin(kind) is Literal else (kind, rule)
 
 
-def _reads_dictionary(kind: Any) -> bool:
+def _reads_dictionary(kind: object) -> bool:
     return kind is Dictionary or hasattr(kind, "from_dictionary")
 
 
-def _convert(entry: Entry, hint: Any) -> Any:
+def _convert(entry: Entry, hint: object) -> Any:
     """Return the value of an entry, of the type that a hint declares."""
     kind, rule = _kind(hint)
     if isinstance(rule, NoEffect):

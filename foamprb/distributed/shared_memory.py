@@ -102,10 +102,10 @@ class Windows:
         window.Unlock_all()
         window.Free()
 
-    def find(self, tree: Any) -> Any:
+    def find(self, tree: object) -> Any:
         """Replace each :class:`Place` in a tree by this rank's array."""
 
-        def array(leaf: Any) -> Any:
+        def array(leaf: object) -> Any:
             if not isinstance(leaf, Place):
                 return leaf
             self.sync(leaf.key)
@@ -148,7 +148,7 @@ class Publisher:
         self._own[_extent(moved)] = key
         return moved
 
-    def publish(self, tree: Any) -> Any:
+    def publish(self, tree: object) -> Any:
         """Make the arrays in a tuple known to all processes; those of the call before are forgotten.
 
         What :meth:`foamprb.flow.base.Flow.arrays` says of arrays that change is relied upon.
@@ -206,7 +206,7 @@ def wait_for_all(comm: Comm) -> None:
         pause = min(2.0 * pause, _LONGEST_PAUSE)
 
 
-def _is_large(leaf: Any) -> bool:
+def _is_large(leaf: object) -> bool:
     return isinstance(leaf, np.ndarray) and leaf.nbytes >= _SMALLEST
 
 
@@ -218,7 +218,7 @@ def _where(array: Array) -> tuple[int, tuple[int, ...], str]:
     return array.__array_interface__["data"][0], array.shape, array.dtype.str
 
 
-def _map(tree: Any, function: Callable[[Any], Any]) -> Any:
+def _map(tree: object, function: Callable[[Any], Any]) -> Any:
     """Apply a function to the leaves of nested named tuples."""
     if isinstance(tree, tuple) and hasattr(tree, "_fields") and not isinstance(tree, Place):
         return type(tree)(*(_map(item, function) for item in tree))

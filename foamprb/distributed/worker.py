@@ -72,7 +72,7 @@ class Worker(Rank):
         return self._firsts
 
     def execute(
-        self, function: Callable[..., Any], arguments: tuple[Any, ...], signals: Sequence[int] = ()
+        self, function: Callable[..., Any], arguments: tuple[object, ...], signals: Sequence[int] = ()
     ) -> Answer:
         """Execute a function of this rank and arguments."""
         self.signals = signals

@@ -57,7 +57,7 @@ class Checkpoint:
     """State at a time, s: a header of values that JSON can represent, and arrays by name."""
 
     time: float
-    header: Mapping[str, Any]
+    header: Mapping[str, object]
     arrays: Mapping[str, NDArray[Any]]
 
 
@@ -163,7 +163,7 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> str:
 
 
 def write_arrays(
-    path: Path, time: float, header: Mapping[str, Any], arrays: Iterable[tuple[str, NDArray[Any]]]
+    path: Path, time: float, header: Mapping[str, object], arrays: Iterable[tuple[str, NDArray[Any]]]
 ) -> str:
     """Write a checkpoint, or a part of one, in one step, array by array; return the checksum."""
     names, rows = [], {}

@@ -169,7 +169,7 @@ def _viscosity(settings: Settings, cloud: Cloud) -> dict[str, object]:
     return {"nu": list(nu), "mu": list(mu), "viscosity": fluid.origin}
 
 
-def write_record(path: Path, description: Mapping[str, Any]) -> None:
+def write_record(path: Path, description: Mapping[str, object]) -> None:
     """Write a description, in one step."""
     with atomic_write(path) as temporary:
         text = json.dumps(description, indent=1, ensure_ascii=False, allow_nan=False)
