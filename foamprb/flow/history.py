@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from foamprb.body.tensor import Tensor, Vector, add, add_scaled, ddot, subtract
+from foamprb.body.tensor import Tensor, Vector, add, add_scaled, ddot, scale, subtract
 from foamprb.compile.link import Function
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free
@@ -24,23 +24,19 @@ class HistoryArrays(NamedTuple):
     gradients: Floats
 
 
+def _at(g: Floats, host: int, k: int) -> Tensor:
+    """Return the gradient of the body ``host`` at time k, 1/s."""
+    return (
+        g[host, k, 0], g[host, k, 1], g[host, k, 2], g[host, k, 3], g[host, k, 4],
+        g[host, k, 5], g[host, k, 6], g[host, k, 7], g[host, k, 8],
+    )  # fmt: skip
+
+
 def sample_history(flow: HistoryArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:  # noqa: ARG001
     """Return no velocity, and the gradient at t of the body ``host``, linear between two times."""
     g, s = flow.gradients, (t - flow.start) * flow.rate
-    k = min(max(int(s), 0), g.shape[1] - 2)
-    f, zero = s - k, (0.0, 0.0, 0.0)
-    e = 1.0 - f
-    l = (
-        e * g[host, k, 0] + f * g[host, k + 1, 0],
-        e * g[host, k, 1] + f * g[host, k + 1, 1],
-        e * g[host, k, 2] + f * g[host, k + 1, 2],
-        e * g[host, k, 3] + f * g[host, k + 1, 3],
-        e * g[host, k, 4] + f * g[host, k + 1, 4],
-        e * g[host, k, 5] + f * g[host, k + 1, 5],
-        e * g[host, k, 6] + f * g[host, k + 1, 6],
-        e * g[host, k, 7] + f * g[host, k + 1, 7],
-        e * g[host, k, 8] + f * g[host, k + 1, 8],
-    )
+    k, zero = min(max(int(s), 0), g.shape[1] - 2), (0.0, 0.0, 0.0)
+    l = add(scale(1.0 - (s - k), _at(g, host, k)), scale(s - k, _at(g, host, k + 1)))
     return zero, l, zero
 
 
@@ -100,10 +96,7 @@ def _moments(g: Floats, host: int, a: float, b: float) -> tuple[Tensor, Tensor, 
             p, q = d * (1.0 - f), d * f
             here = (p, 3.0 * odd * p - rise, 5.0 * (even * p - odd * rise))
             after = (q, 3.0 * odd * q + rise, 5.0 * (even * q + odd * rise))
-        l = (
-            g[host, k, 0], g[host, k, 1], g[host, k, 2], g[host, k, 3], g[host, k, 4],
-            g[host, k, 5], g[host, k, 6], g[host, k, 7], g[host, k, 8],
-        )  # fmt: skip
+        l = _at(g, host, k)
         mean = add_scaled(mean, before[0] + here[0], l)
         slope = add_scaled(slope, before[1] + here[1], l)
         bend = add_scaled(bend, before[2] + here[2], l)
