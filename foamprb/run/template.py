@@ -28,6 +28,7 @@ from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.case import is_only_decomposed, regions
 from foamprb.flow.read.caveats import MOVING, is_unsteady, pseudo_time, turbulence_fields
 from foamprb.flow.read.describe import size_of
+from foamprb.flow.read.field import VELOCITY_FIELD
 from foamprb.flow.read.flows import check_region, open_case, read_flow
 from foamprb.flow.read.fluid import (
     FILES,
@@ -147,6 +148,8 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     scales = scales_of(flow)
     if _is_at_rest(case, flow, source, scales):
         scales = replace(scales, speed=0.0, inlet="")
+    if followed and scales.inlet and _begins_at_rest(case, source):
+        scales = replace(scales, inlet="")
     written = 0.0 if source.file else float(flow.at_nodes()[0])
     if written > 0.0 and is_unsteady(case, source.region):
         scales = replace(scales, duration=min(scales.duration, _WRITTEN * written))
@@ -273,6 +276,15 @@ def _is_at_rest(case: Path, flow: MeshFlow, source: FlowSource, scales: FlowScal
         return True
     time = "" if source.file is not None or pseudo_time(case, source.region) else flow.at_nodes()[0]
     return 0.0 < float(time or 0.0) * scales.speed < _LEAST_WAY * scales.cell
+
+
+def _begins_at_rest(case: Path, source: FlowSource) -> bool:
+    """Return True if the velocity is zero in all cells and on all patches at the first time of a case."""
+    opened = open_case(case, source)
+    first = transient_times(opened, None, source.velocity)[0][0]
+    field = opened.field(first, source.velocity, VELOCITY_FIELD)
+    given = [values for entry in field.patches.values() for values in entry.fields.values()]
+    return not any(np.any(values) for values in (field.cells, *given))
 
 
 def _inflow(faces: PatchFaces) -> Floats:
@@ -686,7 +698,7 @@ def _injection(scales: FlowScales, end: float, d: float) -> list[str]:
     if not scales.inlet:
         density = _rounded(PARTICLES / scales.volume)
         lines = [
-            "type cellZoneInjection; // no patch has inflow",
+            "type cellZoneInjection; // no patch has inflow at the start",
             "selectionMode all; // all cells",
             f"numberDensity {density:g}; // 1/m3, of {scales.volume:.3g} m3",
         ]

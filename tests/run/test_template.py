@@ -606,3 +606,9 @@ def test_a_mesh_that_moves_is_followed(tmp_path, zones):
     assert "transient true; // the mesh moves, times 0.5 to 1e1" in text
     assert "movingMesh" not in text
     assert ("rotatingZones" in text) == zones
+    assert "type patchInjection;" in text
+    # At SOI, the first time, no fluid enters.
+    put_linear(tmp_path / "0", mesh, "U", np.zeros((3, 3)), 0.0, "[0 1 -1 0 0 0 0]")
+    (tmp_path / "constant/softCloudProperties").unlink()
+    text = write_template(tmp_path).read_text()
+    assert "cellZoneInjection; // no patch has inflow at the start" in " ".join(text.split())
