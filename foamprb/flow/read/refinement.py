@@ -73,7 +73,8 @@ def finest(a: Mesh, b: Mesh, poly: PolyMesh, where: str) -> Mesh:
         raise InputError(
             f"{where}: the cells are no parts of those of other times. Their volume is {other:.6g} m3; that "
             f"of others is {total:.6g} m3. Allowed: cells that are divided and joined again, as by "
-            "dynamicRefineFvMesh, in a region whose boundary is at rest."
+            "dynamicRefineFvMesh, in a region whose boundary is at rest. Layers of cells that are added and "
+            "removed, as beside a piston, are not followed."
         )
     if not finer.any():
         return a
