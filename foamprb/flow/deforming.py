@@ -386,7 +386,7 @@ def _speed(flow: DeformingArrays, host: int, x: Vector, h: float, n: Vector, t: 
         p = nearest_point(arm(now, a, foot), arm(now, b, foot), arm(now, c, foot))
         if inner(p, p) < best:
             best, nearest = inner(p, p), triangle
-    return inner(n, wall_velocity(flow, nearest, foot, t))
+    return float(inner(n, wall_velocity(flow, nearest, foot, t)))
 
 
 def normal(flow: DeformingArrays, triangle: int, x: Vector, t: float) -> Vector:  # noqa: ARG001

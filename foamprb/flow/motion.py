@@ -94,7 +94,8 @@ class Motion(NamedTuple):
     def turned(self, index: int, vectors: Floats, pieces: NDArray[np.int64]) -> Floats:
         """Return vectors (n, 3 k) in components of the frames of their pieces."""
         Q, each = self.Q[index, pieces], vectors.reshape(len(vectors), -1, 3)
-        return np.einsum("nji,nkj->nki", Q, each).reshape(vectors.shape)
+        components: Floats = np.einsum("nji,nkj->nki", Q, each).reshape(vectors.shape)
+        return components
 
     def in_frames(self, index: int, mesh: Mesh, u: Floats, l: Floats) -> tuple[Floats, Floats]:
         """Return vectors and tensors at the nodes in components of the frames of their pieces."""

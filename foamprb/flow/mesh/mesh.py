@@ -185,7 +185,8 @@ def with_points(mesh: Mesh, points: Floats, surfaces: Sequence[PatchSurface] = (
     normals = inward_normals(points, mesh.triangles, areas[mesh.triangle_face])
     boundary, couplings = (face_centres[n:].copy(), areas), mesh.couplings
     if surfaces:
-        _, couplings = _coupled(points, faces, surfaces, mesh.patch_start, *boundary, source)
+        starts = mesh.patch_start.astype(np.intp)
+        _, couplings = _coupled(points, faces, surfaces, starts, *boundary, source)
     return replace(
         mesh, points=points, centres=centres, volumes=volumes, boundary_centres=boundary[0],
         boundary_areas=areas, triangle_normals=normals, couplings=couplings,

@@ -418,9 +418,10 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             match_walls(here.mesh, u, rates)
             shapes[index] = np.concatenate([here.mesh.nodes, rates], axis=1)
         more = _further(case, name, source, here, own)
-        for array in more if rigid is not None and joined else ():
-            slopes = array[:, -3 * (array.shape[1] // 3) :]
-            slopes[:] = rigid.turned(index, slopes, rigid.nodes(here.mesh))
+        if rigid is not None and joined:
+            for array in more:
+                slopes = array[:, -3 * (array.shape[1] // 3) :]
+                slopes[:] = rigid.turned(index, slopes, rigid.nodes(here.mesh))
         bent = whole.mesh if rates is None else here.mesh
         curvatures = [mean_curvatures(bent, l)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
@@ -622,8 +623,9 @@ class _Operators:
 
     @cached_property
     def conserve(self) -> Conservation:
-        alike = self._first is not None and not self.mesh.couplings
-        return self._first.conserve.at(self.mesh) if alike else Conservation(self.mesh)
+        if self._first is None or self.mesh.couplings:
+            return Conservation(self.mesh)
+        return self._first.conserve.at(self.mesh)
 
     def free(self) -> None:
         """Free the operators; others are made if they are used again."""
