@@ -136,8 +136,11 @@ class RecordType(types.Type):  # type: ignore[misc]
         super().__init__(name=f"{cls.__name__}_{digest}")
 
 
+_record_type = functools.cache(RecordType)
+
+
 def _typeof_record(record: tuple[object, ...], context: BaseContext) -> RecordType:
-    return RecordType(type(record), tuple(typeof_impl(item, context) for item in record))
+    return _record_type(type(record), tuple(typeof_impl(item, context) for item in record))
 
 
 @register_model(RecordType)
@@ -277,7 +280,7 @@ class Packed:
         return b"".join(map(self._item, items))
 
     def _item(self, item: Any) -> bytes:
-        if isinstance(item, np.ndarray) and _is_contiguous(typeof(item)):
+        if isinstance(item, np.ndarray) and item.flags.c_contiguous:
             return struct.pack(f"{1 + item.ndim}q", item.ctypes.data, *item.shape)
         return self._words(item)
 

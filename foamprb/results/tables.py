@@ -56,7 +56,8 @@ def rows_of(columns: Mapping[str, Column]) -> Rows:
         # Adjacent columns of numbers become text together.
         groups = (list(group) for _, group in groupby(chunks, lambda chunk: chunk.dtype.kind))
         cells = [cell for group in groups for cell in _texts(group)]
-        text.append("".join(",".join(row) + "\n" for row in zip(*cells, strict=True)).encode())
+        lines = map(",".join, zip(*cells, strict=True))
+        text.append("\n".join((*lines, "")).encode())
     return Rows(tuple(arrays), b"".join(text))
 
 
