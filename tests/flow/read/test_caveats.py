@@ -23,7 +23,9 @@ def case(tmp_path):
 
 
 def caveats(case, **options):
-    return [str(note) for note in read_case(case, **options).notes if isinstance(note, Caveat)]
+    # The linear velocity goes across walls, of which a warning has a test of its own.
+    notes = (str(note) for note in read_case(case, **options).notes if isinstance(note, Caveat))
+    return [note for note in notes if "across its faces" not in note]
 
 
 def move(case):
