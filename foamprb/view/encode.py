@@ -71,7 +71,7 @@ def pack(integers: NDArray[Any], low: list[float] | None = None, step: list[floa
         done += len(small)
     # For such noise this strategy is as dense as the highest level, and six times as fast.
     deflate = zlib.compressobj(6, strategy=zlib.Z_FILTERED)
-    data = base64.b64encode(deflate.compress(planes) + deflate.flush()).decode("ascii")
+    data = base64.b64encode(deflate.compress(planes.data) + deflate.flush()).decode("ascii")
     return Column(integers.shape, order, n_bytes, data, low, step)
 
 
