@@ -1,4 +1,4 @@
-"""Cost of a default run in flows of OpenFOAM's tutorials, solved by OpenFOAM.
+"""Cost of a default run in flows of OpenFOAM's tutorials and of a mesh of snappyHexMesh, solved by OpenFOAM.
 
 The cloud is what ``foamprb init`` writes, but for places all over the mesh, as often as there is volume.
 
@@ -23,7 +23,7 @@ import numpy as np
 
 import foamprb
 from benchmarks import pipe
-from benchmarks.records import Options, Row, interleaved, isolated, rows
+from benchmarks.records import TOOLS, Options, Row, interleaved, isolated, rows
 from benchmarks.report import WORST_TUTORIAL
 from benchmarks.tracker import SOLVER, openfoam_cost, openfoam_environment
 from benchmarks.whole import costs, run
@@ -55,10 +55,13 @@ class Tutorial(NamedTuple):
     """Of the run, s or iterations."""
 
 
+SNAPPY = "snappy"
+"""The bend of ``cases/snappy``, meshed by snappyHexMesh."""
 TUTORIALS = {
     "TJunction": Tutorial("pimpleFoam/RAS/TJunction", "pimpleFoam", 1e-5, 0.3),
     "pitzDaily": Tutorial("simpleFoam/pitzDaily", "simpleFoam", 1e-5, 300.0),
     "cavity": Tutorial("icoFoam/cavity/cavity", "icoFoam", 0.01, 0.5),
+    SNAPPY: Tutorial("", "cases/snappy/Allrun", 1.491e-5, 0.0),
 }
 
 
@@ -70,12 +73,29 @@ def _sh(case: Path, *words: str) -> str:
 
 
 def solve(name: str, folder: Path) -> Path:
-    """Return the tutorial's case with its last time as time 0, for parcels; computed once."""
+    """Return a case with its last time as time 0, for parcels; computed once."""
     if (folder / "0" / "U").exists():
         return folder
     tutorial, work = TUTORIALS[name], folder.with_name(f"{folder.name}.solver")
     for left_over in (folder, work):
         shutil.rmtree(left_over, ignore_errors=True)
+    if name == SNAPPY:
+        _sh(TOOLS.parent, tutorial.solver, str(work))
+    else:
+        _run(tutorial, work)
+    times = [path for path in work.iterdir() if re.fullmatch(r"[\d.]+", path.name)]
+    shutil.copytree(work / "constant" / "polyMesh", folder / "constant" / "polyMesh")
+    (folder / "system").mkdir()
+    (folder / "0").mkdir()
+    pipe.write_dictionaries(folder, tutorial.nu, RHO)
+    pipe.write_control(folder, 1.0, 1.0)
+    shutil.copy(max(times, key=lambda path: float(path.name)) / "U", folder / "0")
+    shutil.rmtree(work)
+    return folder
+
+
+def _run(tutorial: Tutorial, work: Path) -> None:
+    """Compute the flow of a tutorial in a folder."""
     shutil.copytree(EXAMPLES / tutorial.folder, work)
     for file in work.rglob("*.gz"):
         file.with_suffix("").write_bytes(gzip.decompress(file.read_bytes()))
@@ -86,15 +106,6 @@ def solve(name: str, folder: Path) -> Path:
     control.write_text(text)
     _sh(work, "blockMesh")
     _sh(work, tutorial.solver)
-    times = [path for path in work.iterdir() if re.fullmatch(r"[\d.]+", path.name)]
-    shutil.copytree(work / "constant" / "polyMesh", folder / "constant" / "polyMesh")
-    (folder / "system").mkdir()
-    (folder / "0").mkdir()
-    pipe.write_dictionaries(folder, tutorial.nu, RHO)
-    pipe.write_control(folder, 1.0, 1.0)
-    shutil.copy(max(times, key=lambda path: float(path.name)) / "U", folder / "0")
-    shutil.rmtree(work)
-    return folder
 
 
 class Settings(NamedTuple):
