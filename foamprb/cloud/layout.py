@@ -60,7 +60,7 @@ _ROOMS: tuple[tuple[int, tuple[str, ...]], ...] = (
     (48, ("QuadraticRows",)),
     (20, ("SecondRows",)),
     (40, ("FaxenRows",)),
-    (100, ("WallRows",)),
+    (112, ("WallRows",)),
     (37, ("BrownianRows",)),
     (8, ("SwimmerRows",)),
     (12, ("EddyRows",)),

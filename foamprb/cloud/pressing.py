@@ -135,6 +135,12 @@ def inertia_of_solid(block: Block, i: int, h: Scalar) -> Vector:
     return mass, shape, mu_f / (block[at.lame * LANES + i] * h)
 
 
+@choice
+def is_strained_by_load(block: Block, i: int) -> bool:
+    """Return whether a wall hinders lane i: the image of its load then strains it, and reactions do not."""
+    return bool(largest(hindrance_by_walls(block, i)) > 0.0)
+
+
 @slot
 def approach(block: Block, i: int, n: Vector) -> tuple[float, float]:
     """Return the speeds along n at start and end of a step, m/s; by default of the centre."""
@@ -298,7 +304,7 @@ def _push_of_step(block: Block, i: int, n: Vector) -> Push:
 
 def unstrained_if_hindered(block: Block, i: int, n: Vector, c: Push) -> Push:
     """Return the push of lane i, without strain where a wall hinders the body: its load has strained it."""
-    if largest(hindrance_by_walls(block, i)) > 0.0:
+    if is_strained_by_load(block, i):
         l = skew(c.l)
         return Push(c.v, l, c.r, speed_at(c.v, l, c.r, n))
     return c

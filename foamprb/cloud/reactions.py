@@ -12,7 +12,6 @@ import math
 
 from foamprb.body.brownian import response, shape_resistance
 from foamprb.body.choice import choice
-from foamprb.body.error_control import largest
 from foamprb.body.tensor import (
     ZERO,
     Tensor,
@@ -42,7 +41,7 @@ from foamprb.cloud.block import (
     viscosity_at,
 )
 from foamprb.cloud.contact import gap_of_lane
-from foamprb.cloud.elastic import hindrance_by_walls, present_hindrance, resistances, volume_at_rest
+from foamprb.cloud.elastic import present_hindrance, resistances, volume_at_rest
 from foamprb.cloud.layout import LANES, Block
 from foamprb.cloud.motion import TOUCH, PatchTable
 from foamprb.cloud.patches import REBOUND
@@ -50,6 +49,7 @@ from foamprb.cloud.pressing import (
     SAME_NORMAL,
     Push,
     carries_reaction,
+    is_strained_by_load,
     point_of_contact,
     push_at,
     speed_at,
@@ -180,7 +180,7 @@ def add_reactions(block: Block) -> None:
             force, T = plus(force, f), add(T, stress_of(f, r, volume_at_rest(block, i)))
         K = hindered_resistance(resistances(block, i), present_hindrance(block, i))
         v = vector_dot(dot_vector(inverse(K), dot_vector(Q, force)), Q)
-        hindered = largest(hindrance_by_walls(block, i)) > 0.0
+        hindered = is_strained_by_load(block, i)
         # The fluid's gradient by which a body as viscous as the fluid deforms so, or a stiff one turns so.
         eta = _STIFF if hindered else 1.0
         r_shape = shape_resistance(load3(block, at.stretch, i), load_integrals(block, i), eta)

@@ -340,6 +340,17 @@ def test_stiff_bodies_do_not_hover_by_the_stress_of_molecules():
     assert found[0][1].mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
 
 
+def test_soft_bodies_with_wall_lift_fluctuate_with_the_mobility_of_their_motion():
+    """A force strains them by its image in the wall, that of molecules too: ⟨s⟩ = 0.979 for ℓ = 0.3."""
+    n, scale = 400, 0.3
+    F = np.tile(np.diag([0.979**-0.5, 0.979**-0.5, 0.979]), (n, 1, 1))
+    p, gap = over_floor(n, F, None, (MOLECULES, WallLift()), 500, 0.001, scale, 20.0 / VOLUME)
+    assert gap.mean() / scale == pytest.approx(1.0, abs=3.0 / np.sqrt(n))
+    assert np.mean(gap < 0.2 * scale) == pytest.approx(0.1813, abs=3.0 * np.sqrt(0.1813 / n))
+    reach = np.linalg.norm(p.F.reshape(n, 3, 3)[:, 2], axis=1)
+    assert reach.mean() == pytest.approx(0.979, abs=4.0 * reach.std() / np.sqrt(n))
+
+
 @pytest.mark.parametrize("mu", [1e4, 10.0])
 def test_a_body_at_rest_on_a_floor_with_wall_lift_takes_long_steps(mu):
     """Of many relaxation times; its load has strained it, and the reaction does not do so again."""
@@ -355,20 +366,21 @@ def test_a_body_at_rest_on_a_floor_with_wall_lift_takes_long_steps(mu):
 
 @pytest.mark.nightly
 @pytest.mark.parametrize(
-    ("scale", "k", "reach", "wide", "strain"),
+    ("scale", "k", "reach", "wide", "strain", "models"),
     [
-        (1.0, 20.0, 1.0155, 1.0475, 0.2489),
-        (0.1, 20.0, 0.8870, 0.7991, 0.2892),
-        (0.05, 100.0, 0.9437, 0.8935, 0.0597),
+        (1.0, 20.0, 1.0155, 1.0475, 0.2489, 1),
+        (0.1, 20.0, 0.8870, 0.7991, 0.2892, 1),
+        (0.05, 100.0, 0.9437, 0.8935, 0.0597, 1),
+        (1.0, 20.0, 1.0155, 1.0475, 0.2489, 2),
     ],
 )
-def test_soft_spheres_over_a_floor_have_the_shapes_of_boltzmann(scale, k, reach, wide, strain):
+def test_soft_spheres_over_a_floor_have_the_shapes_of_boltzmann(scale, k, reach, wide, strain, models):
     """⟨s⟩, ⟨b_nn⟩, ⟨tr b − 3⟩ for k = V μ_s/kT and p(b) ∝ exp(−s/ℓ − V W/kT); to four errors."""
     n = 4000
     # Of the mean height, so that gaps hardly change while the shapes come to equilibrium.
     F = np.tile(np.diag([reach**-0.5, reach**-0.5, reach]), (n, 1, 1))
     dt = min(0.002, 0.005 * scale**2)
-    p, gap = over_floor(n, F, None, (MOLECULES,), 1100, dt, scale, k / VOLUME)
+    p, gap = over_floor(n, F, None, (MOLECULES, WallLift())[:models], 1100, dt, scale, k / VOLUME)
     b = p.F.reshape(n, 3, 3) @ p.F.reshape(n, 3, 3).transpose(0, 2, 1)
     for values, expected, own in (
         (gap / scale, 1.0, 0.0), (np.sqrt(b[:, 2, 2]), reach, 4e-4), (b[:, 2, 2], wide, 8e-4),
@@ -378,7 +390,10 @@ def test_soft_spheres_over_a_floor_have_the_shapes_of_boltzmann(scale, k, reach,
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize(("scale", "cos_2", "models"), [(1.0, 0.2657, 1), (0.2, 0.1075, 1), (1.0, None, 2)])
+@pytest.mark.parametrize(
+    ("scale", "cos_2", "models"),
+    [(1.0, 0.2657, 1), (0.2, 0.1075, 1), (1.0, None, 2), (1.0, 0.2657, 2), (0.2, 0.1075, 2)],
+)
 def test_stiff_bodies_over_a_floor_are_as_boltzmann_has_them(scale, cos_2, models):
     """2:1 spheroids, and spheres with the hindrance by the wall; gaps are exponential."""
     n = 2000

@@ -23,8 +23,10 @@ from foamprb.body.brownian import (
     response,
     shape_resistance,
 )
-from foamprb.body.error_control import longest_step
+from foamprb.body.error_control import largest, longest_step
+from foamprb.body.stokes import Mobility, mobility
 from foamprb.body.tensor import (
+    Scalar,
     Tensor,
     Vector,
     add,
@@ -60,7 +62,7 @@ from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
 from foamprb.cloud.motion import bounce_along, turn_along
-from foamprb.cloud.pressing import push_of, stress_of
+from foamprb.cloud.pressing import is_strained_by_load, push_of, stress_of
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import (
     Remarks,
@@ -71,6 +73,12 @@ from foamprb.cloud.surroundings.base import (
     add9,
     thermal_force,
     thermal_gradient,
+)
+from foamprb.cloud.surroundings.wall_lift import (
+    before_lift,
+    deficit_in_step,
+    mobility_in_step,
+    strain_by_steady_load,
 )
 from foamprb.compile.link import Slots, separate, traced
 from foamprb.dictionary.constraints import Meaning, Positive, Seed
@@ -85,6 +93,8 @@ LONG_STEP = 0.1
 """√(2 D Δt) over the room of a particle above which the user is warned."""
 _SHARE_OF_GAP, _HELD_TURN = 0.2, 0.002
 """√(2 D t) over the gap, and D_R t, up to which random numbers may hold for longer than a tracking step."""
+_STIFFER = 30.0
+"""Growth with z² of the viscosity by elasticity of bodies that relax within a step."""
 _KIND = np.uint64(1)
 """Second word of the key of these random numbers; the seed is the first."""
 
@@ -229,6 +239,32 @@ def gradient_of_molecules(block: Block, i: int) -> Tensor:
     return load9(block, thermal.thermal_gradient, i)
 
 
+def mobility_of_held(block: Block, i: int, medium: Medium, stretches: Vector) -> Mobility:
+    """Return the mobility of a solid in the stresslet near walls, see :func:`deficit_of_held`."""
+    return mobility(stretches, load_integrals(block, i), 1.0 - deficit_of_held(block, i, medium))
+
+
+def deficit_of_held(block: Block, i: int, medium: Medium) -> Scalar:
+    """Return 1 − η/μ_f with a viscosity by elasticity, where molecules strain the body more than the flow.
+
+    When numbers are drawn the elastic stress is still that of the ones before. It relaxes in the first part
+    of a step h = z μ_f/μ_s with z > 1, which the path does not resolve. The walls then reflect the stresslet
+    of a rigid body.
+    """
+    mu_f = viscosity_at(block, i, medium)
+    by_molecules, flow = load9(block, thermal.thermal_gradient, i), load9(block, at.l, i)
+    p, q = ddot(by_molecules, by_molecules), ddot(flow, flow)
+    h = select(block[during.remaining * LANES + i] > 0.0, block[at.dt * LANES + i], 0.0)
+    z = block[at.mu * LANES + i] * h / mu_f
+    return 1.0 - block[at.eta * LANES + i] / mu_f - p / (p + q + 1e-300) * z * (1.0 + _STIFFER * z)
+
+
+def is_stiff_near_walls(block: Block, i: int) -> bool:
+    """Return whether a wall hinders lane i and reactions do not strain it: it relaxes while numbers hold."""
+    stiff = block[at.mu * LANES + i] * block[thermal.held_time * LANES + i] > block[at.fluid * LANES + i]
+    return bool(stiff and largest(hindrance_by_walls(block, i)) > 0.0)
+
+
 def force_of_molecules(block: Block, i: int) -> Vector:
     """Return the force on lane i, N."""
     return load3(block, thermal.thermal_force, i)
@@ -261,9 +297,16 @@ class BrownianMotion(Surrounding):
         """Return k_B T, J; the seed; whether the shape fluctuates."""
         return BOLTZMANN * self.T, np.uint64(self.seed), float(self.shape)
 
-    def slots(self, inertia: bool) -> Slots:  # noqa: ARG002
+    def slots(self, inertia: bool) -> Slots:
         """Return force and gradient, which walls hinder and reflect, and how mirrors and walls turn them."""
+        held: Slots = {
+            before_lift: strain_by_steady_load,
+            mobility_in_step: mobility_of_held,
+            deficit_in_step: deficit_of_held,
+            is_strained_by_load: is_stiff_near_walls,
+        }
         return {
+            **({} if inertia else held),
             thermal_force: force_of_molecules,
             thermal_gradient: gradient_of_molecules,
             turn_along: turn_force,

@@ -19,6 +19,7 @@ from foamprb.body.ellipsoid import reach
 from foamprb.body.material import finger_of_body_in_frame
 from foamprb.body.stokes import Mobility, velocity_gradient
 from foamprb.body.tensor import (
+    ZERO,
     Scalar,
     Tensor,
     Vector,
@@ -136,6 +137,8 @@ class WallRows(NamedTuple):
     wall_lift: Annotated[int, Row(3, "m/s", "velocity that they reflect")]
     load: Annotated[int, Row(3, "N", "force of the particle on the fluid")]
     load_gradient: Annotated[int, Row(9, "1/s", "velocity gradient by its image")]
+    held_force: Annotated[int, Row(3, "N", "force of molecules that has the gradient held_gradient")]
+    held_gradient: Annotated[int, Row(9, "1/s", "gradient by the image of that force where it was drawn")]
     hindrance: Annotated[int, Row(9, "1", "resistance added by walls, in the particle frame")]
     drag_frame: Annotated[int, Row(9, "1", "frame in which the drag at the start of a step is diagonal")]
 
@@ -198,12 +201,7 @@ def lift(block: Block, medium: Medium, share: float, coefficients: Numbers) -> N
     if hindered > 0.0:
         before_lift(block, medium, share, least_gap, strain, most)
     free_stage(block, medium, share)
-    for _ in range(_REPEATS):
-        start_reflection(block)
-        for wall in range(most):
-            select_wall(block, wall, share, least_gap)
-            reflection_stage(block, medium, 1.0)
-        response_stage(block, medium, strain)
+    reflect(block, medium, share, least_gap, strain, most)
     for wall in range(most):
         select_wall(block, wall, share, least_gap)
         velocity_stage(block, medium, share)
@@ -212,6 +210,17 @@ def lift(block: Block, medium: Medium, share: float, coefficients: Numbers) -> N
     if hindered > 0.0:
         after_lift(block, medium, share, least_gap, strain, most)
     end_lift(block, strain)
+
+
+@separate
+def reflect(block: Block, medium: Medium, share: float, least_gap: float, strain: float, most: int) -> None:
+    """Compute the gradient that walls reflect, and the stresslet in it, from that without walls."""
+    for _ in range(_REPEATS):
+        start_reflection(block)
+        for wall in range(most):
+            select_wall(block, wall, share, least_gap)
+            reflection_stage(block, medium, 1.0)
+        response_stage(block, medium, strain)
 
 
 @traced
@@ -359,6 +368,63 @@ def strain_by_load(
         store9(block, near.load_gradient, i, load9(block, near.reflected, i))
 
 
+@separate
+def strain_by_steady_load(
+    block: Block, medium: Medium, share: float, least_gap: float, strain: float, most: int
+) -> None:
+    """See :func:`before_lift`, less the gradient by the force of molecules where that was drawn.
+
+    Walls couple force and rate of strain: v = M·f + C:T, l = Cᵀ·f + N:T, with the mobilities M of a rigid
+    body, and more, C N⁻¹ Cᵀ, of one that gives way. Force and stress of molecules are drawn with M⁻¹ and N⁻¹.
+    They have the covariance of the whole resistance if N⁻¹ Cᵀ·f is taken off the stress, i.e. Cᵀ·f off l.
+    Where N⁻¹ is without walls, half of the gradient that walls reflect of the stress is taken off, too: the
+    square root of 1 + x is about 1 + x/2.
+    """
+    new = 0
+    for i in range(LANES):
+        new += thermal_force(block, i) != load3(block, near.held_force, i)
+    if new > 0 and share == 0.0:
+        molecule_stage(block)
+        strain_by_load(block, medium, share, least_gap, strain, most)
+        for i in range(LANES):
+            f = thermal_force(block, i)
+            if f != load3(block, near.held_force, i):
+                store9(block, near.held_gradient, i, load9(block, near.load_gradient, i))
+            store9(block, near.load_gradient, i, ZERO)
+        molecular_stresslet_stage(block, medium)
+        reflect(block, medium, share, least_gap, strain, most)
+        for i in range(LANES):
+            f = thermal_force(block, i)
+            if f != load3(block, near.held_force, i):
+                store3(block, near.held_force, i, f)
+                add9(block, near.held_gradient, i, scale(0.5 * strain, load9(block, near.reflected, i)))
+    load_stage(block, medium, share)
+    strain_by_load(block, medium, share, least_gap, strain, most)
+    for i in range(LANES):
+        add9(block, near.load_gradient, i, scale(-1.0, load9(block, near.held_gradient, i)))
+
+
+@traced
+def molecular_stresslet_stage(block: Block, medium: Medium) -> None:
+    """Compute the stresslet without walls by the stress of molecules alone."""
+    for i in range(LANES):
+        Q, l = load9(block, at.Q, i), thermal_gradient(block, i)
+        m = store_mobility(block, i, medium)
+        l_f = to_frame(Q, l)
+        S = stresslet(block, i, medium, scale(0.0, l), velocity_gradient(m, scale(0.0, l), l_f))
+        store9(block, near.free_stresslet, i, S)
+        store9(block, near.stresslet, i, S)
+
+
+def store_mobility(block: Block, i: int, medium: Medium) -> Mobility:
+    """Store and return the mobility of lane i."""
+    m = mobility_in_step(block, i, medium, load3(block, at.stretch, i))
+    store9(block, near.mobility_normal, i, m.normal)
+    store3(block, near.mobility_shear, i, m.compliance)
+    store3(block, near.mobility_slip, i, m.slip)
+    return m
+
+
 @traced
 def load_stage(block: Block, medium: Medium, share: float) -> None:
     """Store the forces of the particles on the fluid."""
@@ -463,15 +529,24 @@ def body_gradient(block: Block, i: int, medium: Medium, share: float) -> Tensor:
     the difference from that of a rigid body, which the hindrance includes, less the stress of molecules.
     """
     Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
-    m = body_mobility(block, i, medium, stretches)
-    store9(block, near.mobility_normal, i, m.normal)
-    store3(block, near.mobility_shear, i, m.compliance)
-    store3(block, near.mobility_slip, i, m.slip)
+    m = store_mobility(block, i, medium)
     b_e = finger_of_body_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = incompressible_stress(block, i, stretches, b_e)
     l = add(add(load9(block, at.l, i), load9(block, near.load_gradient, i)), thermal_gradient(block, i))
     l_f, sigma = to_frame(Q, l), scale(1.0 / viscosity_at(block, i, medium), tau)
     return velocity_gradient(m, with_tension(block, i, m, stretches, sigma, l_f), l_f)
+
+
+@choice
+def mobility_in_step(block: Block, i: int, medium: Medium, stretches: Vector) -> Mobility:
+    """Return the mobility by which the body's stress moves it; by default that of the instant."""
+    return body_mobility(block, i, medium, stretches)
+
+
+@choice
+def deficit_in_step(block: Block, i: int, medium: Medium) -> Any:
+    """Return the ``deficit`` of that mobility."""
+    return mobility_deficit(block, i, medium)
 
 
 @choice
@@ -481,7 +556,7 @@ def body_response(block: Block, i: int, medium: Medium, E: Tensor) -> Tensor:
         load9(block, near.mobility_normal, i),
         load3(block, near.mobility_shear, i),
         load3(block, near.mobility_slip, i),
-        mobility_deficit(block, i, medium),
+        deficit_in_step(block, i, medium),
     )
     l = to_frame(load9(block, at.Q, i), E)
     return velocity_gradient(m, scale(0.0, l), l)
