@@ -88,7 +88,9 @@ class PlaneFunction(PathFunction):
     def crossings(self, memory: Memory, cloud: ObservedCloud) -> Crossings:
         """Return all crossings, in the order of time."""
         rows = memory["crossings"]
-        p = cloud.cloud.of(rows[:, 0].astype(np.int64))._replace(F=rows[:, 6:_COLUMNS].copy())
+        # The frames that particles have now would change last digits.
+        Q = np.tile(np.eye(3).ravel(), (len(rows), 1))
+        p = cloud.cloud.of(rows[:, 0].astype(np.int64))._replace(F=rows[:, 6:_COLUMNS].copy(), Q=Q)
         if rows.shape[1] > _COLUMNS:
             p = p._replace(B=rows[:, _COLUMNS : _COLUMNS + 7].copy(), v=rows[:, _COLUMNS + 7 :].copy())
         return Crossings(p, rows[:, 1], rows[:, 2:5], rows[:, 5])

@@ -22,10 +22,13 @@ def case(tmp_path):
     return tmp_path
 
 
-def caveats(case, **options):
+def caveats_of(flow):
     # The linear velocity goes across walls, of which a warning has a test of its own.
-    notes = (str(note) for note in read_case(case, **options).notes if isinstance(note, Caveat))
-    return [note for note in notes if "across its faces" not in note]
+    return [note for note in flow.notes if isinstance(note, Caveat) and "across its faces" not in note]
+
+
+def caveats(case, **options):
+    return [str(note) for note in caveats_of(read_case(case, **options))]
 
 
 def move(case):
@@ -163,7 +166,7 @@ def test_a_mesh_that_is_refined_does_not_move(case, kind):
 def test_a_series_warns_once_and_of_its_own_times(case):
     put(case / "1e1/nut", NUT, "volScalarField")
     put(case / "constant/dynamicMeshDict", MOTION)
-    (found,) = (str(note) for note in read_series(case).notes if isinstance(note, Caveat))
+    (found,) = caveats_of(read_series(case))
     assert "there is nut" in found
 
 
@@ -172,11 +175,7 @@ def test_a_decomposed_case_warns_alike(tmp_path):
     decompose(tmp_path, mesh, np.arange(mesh.n_cells) % 2, ("0", "0.5", "1e1"))
     put(tmp_path / "constant/MRFProperties", MRF)
     put(tmp_path / "processor0/1e1/nut", NUT, "volScalarField")
-    found = [
-        str(note)
-        for note in steady_flow(DecomposedCase(tmp_path), "latestTime", FlowSource()).notes
-        if isinstance(note, Caveat)
-    ]
+    found = caveats_of(steady_flow(DecomposedCase(tmp_path), "latestTime", FlowSource()))
     assert len(found) == 2
     assert "MRFProperties: rotor" in found[0]
 
@@ -226,7 +225,7 @@ def test_a_balance_is_judged_where_it_can_be(case):
 def test_fates_are_worthless_where_half_of_the_fluid_is_lost(case):
     for outflow, fault in ((1.01, ""), (0.99, "unbalanced")):
         fluxes(case, -2.0, outflow)
-        (caveat,) = (note for note in read_case(case).notes if isinstance(note, Caveat))
+        (caveat,) = caveats_of(read_case(case))
         assert caveat.fault == fault
 
 
@@ -306,7 +305,7 @@ def test_a_flow_that_no_solver_made_is_told(case):
     assert "the flow is that of time 0" in caveats(case)[0]
     (case / "2").mkdir()
     (case / "2/U").write_text(text)
-    (found,) = (note for note in read_series(case).notes if isinstance(note, Caveat))
+    (found,) = caveats_of(read_series(case))
     assert "at time 0, the first of the flow, the fluid is at rest, and until 2 s" in found
 
 
