@@ -89,7 +89,8 @@ def balance_walls(flow: object, patches: PatchTable, s: Scratch, medium: Medium,
     for i in range(LANES):
         if block[at.moving * LANES + i] > 0.0:
             store3(block, at.reaction, i, (0.0, 0.0, 0.0))
-            touches = block[at.clearance * LANES + i] <= TOUCH * block[at.R * LANES + i]
+            # One that overlaps a wall, as at its release, is pushed out first.
+            touches = abs(block[at.clearance * LANES + i]) <= TOUCH * block[at.R * LANES + i]
             if touches and s.switches.reflects_steps == 0:
                 resting += _balance(flow, patches, s, i, medium, share * block[at.dt * LANES + i])
     if resting > 0:
@@ -158,7 +159,7 @@ def _wall_beside(
         return x, math.inf
     n = normal(flow, triangle, x, t)
     gap -= inner(aside, n)
-    if gap > _BESIDE * R:
+    if abs(gap) > _BESIDE * R:
         return n, math.inf
     r = point_of_contact(block, i, F, n)
     speed = speed_at(minus(v, wall_velocity(flow, triangle, plus(x, r), t)), l, r, n)

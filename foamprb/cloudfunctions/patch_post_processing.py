@@ -133,8 +133,10 @@ def _landed(p: Particles, _memory: Memory, patch: int) -> tuple[NDArray[np.int64
 def _rows_of(cloud: ObservedCloud, met: Rebounds, bounces: bool) -> Rows:
     """Return the rows of the table of a patch."""
     p = cloud.of(met.number).particles
-    # The frame that a particle has now would change last digits.
-    p.F[:], p.Q[:] = met.F, np.eye(3).ravel()
+    p.F[:] = met.F
+    if bounces:
+        # The frame that a particle has now would change last digits.
+        p.Q[:] = np.eye(3).ravel()
     axes, D, longest = cloud.of(p).measure(
         np.arange(p.size), "semiAxes", "taylorDeformation", lambda c: np.stack(c.frame[:3], axis=1)
     )

@@ -132,6 +132,14 @@ def test_a_soft_sphere_is_pressed_as_the_minimum_of_its_energy(w, height, wide, 
         np.testing.assert_allclose(p.v, 0.0, atol=1e-6)
 
 
+def test_a_sphere_that_overlaps_the_floor_at_its_release_is_put_onto_it():
+    p = resting(np.eye(3), 2e-7)
+    p.x[:, 2] = 0.7
+    cloud_of(p, 1e-6).advance(10)
+    assert p.status[0] == Status.ACTIVE
+    assert p.x[0, 2] == pytest.approx(1.0, abs=1e-4)
+
+
 @pytest.mark.parametrize("w", [2.0, 10.0])
 def test_a_soft_sphere_is_pressed_in_time_as_its_power_says(w):
     """(K + V r/ζ²) dζ/dt = −W − V W_el'(ζ), with the resistances K and r of the spheroid; Δt of 0.05."""
