@@ -234,6 +234,19 @@ def axial(W: Tensor) -> Vector:
     return (W[7], W[2], W[3])
 
 
+def turn_about(r: Vector, a: Scalar, b: Scalar, d: Scalar) -> Tensor:
+    """Return d I + b r rᵀ + a r×, by Rodrigues the rotation by φ about r.
+
+    The numbers are a = sin φ/|r|, b = (1 − cos φ)/|r|² and d = cos φ.
+    """
+    x, y, z = r
+    return (
+        d + b * x * x, b * x * y - a * z, b * x * z + a * y,
+        b * x * y + a * z, d + b * y * y, b * y * z - a * x,
+        b * x * z - a * y, b * y * z + a * x, d + b * z * z,
+    )  # fmt: skip
+
+
 def to_frame(Q: Tensor, T: Tensor) -> Tensor:
     """Return the components T' = Q T Qᵀ in the frame whose axes are the rows of Q (2)."""
     return dot(dot(Q, T), transpose(Q))

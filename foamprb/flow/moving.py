@@ -34,6 +34,7 @@ from foamprb.body.tensor import (
     scale_vector,
     to_frame,
     transpose,
+    turn_about,
     vector_dot,
     vector_product,
 )
@@ -183,17 +184,12 @@ def _way(w: Weights, flow: MovingArrays, k: int, p: int, column: int) -> Vector:
 
 
 def rotation(r: Vector) -> Tensor:
-    """Return the matrix of a rotation vector (Rodrigues)."""
+    """Return the matrix of a rotation vector."""
     angle2 = inner(r, r)
     angle = math.sqrt(angle2)
     a, b = (math.sin(angle) / angle, (1.0 - math.cos(angle)) / angle2) if angle > _SMALL else (1.0, 0.5)
     d = math.cos(angle) if angle > _SMALL else 1.0 - 0.5 * angle2
-    x, y, z = r
-    return (
-        d + b * x * x, b * x * y - a * z, b * x * z + a * y,
-        b * x * y + a * z, d + b * y * y, b * y * z - a * x,
-        b * x * z - a * y, b * y * z + a * x, d + b * z * z,
-    )  # fmt: skip
+    return turn_about(r, a, b, d)
 
 
 def pose(flow: MovingArrays, p: int, t: float) -> Pose:

@@ -26,6 +26,7 @@ from foamprb.body.tensor import (
     scale_vector,
     subtract,
     to_frame,
+    turn_about,
     vector_product,
 )
 from foamprb.flow.base import Floats
@@ -67,13 +68,8 @@ def stretched(layer: Floats, t: float, u: Vector) -> Vector:
 
 def _turn(layer: Floats, t: float) -> Tensor:
     """Return the rotation by θ about the axis."""
-    (x, y, z), c = _row(layer, _AXIS), (1.0 + t * t) ** -0.5
-    s, d = c * t, 1.0 - c
-    return (
-        c + d * x * x, d * x * y - s * z, d * x * z + s * y,
-        d * x * y + s * z, c + d * y * y, d * y * z - s * x,
-        d * x * z - s * y, d * y * z + s * x, c + d * z * z,
-    )  # fmt: skip
+    c = (1.0 + t * t) ** -0.5
+    return turn_about(_row(layer, _AXIS), c * t, 1.0 - c, c)
 
 
 def turned(layer: Floats, t: float, l: Tensor) -> Tensor:
