@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import time
 from pathlib import Path
 
@@ -66,16 +65,7 @@ def ready(grid: str) -> dict[str, float]:
 
 def write_times(grid: str, count: int, n: int) -> str:
     """Write the case with so many times of the same U, a tenth of a cell apart, and n bodies; return it."""
-    case = pipe.case(grid)
-    folder = case.with_name(f"{grid}_transient")
-    shutil.rmtree(folder, ignore_errors=True)
-    (folder / "constant").mkdir(parents=True)
-    for name in ("system", "constant/polyMesh"):
-        (folder / name).symlink_to(case / name)
-    for k in range(count):
-        (folder / f"{k * OPENFOAM_STEP:.4g}").mkdir()
-        (folder / f"{k * OPENFOAM_STEP:.4g}" / "U").symlink_to(case / "0" / "U")
-    pipe.write_dictionaries(folder, pipe.NU, pipe.RHO)
+    folder = pipe.transient_case(grid, OPENFOAM_STEP, count)
     pipe.write_positions(folder / "constant" / "softCloudPositions", pipe.positions(n))
     more = "transient true;"
     pipe.write_default_cloud(folder, "softCloud", 0.5, OPENFOAM_STEP / 2, 2 * (count - 1), more=more)

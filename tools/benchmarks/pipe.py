@@ -7,6 +7,7 @@ Poiseuille's flow is written at the means of the cells' vertices. No mesher and 
 from __future__ import annotations
 
 import os
+import shutil
 import time
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -426,6 +427,21 @@ def case(grid: str) -> Path:
     folder = scratch_folder() / grid
     if not (folder / "0" / "U").exists():
         write_case(folder, GRIDS[grid])
+    return folder
+
+
+def transient_case(grid: str, interval: float, count: int) -> Path:
+    """Return the case of one of :data:`GRIDS` with so many times of the same U, an interval (s) apart."""
+    steady = case(grid)
+    folder = steady.with_name(f"{grid}_transient")
+    shutil.rmtree(folder, ignore_errors=True)
+    (folder / "constant").mkdir(parents=True)
+    for name in ("system", "constant/polyMesh"):
+        (folder / name).symlink_to(steady / name)
+    for k in range(count):
+        (folder / f"{k * interval:.6g}").mkdir()
+        (folder / f"{k * interval:.6g}" / "U").symlink_to(steady / "0" / "U")
+    write_dictionaries(folder, NU, RHO)
     return folder
 
 
