@@ -29,7 +29,7 @@ from foamprb.cloud.layout import LANES, load_rows, rows_of, save_rows
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import SHORTEST_STEP, UNLISTED, PatchTable, interrupted
 from foamprb.cloud.needs import needed_by, reader_of
-from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, Adhere, Interaction, Rebound
+from foamprb.cloud.patches import CYCLIC, MIRROR, NO_BOND, REBOUND, Adhere, Interaction, Rebound
 from foamprb.cloud.paths import ROOM, Observation, Steps, recorder_of
 from foamprb.cloud.pressing import approach, push_out, redirect
 from foamprb.cloud.state import Particles, Status, empty
@@ -211,8 +211,9 @@ class Tracker:
             or models.has_memory
             or models.has_quadratic
             or models.touching == "centre"
+            or not any(interaction.code == REBOUND for interaction in interactions)
         ):
-            # Contact moves the centre alone.
+            # Contact moves the centre alone, or ends the motion. A first run need not compile the others.
             for one in (approach, redirect, push_out, find_reactions, apply_reactions):
                 self.slots.pop(one, None)
         self.kernels = kernels
