@@ -94,6 +94,14 @@ def test_heights_over_a_wall_come_to_boltzmanns(steps, share, stride):
     assert np.sum((gaps > 0.02) & (gaps < 0.1)) == pytest.approx(near, abs=4.0 * np.sqrt(near))
 
 
+def test_the_image_of_a_load_costs_a_stiff_bead_few_steps():
+    """A stiff bead relaxes from place to place within a step; each strain by its weight is not followed."""
+    p = beads(20, height=2.0 * R, rho=RHO_OF_SCALE_R)
+    models = (WallLift(cutOff=20.0), BrownianMotion(T=T, shape=False))
+    carried(p, 2, 0.5 * 0.09**2 * R**2 / D, flow=analytic.shear_over_wall(0.0), medium=HEAVY, models=models)
+    assert p.substeps.mean() < 10.0
+
+
 def test_steps_too_long_for_the_scale_of_heights_are_warned_of():
     p, model = beads(2, rho=RHO_OF_SCALE_R), BrownianMotion(T=T, shape=False)
     flow = analytic.shear_over_wall(0.0)

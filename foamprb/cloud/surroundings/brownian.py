@@ -78,6 +78,7 @@ from foamprb.cloud.surroundings.wall_lift import (
     before_lift,
     deficit_in_step,
     mobility_in_step,
+    near,
     strain_by_steady_load,
 )
 from foamprb.compile.link import Slots, separate, traced
@@ -245,15 +246,16 @@ def mobility_of_held(block: Block, i: int, medium: Medium, stretches: Vector) ->
 
 
 def deficit_of_held(block: Block, i: int, medium: Medium) -> Scalar:
-    """Return 1 − η/μ_f with a viscosity by elasticity, where molecules strain the body more than the flow.
+    """Return 1 − η/μ_f with a viscosity by elasticity, where molecules or a load strain the body most.
 
     When numbers are drawn the elastic stress is still that of the ones before. It relaxes in the first part
     of a step h = z μ_f/μ_s with z > 1, which the path does not resolve. The walls then reflect the stresslet
-    of a rigid body.
+    of a rigid body. The image of the load strains it anew at each place that molecules drive it to.
     """
     mu_f = viscosity_at(block, i, medium)
     by_molecules, flow = load9(block, thermal.thermal_gradient, i), load9(block, at.l, i)
-    p, q = ddot(by_molecules, by_molecules), ddot(flow, flow)
+    image = load9(block, near.load_gradient, i)
+    p, q = ddot(by_molecules, by_molecules) + ddot(image, image), ddot(flow, flow)
     h = select(block[during.remaining * LANES + i] > 0.0, block[at.dt * LANES + i], 0.0)
     z = block[at.mu * LANES + i] * h / mu_f
     return 1.0 - block[at.eta * LANES + i] / mu_f - p / (p + q + 1e-300) * z * (1.0 + _STIFFER * z)
