@@ -33,6 +33,7 @@ from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder, compile_result
 from numba.core.compiler_machinery import PassManager, register_pass
 from numba.core.funcdesc import PythonFunctionDescriptor
+from numba.core.ir import Return
 from numba.core.lowering import Environment
 from numba.core.serialize import dumps
 from numba.core.typed_passes import NativeLowering
@@ -261,6 +262,19 @@ class _Passes(PassManager):  # type: ignore[misc]
     _ENFORCING = False
 
 
+def _widen_return(state: StateDict) -> None:
+    """Give a function that returns a constant the type of one that does not.
+
+    Callers are compiled once for all functions behind a slot.
+    """
+    state.return_type = wide = types.unliteral(state.return_type)
+    for block in state.func_ir.blocks.values():
+        if isinstance(block.terminator, Return):
+            name = block.terminator.value.name
+            del state.typemap[name]
+            state.typemap[name] = wide
+
+
 def _lowering(role: Role) -> type:
     """Return numba's last pass, which writes into the library of a role."""
 
@@ -269,6 +283,7 @@ def _lowering(role: Role) -> type:
         _name = f"lowering_of_{role}"
 
         def run_pass(self, state: StateDict) -> bool:
+            _widen_return(state)
             before, name = state.targetctx, state.func_id.func_qualname
             target = _target(before)
             state.library = _LIBRARIES[role](target.codegen(), name)

@@ -92,6 +92,18 @@ def test_function_with_another_type_of_result_leads_to_another_compilation(fresh
         fresh()
 
 
+def none(_x):
+    """A constant, whose type numba tells from that of a number."""
+    return 0
+
+
+def test_a_function_that_returns_a_constant_leads_to_no_other_compilation(fresh):
+    for n, function in enumerate((rounded, none, rounded)):
+        assert link(entry, slots={model: function})(1.5) == function(1.5) - 15.0
+        assert hits_of("caller") == ((1, 0) if n else (0, 1))
+        fresh()
+
+
 # ---------------------------------------------------------------------------------------------------------
 # Packed arguments
 
