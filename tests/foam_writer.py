@@ -129,7 +129,9 @@ def put_linear(folder, mesh, name="T", at=SLOPE, begin=-1.0, dimensions="[0 0 0 
 
     starts = mesh.patch_start
     patches = " ".join(
-        f"{patch.name} {{ type fixedValue; value {listed(mesh.boundary_centres[a:b])}; }}"
+        f"{patch.name} {{ type empty; }}"
+        if patch.type == "empty"
+        else f"{patch.name} {{ type fixedValue; value {listed(mesh.boundary_centres[a:b])}; }}"
         for patch, a, b in zip(mesh.patches, starts, starts[1:], strict=False)
     )
     (folder / name).write_text(

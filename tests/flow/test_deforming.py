@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -51,6 +52,30 @@ def deforming(mesh, motion, u, times, period=None):
     return DeformingFlow(fit, shapes, mesh, times, read, period, conservative=True)
 
 
+def layers_up_to(length):
+    """Ends of layers of the same thickness, of which the last one is thicker or thinner."""
+    return np.append(0.1 * np.arange(max(round(10.0 * length), 1)), length)
+
+
+def layered(folder, axis, cells, u, ends):
+    """Return the flow u(x, t), linear in x, of a case with other layers across an axis at each time.
+
+    ``ends`` are those of the layers, by time.
+    """
+    for name, heights in ends.items():
+        n, other = len(heights) - 1, folder / f"only{name}"
+        mesh = layer((0.0, 1.0), (0.0, 1.0), *((n, cells) if axis == 0 else (cells, n)), right="patch")
+        points = mesh.points.copy()
+        points[:, axis] = np.interp(points[:, axis], np.linspace(0.0, 1.0, n + 1), heights)
+        write_case(other, times=(name,), mesh=with_points(mesh, points))
+        at = [u(x, float(name))[0] for x in np.zeros((4, 1, 3)) + np.eye(4, 3, -1)[:, None]]
+        gradient = np.transpose(at[1:] - at[0])
+        put_linear(other / name, with_points(mesh, points), "U", gradient, at[0], "[0 1 -1 0 0 0 0]")
+        shutil.copytree(other / "constant/polyMesh", other / name / "polyMesh")
+        shutil.copytree(other, folder / "case", dirs_exist_ok=True)
+    return folder / "case"
+
+
 def followed(flow, start, interactions, dt, steps, **body):
     """Return tracers after some steps in a flow."""
     bodies = spheres(start, **{"d": 1e-6, "rho": 1000.0, "mu": 1e3, **body})
@@ -82,21 +107,30 @@ def strain_rate(t):
     return -0.4 * OMEGA * np.sin(OMEGA * t) / h(t)
 
 
-def squeezed(writes):
-    """Fluid between a plate and another one that comes nearer: x h and y / h stay."""
+def squeezed(writes, folder=None):
+    """Fluid between a plate and another one that comes nearer: x h and y / h stay.
+
+    With a folder, layers of cells at this one vanish, eight of ten.
+    """
 
     def u(x, t):
         s = strain_rate(t)
         return np.stack([-s * x[:, 0], s * x[:, 1], 0.0 * x[:, 0]], axis=1)
 
+    times, ratio = np.linspace(0.0, 0.5, writes + 1), np.array([h(0.0) / h(0.5), h(0.5)])
+    if folder is not None:
+        ends = {f"{t:.12g}": layers_up_to(h(t)) for t in times}
+        return read_series(layered(folder, 1, 16, u, ends)), ratio
     mesh = layer((0.0, 1.0), (0.0, 1.0), 16, 10, right="patch")
-    times = np.linspace(0.0, 0.5, writes + 1)
-    return deforming(mesh, lambda x, t: x * [1.0, h(t), 1.0], u, times), np.array([h(0.0) / h(0.5), h(0.5)])
+    return deforming(mesh, lambda x, t: x * [1.0, h(t), 1.0], u, times), ratio
 
 
-@pytest.mark.parametrize(("writes", "limit"), [(10, 1.5e-3), (20, 3e-4)])
-def test_fluid_is_pressed_out_between_plates(writes, limit):
-    flow, ratio = squeezed(writes)
+@pytest.mark.parametrize(
+    ("writes", "limit", "layers"), [(10, 1.5e-3, False), (20, 3e-4, False), (20, 3e-4, True)]
+)
+def test_fluid_is_pressed_out_between_plates(tmp_path, writes, limit, layers):
+    flow, ratio = squeezed(writes, tmp_path if layers else None)
+    assert any("of the mesh of 0 s (160 cells), which deforms" in note for note in flow.notes) == layers
     x = spread(100, (0.02, 0.0005), (0.18, 0.9995))
     stick = dict.fromkeys(("left", "bottom", "top"), Stick())
     _, p = followed(flow, x, {**stick, "right": Escape()}, 0.005, 100)
@@ -129,8 +163,8 @@ def test_walls_that_wave_touch_no_tracer_of_a_fluid_that_moves_with_them(speed):
     assert rms(p.x, motion(end, 0.75)) < 1e-3
 
 
-@pytest.fixture(scope="module")
-def piston():
+@pytest.fixture(scope="module", params=["cells that shrink", "layers that vanish"])
+def piston(request, tmp_path_factory):
     """A box of which one side moves in as 0.2 t + 0.1 t², and the fluid leaves by the other one."""
 
     def motion(x, t):
@@ -139,8 +173,12 @@ def piston():
     def u(x, t):
         return np.broadcast_to([speed(t), 0.0, 0.0], x.shape)
 
+    times = np.linspace(0.0, 1.0, 6)
+    if "layers" in request.param:
+        ends = {f"{t:.12g}": 1.0 - layers_up_to(1.0 - place(t))[::-1] for t in times}
+        return read_series(layered(tmp_path_factory.mktemp("piston"), 0, 6, u, ends))
     mesh = layer((0.0, 1.0), (0.0, 1.0), 8, 6, right="patch")
-    return deforming(mesh, motion, u, np.linspace(0.0, 1.0, 6))
+    return deforming(mesh, motion, u, times)
 
 
 def place(t):
@@ -289,7 +327,7 @@ def test_acceleration_is_that_at_a_fixed_point():
 
 def test_the_log_tells_how_far_points_move(piston):
     note = note_of_deformation(piston.motion, piston.mesh)
-    assert note.startswith("The mesh deforms: points move by up to 0.076 m from time to time, 0.6 t")
+    assert note.startswith("The mesh deforms: points move by up to 0.076 m from time to time, 0.6")
 
 
 def stretch(case, times=("0.5", "1e1")):

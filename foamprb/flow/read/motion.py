@@ -155,8 +155,7 @@ def _of_one_period(
     n = len(one_period(given, period))
     again = [times[k] for k in range(n, len(times)) if abs(given[k] - given[0] - period) < 1e-6 * period]
     for name in again[:1]:
-        back = points(name)
-        off = float(np.abs(back - mesh.points[: len(back)]).max())
+        off = float(np.abs(points(name) - points(times[0])).max())
         if off > _RIGID * size:
             raise InputError(
                 f"{source}: a period of {period:g} s does not return the points of the mesh: they are up "

@@ -62,6 +62,7 @@ from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
+from foamprb.flow.read.layers import Layers
 from foamprb.flow.read.motion import (
     DeformsError,
     deformation_of,
@@ -79,7 +80,7 @@ from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_
 from foamprb.flow.read.overlap import reduced
 from foamprb.flow.read.polymesh import read_points, read_poly
 from foamprb.flow.read.prepared import PreparedTimes
-from foamprb.flow.read.refinement import Resampling, cells_at, finest, same_mesh
+from foamprb.flow.read.refinement import NotPartsError, Resampling, cells_at, finest, same_mesh
 from foamprb.flow.read.sampled import kinds_of, read_sampled
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.times import listed
@@ -336,26 +337,37 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         )
     field = case.field(base, source.velocity, VELOCITY_FIELD)
     whole = case.mesh(base)
-    if with_walls(whole, field) is not whole:
-        later = base if others else names[len(names) // 2]
-        whole = with_walls(whole, field, case.field(later, source.velocity, VELOCITY_FIELD))
-    first = velocities(field, whole)
-    last = case.field(base if others else names[-1], source.velocity, VELOCITY_FIELD)
     # A flow that starts from rest does not show its openings.
-    at_end = velocities(last, whole)[1]
-    whole = with_openings(whole, last, at_end)
+    if others:
+        whole = _with_kinds(case, names[len(names) // 2], whole, source.velocity)
+    elif with_walls(whole, field) is not whole:
+        whole = with_walls(whole, field, case.field(names[len(names) // 2], source.velocity, VELOCITY_FIELD))
+    first = velocities(field, whole)
+    if not others:
+        last = case.field(names[-1], source.velocity, VELOCITY_FIELD)
+        at_end = velocities(last, whole)[1]
+        whole = with_openings(whole, last, at_end)
     read_first, unsteady = partial(case.field, base), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, first[0])
-    motion, means = None if others else _motion(case, names, whole, period, source), {}
+    layers: Callable[[str], Mesh] | None = None
+    if others:
+        try:
+            whole = _with_finest_cells(case, whole, base, others)
+        except NotPartsError:
+            layers = partial(_filling, case, whole, Layers(whole.mesh))
+    motion: Motion | Deformation | None = None
+    if layers is not None or not others:
+        motion = _motion(case, names, whole, period, source, layers)
+    means: dict[int, Floats] = {}
     shapes: dict[int, Floats] = {}
     rigid = motion if isinstance(motion, Motion) else None
     local = None if rigid is None else rigid.of_frames()
     # Patches that slide along each other are coupled anew at each time.
     joined = rigid is not None and rigid.joins(whole.mesh)
     surfaces = case.poly(base)[0].patches if joined else ()
-    if others:
-        whole = _with_finest_cells(case, whole, base, others)
+    if layers is not None:
+        whole = whole._replace(mesh=layers(names[0]))
     operators = _Operators(whole.mesh)
     prepared = PreparedTimes(source.cache, whole.mesh)
 
@@ -365,6 +377,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     fastest = 0.0 if motion is None else motion.fastest(whole.mesh)
 
     def mesh_at(index: int) -> Mesh:
+        if layers is not None:
+            return layers(names[index])
         if rigid is not None and not joined:
             return rigid.moved(index, whole.mesh)
         points = _points_at(case, names[index], whole.mesh)
@@ -379,15 +393,30 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         if motion is not None:
             here = whole._replace(mesh=(deformed if rigid is None else mesh_at)(index))
             own = operators if rigid is not None and not joined else _Operators(here.mesh, operators)
+        # Fields of a time are given on the mesh of that time.
+        given, at, to = here, own, None
+        if others:
+            given = _mesh_of(case, name, whole)
+            if not same_mesh(given.mesh, here.mesh):
+                to = Resampling(here.mesh, given.mesh, f"{case.root}, mesh at {name} s")
+                at = _Operators(given.mesh)
         # Without sliding patches fields are read in the frames of the pieces, on the mesh of the first time.
         of_frame = rigid if joined else local
         field = case.field(name, source.velocity, VELOCITY_FIELD)
-        values = velocities(field, here)
-        mass = mass_of(case.root, case.region, here, names, reads, index, source.velocity)
+        values = velocities(field, given)
+        if others:
+            mass = mass_of(case.root, case.region, given, [name], [reads[index]], 0, source.velocity)
+            if mass is not None and mass is not CONSTANT:
+                raise InputError(
+                    f"{case.root}: the density varies and the faces of the mesh change. Allowed: one of both."
+                )
+        else:
+            mass = mass_of(case.root, case.region, here, names, reads, index, source.velocity)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
 
         def make() -> tuple[Floats, Floats, Floats]:
-            u, l = own.reconstruct(*values)
+            u, l = at.reconstruct(*values)
+            u, l = (u, l) if to is None else to.velocities(u, l)
             frame = None if of_frame is None else of_frame.frame(index, own.mesh)
             # Means of the values of the faces around are not quite those of the wall.
             if frame is not None:
@@ -401,9 +430,11 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             return (*(rigid.in_frames(index, here.mesh, u, l) if rigid and joined else (u, l)), fluxes)
 
         key: tuple[Any, ...] = (*values, mass)
+        if others:
+            key = *key, given.mesh.points, given.mesh.face_points
         if isinstance(motion, Deformation):
             rates = motion.rates(index, lambda k: deformed(k).nodes)
-            key = (*values, mass, here.mesh.points, rates)
+            key = *key, here.mesh.points, rates
         elif rigid is not None:
             values = values[0], with_moving_walls(rigid, index, here, field, values[1])
             means[index] = rigid.means(here.mesh, values[0])
@@ -417,7 +448,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         if rates is not None:
             match_walls(here.mesh, u, rates)
             shapes[index] = np.concatenate([here.mesh.nodes, rates], axis=1)
-        more = _further(case, name, source, here, own)
+        more = _further(case, name, source, given, at)
+        more = more if to is None else [to(array) for array in more]
         if rigid is not None and joined:
             for array in more:
                 slopes = array[:, -3 * (array.shape[1] // 3) :]
@@ -439,15 +471,15 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             )
         )
     zones: Callable[[], Mapping[str, NDArray[np.int64]]] = partial(case.zones, base)
-    reader: Callable[[str], tuple[Any, ...]] = read
     notes += flux
     flow: Any = SeriesFlow
     if others:
-        reader, zones = _resampled(case, whole, source), partial(_zones_of_finest, case, base, whole.mesh)
-        notes.append(
-            "The faces of the mesh change in time: fields are read at the nodes of a mesh of "
-            f"{whole.mesh.n_cells} cells, the finest of all times."
-        )
+        cells = f"a mesh of {whole.mesh.n_cells} cells, the finest of all times"
+        if layers is None:
+            zones = partial(_zones_of_finest, case, base, whole.mesh)
+        else:
+            cells = f"the mesh of {base} s ({whole.mesh.n_cells} cells), which deforms with the boundary"
+        notes.append(f"The faces of the mesh change in time: fields are read at the nodes of {cells}.")
     if isinstance(motion, Deformation):
         notes.append(note_of_deformation(motion, whole.mesh))
         flow = partial(DeformingFlow, motion, shapes)
@@ -455,7 +487,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         notes.append(notes_of(motion, float(np.ptp(whole.mesh.points, axis=0).max())))
         flow = partial(MovingFlow, motion, means)
     return series_of(
-        case.root, whole.mesh, names, reader, period, notes, zones, source.turbulent, conservative=True,
+        case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
         viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
         curved=source.curved, flow=flow, course="cubic" if isinstance(motion, Deformation) else "linear",
     )  # fmt: skip
@@ -476,42 +508,27 @@ def _zones_of_finest(case: Case, base: str, mesh: Mesh) -> Mapping[str, NDArray[
     return {name: np.flatnonzero(np.isin(cells, zone)) for name, zone in case.zones(base).items()}
 
 
-def _resampled(case: Case, whole: CaseMesh, source: FlowSource) -> Callable[[str], tuple[Any, ...]]:
-    """Return a reader of fields, each on the mesh of its time, at the nodes of another one."""
-    operators, prepared = _Operators(whole.mesh), PreparedTimes(source.cache, whole.mesh)
+def _mesh_of(case: Case, name: str, whole: CaseMesh) -> CaseMesh:
+    """Return the mesh of a time, whose patches mean what they mean to another one; InputError for others."""
+    here = case.mesh(name)
+    if [patch.name for patch in here.patches] != [patch.name for patch in whole.patches]:
+        raise InputError(
+            f"{case.mesh_folder(name)}: other patches than before. Allowed: the same at all times."
+        )
+    return here._replace(mesh=replace(here.mesh, patches=whole.mesh.patches))
 
-    def mesh_at(name: str) -> CaseMesh:
-        here = case.mesh(name)
-        if [patch.name for patch in here.patches] != [patch.name for patch in whole.patches]:
-            raise InputError(
-                f"{case.mesh_folder(name)}: other patches than before. Allowed: the same at all times."
-            )
-        return here._replace(mesh=replace(here.mesh, patches=whole.mesh.patches))
 
-    def read(name: str) -> tuple[Any, ...]:
-        here, field = mesh_at(name), partial(case.field, name)
-        values = velocities(field(source.velocity, VELOCITY_FIELD), here)
-        where = (case.folder(name) / source.velocity).relative_to(case.root)
-        mass = mass_of(case.root, case.region, here, [name], [field], 0, source.velocity)
-        if mass is not None and mass is not CONSTANT:
-            raise InputError(
-                f"{case.root}: the density varies and the faces of the mesh change. Allowed: one of both."
-            )
-        same = same_mesh(here.mesh, whole.mesh)
-        to = None if same else Resampling(whole.mesh, here.mesh, f"{case.root}, mesh at {name} s")
-        own = operators if to is None else _Operators(here.mesh)
+def _with_kinds(case: Case, name: str, whole: CaseMesh, velocity: str) -> CaseMesh:
+    """Return a mesh whose patches are walls and openings by the velocity of a time with another mesh."""
+    field, seen = case.field(name, velocity, VELOCITY_FIELD), _mesh_of(case, name, whole)
+    seen = with_walls(seen, field)
+    seen = with_openings(seen, field, velocities(field, seen)[1])
+    return CaseMesh(replace(whole.mesh, patches=seen.mesh.patches), whole.patches, seen.notes)
 
-        def make() -> tuple[Floats, Floats, Floats]:
-            u, l = own.reconstruct(*values)
-            u, l = (u, l) if to is None else to.velocities(u, l)
-            return u, l, balanced_in_time(operators.conserve, u, l, mass, where, accept=source.accept)
 
-        u, l, fluxes = prepared.get((*values, mass, here.mesh.points, here.mesh.face_points), make)
-        more = _further(case, name, source, here, own)
-        curvatures = [mean_curvatures(whole.mesh, l)] if source.curved else []
-        return (u, l, *(more if to is None else map(to, more)), fluxes, *curvatures)
-
-    return read
+def _filling(case: Case, whole: CaseMesh, layers: Layers, name: str) -> Mesh:
+    """Return the mesh of all times with its points at the time of a name."""
+    return layers.at(_mesh_of(case, name, whole).mesh, f"{case.root}, mesh at {name} s")
 
 
 def _points_at(case: Case, time: str, mesh: Mesh) -> Floats:
@@ -521,9 +538,17 @@ def _points_at(case: Case, time: str, mesh: Mesh) -> Floats:
 
 
 def _motion(
-    case: Case, names: Sequence[str], whole: CaseMesh, period: float | None, source: FlowSource
+    case: Case,
+    names: Sequence[str],
+    whole: CaseMesh,
+    period: float | None,
+    source: FlowSource,
+    layers: Callable[[str], Mesh] | None,
 ) -> Motion | Deformation | None:
-    """Return the motion of the mesh of a case; None if it is at rest."""
+    """Return the motion of the mesh of a case; None if it is at rest.
+
+    ``layers`` returns the mesh at the time of a name, if its faces change.
+    """
     folders = {name: case.folder(name) for name in names[1:]}
     moved = moving_times(folders, "points")
     if not moved:
@@ -534,6 +559,8 @@ def _motion(
             f"{case.root}: the mesh moves, but fields of the case ({' '.join(source.sampled)}) are read on "
             "meshes at rest only. Allowed: no fieldSampling, and no force that reads them."
         )
+    if layers is not None:
+        return deformation_of(case.root, names, lambda name: layers(name).points, whole.mesh, period)
 
     @lru_cache(maxsize=2)
     def around(index: int) -> tuple[CaseMesh, FoamField, Floats]:

@@ -26,6 +26,10 @@ _INWARD = (0.0, 1e-9, 1e-6, 1e-3, 0.03)
 """Shares of the way to the middle of the cells around that a node moves until it lies within a mesh."""
 
 
+class NotPartsError(InputError):
+    """Cells of two meshes that are not parts of each other."""
+
+
 class _Side(NamedTuple):
     """Faces of one of two meshes, in numbers of the cells and points of both."""
 
@@ -55,7 +59,7 @@ def finest(a: Mesh, b: Mesh, poly: PolyMesh, where: str) -> Mesh:
 
     Raises
     ------
-    InputError
+    NotPartsError
         The meshes cover different regions, or their cells are not parts of each other.
     """
     in_a = cells_at(a, b.centres)
@@ -64,18 +68,13 @@ def finest(a: Mesh, b: Mesh, poly: PolyMesh, where: str) -> Mesh:
     kept[in_a[finer]] = False
     volume = float(a.volumes[kept].sum() + b.volumes[finer].sum())
     total, other = float(a.volumes.sum()), float(b.volumes.sum())
-    distance, nearest = _tree(a.points).query(b.points)
+    distance, nearest = tree_of(a.points).query(b.points)
     new = distance > _CLOSE * float(np.cbrt(min(a.volumes.min(), b.volumes.min())))
     of_finer = np.zeros(b.n_points, dtype=bool)
     of_finer[b.cell_points[np.repeat(finer, np.diff(b.cell_point_start))]] = True
     fits = max(abs(volume - total), abs(other - total)) <= _SAME_VOLUME * total
     if not fits or (in_a < 0).any() or (new & ~of_finer).any():
-        raise InputError(
-            f"{where}: the cells are no parts of those of other times. Their volume is {other:.6g} m3; that "
-            f"of others is {total:.6g} m3. Allowed: cells that are divided and joined again, as by "
-            "dynamicRefineFvMesh, in a region whose boundary is at rest. Layers of cells that are added and "
-            "removed, as beside a piston, are not followed."
-        )
+        raise NotPartsError(f"{where}: the cells are no parts of those of other times.")
     if not finer.any():
         return a
     number_a, number_b = np.cumsum(kept) - 1, kept.sum() + np.cumsum(finer) - 1
@@ -138,7 +137,7 @@ def _means(points: Floats, start: NDArray[np.intp], lists: NDArray[np.integer[An
     return means
 
 
-def _tree(points: Floats) -> Any:
+def tree_of(points: Floats) -> Any:
     """Return a tree by which the nearest points are found."""
     from scipy.spatial import cKDTree
 
@@ -159,7 +158,7 @@ def _with_hanging_points(
 ) -> tuple[NDArray[np.intp], NDArray[np.integer[Any]]]:
     """Return faces with the points that lie in the middle of their edges."""
     used = np.unique(lists)
-    tree = _tree(points[used])
+    tree = tree_of(points[used])
     for _ in range(_MOST_LEVELS):
         following = np.arange(1, len(lists) + 1)
         following[start[1:] - 1] = start[:-1]
