@@ -184,12 +184,7 @@ def deformation_of(
     InputError
         The number of points changes, a period does not return them, or coupled patches may not move alike.
     """
-    coupled = [mesh.patches[c.patch] for c in mesh.couplings if mesh.patches[c.patch].type != "wedge"]
-    if coupled:
-        raise InputError(
-            f"{source}: the mesh deforms, and its patch {coupled[0].name} ({coupled[0].type}) is coupled. "
-            "Allowed: coupled patches of meshes at rest, and of pieces that move as rigid bodies."
-        )
+    require_uncoupled(source, mesh)
     ends = (PatchKind.WALL, PatchKind.OPENING)
     kinds = np.array([patch.kind in ends for patch in mesh.patches], dtype=bool)
     own = np.unique(mesh.triangles[kinds[mesh.triangle_patch]])
@@ -207,6 +202,16 @@ def deformation_of(
     for j in range(len(times)):
         past[j, :, 3:] = motion.rates(j, lambda k: past[k, :, :3])
     return motion
+
+
+def require_uncoupled(source: Path, mesh: Mesh) -> None:
+    """Raise InputError if a mesh that deforms has coupled patches other than wedges."""
+    coupled = [mesh.patches[c.patch] for c in mesh.couplings if mesh.patches[c.patch].type != "wedge"]
+    if coupled:
+        raise InputError(
+            f"{source}: the mesh deforms, and its patch {coupled[0].name} ({coupled[0].type}) is coupled. "
+            "Allowed: coupled patches of meshes at rest, and of pieces that move as rigid bodies."
+        )
 
 
 def _with_whole_turns(

@@ -62,7 +62,7 @@ from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
-from foamprb.flow.read.layers import Layers
+from foamprb.flow.read.layers import filled
 from foamprb.flow.read.motion import (
     DeformsError,
     deformation_of,
@@ -72,6 +72,7 @@ from foamprb.flow.read.motion import (
     note_of_deformation,
     notes_of,
     require_points,
+    require_uncoupled,
     rigid_motion,
     spin_of_walls,
     with_moving_walls,
@@ -350,14 +351,14 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     read_first, unsteady = partial(case.field, base), is_unsteady(case.root, case.region)
     flux = caveat_of_flux(whole, *first, read_first, source.velocity, unsteady)
     flux += caveat_of_order(whole.mesh, first[0])
-    layers: Callable[[str], Mesh] | None = None
+    layers: Mapping[str, Floats] = {}
     if others:
         try:
             whole = _with_finest_cells(case, whole, base, others)
         except NotPartsError:
-            layers = partial(_filling, case, whole, Layers(whole.mesh))
+            layers = _filling(case, names, base, whole)
     motion: Motion | Deformation | None = None
-    if layers is not None or not others:
+    if layers or not others:
         motion = _motion(case, names, whole, period, source, layers)
     means: dict[int, Floats] = {}
     shapes: dict[int, Floats] = {}
@@ -366,8 +367,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     # Patches that slide along each other are coupled anew at each time.
     joined = rigid is not None and rigid.joins(whole.mesh)
     surfaces = case.poly(base)[0].patches if joined else ()
-    if layers is not None:
-        whole = whole._replace(mesh=layers(names[0]))
+    if layers:
+        whole = whole._replace(mesh=with_points(whole.mesh, layers[names[0]]))
     operators = _Operators(whole.mesh)
     prepared = PreparedTimes(source.cache, whole.mesh)
 
@@ -377,11 +378,9 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     fastest = 0.0 if motion is None else motion.fastest(whole.mesh)
 
     def mesh_at(index: int) -> Mesh:
-        if layers is not None:
-            return layers(names[index])
         if rigid is not None and not joined:
             return rigid.moved(index, whole.mesh)
-        points = _points_at(case, names[index], whole.mesh)
+        points = layers[names[index]] if layers else _points_at(case, names[index], whole.mesh)
         return with_points(whole.mesh, points, surfaces, str(case.mesh_folder(names[index])))
 
     deformed = lru_cache(maxsize=10)(mesh_at)
@@ -475,10 +474,10 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     flow: Any = SeriesFlow
     if others:
         cells = f"a mesh of {whole.mesh.n_cells} cells, the finest of all times"
-        if layers is None:
-            zones = partial(_zones_of_finest, case, base, whole.mesh)
-        else:
+        if layers:
             cells = f"the mesh of {base} s ({whole.mesh.n_cells} cells), which deforms with the boundary"
+        else:
+            zones = partial(_zones_of_finest, case, base, whole.mesh)
         notes.append(f"The faces of the mesh change in time: fields are read at the nodes of {cells}.")
     if isinstance(motion, Deformation):
         notes.append(note_of_deformation(motion, whole.mesh))
@@ -526,9 +525,20 @@ def _with_kinds(case: Case, name: str, whole: CaseMesh, velocity: str) -> CaseMe
     return CaseMesh(replace(whole.mesh, patches=seen.mesh.patches), whole.patches, seen.notes)
 
 
-def _filling(case: Case, whole: CaseMesh, layers: Layers, name: str) -> Mesh:
-    """Return the mesh of all times with its points at the time of a name."""
-    return layers.at(_mesh_of(case, name, whole).mesh, f"{case.root}, mesh at {name} s")
+def _filling(case: Case, names: Sequence[str], base: str, whole: CaseMesh) -> Mapping[str, Floats]:
+    """Return the points of the mesh of one time, ``base``, at each time.
+
+    They follow from those at the time before: from time to time cells deform little.
+    """
+    require_uncoupled(case.root, whole.mesh)
+    points = {base: whole.mesh.points}
+    for step in (1, -1):
+        mesh = whole.mesh
+        for name in names[names.index(base) :: step][1:]:
+            where = f"{case.root}, mesh at {name} s"
+            mesh = filled(mesh, _mesh_of(case, name, whole).mesh, where)
+            points[name] = mesh.points
+    return points
 
 
 def _points_at(case: Case, time: str, mesh: Mesh) -> Floats:
@@ -543,11 +553,11 @@ def _motion(
     whole: CaseMesh,
     period: float | None,
     source: FlowSource,
-    layers: Callable[[str], Mesh] | None,
+    layers: Mapping[str, Floats],
 ) -> Motion | Deformation | None:
     """Return the motion of the mesh of a case; None if it is at rest.
 
-    ``layers`` returns the mesh at the time of a name, if its faces change.
+    ``layers`` are the points of a mesh at all times, if the faces of that of the case change.
     """
     folders = {name: case.folder(name) for name in names[1:]}
     moved = moving_times(folders, "points")
@@ -559,8 +569,8 @@ def _motion(
             f"{case.root}: the mesh moves, but fields of the case ({' '.join(source.sampled)}) are read on "
             "meshes at rest only. Allowed: no fieldSampling, and no force that reads them."
         )
-    if layers is not None:
-        return deformation_of(case.root, names, lambda name: layers(name).points, whole.mesh, period)
+    if layers:
+        return deformation_of(case.root, names, layers.__getitem__, whole.mesh, period)
 
     @lru_cache(maxsize=2)
     def around(index: int) -> tuple[CaseMesh, FoamField, Floats]:
