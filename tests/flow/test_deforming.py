@@ -57,20 +57,21 @@ def layers_up_to(length):
     return np.append(0.1 * np.arange(max(round(10.0 * length), 1)), length)
 
 
-def layered(folder, axis, cells, u, ends):
-    """Return the flow u(x, t), linear in x, of a case with other layers across an axis at each time.
+def layered(folder, axis, cells, u, ends, right="patch", put=lambda *_: None):
+    """Write a case of the flow u(x, t), linear in x, with layers across an axis whose ends change in time.
 
-    ``ends`` are those of the layers, by time.
+    ``put(folder, mesh, t)`` writes further fields.
     """
     for name, heights in ends.items():
         n, other = len(heights) - 1, folder / f"only{name}"
-        mesh = layer((0.0, 1.0), (0.0, 1.0), *((n, cells) if axis == 0 else (cells, n)), right="patch")
+        mesh = layer((0.0, 1.0), (0.0, 1.0), *((n, cells) if axis == 0 else (cells, n)), right=right)
         points = mesh.points.copy()
         points[:, axis] = np.interp(points[:, axis], np.linspace(0.0, 1.0, n + 1), heights)
-        write_case(other, times=(name,), mesh=with_points(mesh, points))
+        mesh = with_points(mesh, points)
+        write_case(other, times=(name,), mesh=mesh)
         at = [u(x, float(name))[0] for x in np.zeros((4, 1, 3)) + np.eye(4, 3, -1)[:, None]]
-        gradient = np.transpose(at[1:] - at[0])
-        put_linear(other / name, with_points(mesh, points), "U", gradient, at[0], "[0 1 -1 0 0 0 0]")
+        put_linear(other / name, mesh, "U", np.transpose(at[1:] - at[0]), at[0], "[0 1 -1 0 0 0 0]")
+        put(other / name, mesh, float(name))
         shutil.copytree(other / "constant/polyMesh", other / name / "polyMesh")
         shutil.copytree(other, folder / "case", dirs_exist_ok=True)
     return folder / "case"
@@ -136,6 +137,32 @@ def test_fluid_is_pressed_out_between_plates(tmp_path, writes, limit, layers):
     _, p = followed(flow, x, {**stick, "right": Escape()}, 0.005, 100)
     assert np.all(p.status == Status.ACTIVE)
     assert rms(p.x, x[:, :2] * ratio) < limit
+
+
+@pytest.mark.parametrize("layers", [False, True])
+def test_gas_is_compressed_with_its_layers_of_density(tmp_path, layers):
+    """In a closed cylinder y / h stays, and the density is h⁻¹ times a function of it."""
+
+    def u(x, t):
+        return x * [0.0, strain_rate(t), 0.0]
+
+    def put(folder, mesh, t):
+        put_linear(folder, mesh, "rho", [0.0, 1.0 / h(t) ** 2, 0.0], 1.0 / h(t), "[1 -3 0 0 0 0 0]")
+
+    ends = {
+        f"{t:.12g}": layers_up_to(h(t)) if layers else np.linspace(0.0, h(t), 11)
+        for t in np.linspace(0.0, 0.5, 21)
+    }
+    case = layered(tmp_path, 1, 4, u, ends, "wall", put)
+    text = header("dictionary", "thermophysicalProperties") + "thermoType { type hePsiThermo; }"
+    (case / "constant/thermophysicalProperties").write_text(text)
+    x = spread(100, (0.02, 0.0005), (0.98, 0.9995))
+    _, p = followed(
+        read_series(case), x, dict.fromkeys(("left", "right", "bottom", "top"), Stick()), 0.005, 100
+    )
+    assert np.all(p.status == Status.ACTIVE)
+    # The growth of the density is the slope between the times before and after.
+    assert rms(p.x, x[:, :2] * [1.0, h(0.5)]) < 4e-4
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.5])

@@ -36,6 +36,7 @@ def mass_of(
     reads: Sequence[Read],
     index: int,
     velocity: str = "U",
+    density_at: Callable[[int], tuple[Floats, Floats] | None] | None = None,
 ) -> Mass | None:
     """Return the density of a flow at one of its times; None if it varies, but is not known.
 
@@ -54,6 +55,8 @@ def mass_of(
         Which of them.
     velocity
         Name of the velocity.
+    density_at
+        Returns :func:`density_of` on the mesh at the time of an index, if each time has another mesh.
     """
     if "." in velocity:
         return None
@@ -64,7 +67,8 @@ def mass_of(
     if flux == VOLUME_FLUX:
         return CONSTANT
     near = sorted({max(index - 1, 0), index, min(index + 1, len(reads) - 1)})
-    pairs = {i: _values(reads[i], whole, root) for i in near}
+    density_at = density_at or (lambda i: density_of(case, region, reads[i], whole))
+    pairs = {i: density_at(i) for i in near}
     values = {i: pair for i, pair in pairs.items() if pair is not None}
     if len(values) < len(near):
         return None
@@ -110,8 +114,9 @@ def _dimensions(read: Read) -> Any:
         return None
 
 
-def _values(read: Read, whole: CaseMesh, root: Dictionary | None) -> tuple[Floats, Floats] | None:
+def density_of(case: Path, region: str, read: Read, whole: CaseMesh) -> tuple[Floats, Floats] | None:
     """Return the density at cells (n_cells,) and boundary faces (n_boundary,); None if it is not known."""
+    root = _mixture(case, region)
     try:
         rho, outside = values_of(read("rho", DENSITY_FIELD), whole)
     except InputError:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.flow.balance import CONSTANT
+from foamprb.flow.balance import CONSTANT, Mass
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.deforming import DeformingFlow
@@ -58,7 +58,7 @@ from foamprb.flow.read.checks import (
     require_patch_shapes,
     require_volumes,
 )
-from foamprb.flow.read.density import mass_of
+from foamprb.flow.read.density import density_of, mass_of
 from foamprb.flow.read.field import VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.fluid import FRACTION_FIELD
 from foamprb.flow.read.foamfile import damage
@@ -385,6 +385,27 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
     deformed = lru_cache(maxsize=10)(mesh_at)
 
+    def given_at(index: int, here: CaseMesh) -> tuple[CaseMesh, Resampling | None]:
+        """Return the mesh of a time, on which its fields are given, and their way to another one."""
+        given, where = _mesh_of(case, names[index], whole), f"{case.root}, mesh at {names[index]} s"
+        same = same_mesh(given.mesh, here.mesh)
+        return given, None if same else Resampling(here.mesh, given.mesh, where)
+
+    @lru_cache(maxsize=4)
+    def density_at(index: int) -> tuple[Floats, Floats] | None:
+        here = whole if motion is None else whole._replace(mesh=deformed(index))
+        given, to = given_at(index, here)
+        values = density_of(case.root, case.region, partial(case.field, names[index]), given)
+        if values is None or to is None:
+            return values
+        at_nodes = _Operators(given.mesh).reconstruct.linear(*values)
+        # Beside a front a linear continuation exceeds the range.
+        ends = np.sort(np.concatenate(values))[[0, -1]]
+        rho = to(at_nodes[:, None])[:, 0].clip(*ends)
+        start = here.mesh.face_start[here.mesh.n_internal :]
+        sums = np.add.reduceat(rho[here.mesh.face_points[start[0] :]], start[:-1] - start[0])
+        return rho[here.mesh.n_points :], sums / np.diff(start)
+
     def read(name: str) -> tuple[Any, ...]:
         reads = [partial(case.field, name) for name in names]
         here, own, index = whole, operators, names.index(name)
@@ -392,25 +413,14 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         if motion is not None:
             here = whole._replace(mesh=(deformed if rigid is None else mesh_at)(index))
             own = operators if rigid is not None and not joined else _Operators(here.mesh, operators)
-        # Fields of a time are given on the mesh of that time.
-        given, at, to = here, own, None
-        if others:
-            given = _mesh_of(case, name, whole)
-            if not same_mesh(given.mesh, here.mesh):
-                to = Resampling(here.mesh, given.mesh, f"{case.root}, mesh at {name} s")
-                at = _Operators(given.mesh)
+        given, to = given_at(index, here) if others else (here, None)
+        at = own if to is None else _Operators(given.mesh)
         # Without sliding patches fields are read in the frames of the pieces, on the mesh of the first time.
         of_frame = rigid if joined else local
         field = case.field(name, source.velocity, VELOCITY_FIELD)
         values = velocities(field, given)
-        if others:
-            mass = mass_of(case.root, case.region, given, [name], [reads[index]], 0, source.velocity)
-            if mass is not None and mass is not CONSTANT:
-                raise InputError(
-                    f"{case.root}: the density varies and the faces of the mesh change. Allowed: one of both."
-                )
-        else:
-            mass = mass_of(case.root, case.region, here, names, reads, index, source.velocity)
+        densities = density_at if others else None
+        mass = mass_of(case.root, case.region, here, names, reads, index, source.velocity, densities)
         where = (case.folder(name) / source.velocity).relative_to(case.root)
 
         def make() -> tuple[Floats, Floats, Floats]:
@@ -421,9 +431,11 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             if frame is not None:
                 nodes = nodes_of_moving_walls(here, field)
                 u[nodes] = frame[0][nodes]
+            there = mass
             if rates is not None:
+                there = _at_fixed_places(mass, own, rates)
                 match_walls(here.mesh, u, rates.copy())
-            fluxes = balanced_in_time(own.conserve, u, l, mass, where, frame, fastest, accept=source.accept)
+            fluxes = balanced_in_time(own.conserve, u, l, there, where, frame, fastest, accept=source.accept)
             if frame is not None:
                 u, l = u - frame[0], l - frame[1]
             return (*(rigid.in_frames(index, here.mesh, u, l) if rigid and joined else (u, l)), fluxes)
@@ -539,6 +551,15 @@ def _filling(case: Case, names: Sequence[str], base: str, whole: CaseMesh) -> Ma
             mesh = filled(mesh, _mesh_of(case, name, whole).mesh, where)
             points[name] = mesh.points
     return points
+
+
+def _at_fixed_places(mass: Mass | None, operators: _Operators, rates: Floats) -> Mass | None:
+    """Return a density whose growth is given in cells that move, by velocities at nodes, at fixed places."""
+    if mass is None or mass is CONSTANT:
+        return mass
+    n = operators.mesh.n_cells
+    slopes = operators.reconstruct.scalar(mass.cells, mass.boundary)[-n:, 1:]
+    return mass._replace(growth=mass.growth - np.einsum("ci,ci->c", rates[-n:], slopes))
 
 
 def _points_at(case: Case, time: str, mesh: Mesh) -> Floats:
