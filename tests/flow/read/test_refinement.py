@@ -7,7 +7,7 @@ import shutil
 
 import numpy as np
 import pytest
-from foam_writer import GRADIENT, put_zones, write_case
+from foam_writer import GRADIENT, header, put_linear, put_scalar, put_zones, write_case
 from mesh_shapes import octants
 
 from foamprb import Cloud, Escape, Medium, Status, Stick, spheres
@@ -76,6 +76,27 @@ def test_paths_in_a_linear_flow_are_those_on_one_mesh(tmp_path):
     assert 5 < (one.status == Status.ACTIVE).sum() < 45
     assert np.array_equal(one.status, other.status)
     assert other.x == pytest.approx(one.x, abs=1e-5)
+
+
+def test_gas_that_is_compressed_keeps_its_mass_as_on_one_mesh(tmp_path):
+    """The velocity is −x, and the density grows with e³ᵗ."""
+    ends = []
+    for name, meshes in {
+        "one": [refined(0, 1, 7)] * 3,
+        "case": [refined(0), refined(), refined(1, 7)],
+    }.items():
+        case = remeshed(tmp_path / name, *meshes)
+        for time, mesh in zip(TIMES, meshes, strict=True):
+            put_linear(case / time, mesh, "U", -np.eye(3), 0.0, "[0 1 -1 0 0 0 0]")
+            put_scalar(case / time, "rho", "1 -3 0", np.exp(3.0 * float(time)))
+        text = header("dictionary", "thermophysicalProperties") + "thermoType { type hePsiThermo; }"
+        (case / "constant/thermophysicalProperties").write_text(text)
+        x = np.random.default_rng(1).uniform(0.02, 0.9, (50, 3))
+        bodies = spheres(x, d=1e-6, rho=1000.0, mu=1e3)
+        Cloud(bodies, read_series(case), Medium(1e-3, 1000.0), [Escape()] * 3, 0.002, threads=1).advance(50)
+        ends.append(bodies.x)
+    assert ends[0] == pytest.approx(x * np.exp(-0.1), abs=0.01)
+    assert ends[1] == pytest.approx(ends[0], abs=1e-3)
 
 
 def test_faces_that_are_written_again_and_stay_the_same_change_nothing(tmp_path):
