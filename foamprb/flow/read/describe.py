@@ -48,6 +48,8 @@ class CaseInfo:
     """Lines about the viscosity of the fluid."""
     moving: tuple[str, ...] = ()
     """Times with points of their own."""
+    remade: tuple[str, ...] = ()
+    """Times with faces of their own."""
 
     def lines(self) -> list[str]:
         """Return the contents as lines of text."""
@@ -66,6 +68,7 @@ class CaseInfo:
             "Times and fields",
             *self._lines_of_times(),
             *([f"    Points of the mesh, too: {listed(self.moving)}"] * bool(self.moving)),
+            *([f"    Faces of the mesh, too: {listed(self.remade)}"] * bool(self.remade)),
         ]
 
     def _lines_of_times(self) -> list[str]:
@@ -87,11 +90,12 @@ def describe(case: Case) -> CaseInfo:
     (points, faces, *_), patches, _ = case.poly(names[-1] if names else None)
     kinds = _kinds(faces.start, faces.owner, faces.neighbour, len(faces.first) - 1)
     bounds = points.min(axis=0), points.max(axis=0)
-    moving = tuple(moving_times({name: case.folder(name) for name in names[1:]}, "points"))
+    folders = {name: case.folder(name) for name in names[1:]}
+    moving, remade = (tuple(moving_times(folders, part)) for part in ("points", "faces"))
     viscosity = describe_viscosity(case.root, case.region, times[-1].fields if times else ())
     return CaseInfo(
         case.root, times, patches, len(points), kinds, bounds, case.region, case.regions(), tuple(viscosity),
-        moving,
+        moving, remade,
     )  # fmt: skip
 
 

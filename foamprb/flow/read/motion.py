@@ -48,9 +48,11 @@ def moving_times(folders: Mapping[str, Path], part: str) -> list[str]:
 
 
 def moves(case: Path, region: str) -> bool:
-    """Return whether a later time of a case has points, but no faces, of its own."""
+    """Return whether the boundary of a case's mesh moves: by later points without faces, or by its kind."""
     folders = {name: case / name / region for name in available_times(case)[1:]}
-    return bool({*moving_times(folders, "points")} - {*moving_times(folders, "faces")})
+    moved, root = moving_times(folders, "points"), find_dictionary(case, region, "dynamicMeshDict")
+    layered = root is not None and "Topo" in word_of(root, "dynamicFvMesh")
+    return bool({*moved} - {*moving_times(folders, "faces")} or (moved and layered))
 
 
 def pieces_of(mesh: Mesh) -> NDArray[np.int64]:
