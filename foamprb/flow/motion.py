@@ -113,6 +113,8 @@ class Motion(NamedTuple):
 
 _SMOOTH = 0.9
 """Least length of the mean of unit normals at a node of a wall that is smooth there."""
+_EDGE = 0.02
+"""Least mean square of the component of unit normals in a direction across a wall."""
 _LIKE = 0.1
 """Largest difference between velocities of fluid and mesh across a wall, over that of the mesh."""
 
@@ -146,15 +148,22 @@ class Deformation(NamedTuple):
 def match_walls(mesh: Mesh, u: Floats, w: Floats) -> None:
     """Let velocities of fluid and mesh, u and w (n_nodes, 3), be the same across walls, in place.
 
-    It is that of the fluid, which the solver has at the time itself, unless both differ much. Along an edge
-    between walls the fluid has the velocity of the mesh.
+    It is that of the fluid, which the solver has at the time itself, unless both differ much. At an edge
+    between walls it is that of the mesh across each of them; along the edge a mesh may slide.
     """
     walls = np.array([patch.kind is PatchKind.WALL for patch in mesh.patches], dtype=bool)
     some = walls[mesh.triangle_patch]
     nodes, of = np.unique(mesh.triangles[some], return_inverse=True)
-    normals, counts = np.zeros((len(nodes), 3)), np.bincount(of.ravel())
+    normals, squares, counts = (
+        np.zeros((len(nodes), 3)),
+        np.zeros((len(nodes), 3, 3)),
+        np.bincount(of.ravel()),
+    )
+    n = np.repeat(mesh.triangle_normals[some], 3, axis=0)
     for k in range(3):
-        normals[:, k] = np.bincount(of.ravel(), np.repeat(mesh.triangle_normals[some, k], 3))
+        normals[:, k] = np.bincount(of.ravel(), n[:, k])
+        for j in range(3):
+            squares[:, k, j] = np.bincount(of.ravel(), n[:, k] * n[:, j])
     length = np.linalg.norm(normals, axis=1)
     normals /= np.maximum(length, 1e-300)[:, None]
     lack = u[nodes] - w[nodes]
@@ -162,7 +171,9 @@ def match_walls(mesh: Mesh, u: Floats, w: Floats) -> None:
     smooth, near = length > _SMOOTH * counts, np.abs(across) <= _LIKE * np.linalg.norm(w[nodes], axis=1)
     along = normals * across[:, None]
     w[nodes] += np.where((smooth & near)[:, None], along, 0.0)
-    u[nodes] -= np.where(smooth[:, None], np.where(near[:, None], 0.0, along), lack)
+    sizes, axes = np.linalg.eigh(squares)
+    of_edges = np.einsum("nik,nk,njk,nj->ni", axes, sizes > _EDGE * counts[:, None], axes, lack)
+    u[nodes] -= np.where(smooth[:, None], np.where(near[:, None], 0.0, along), of_edges)
 
 
 def spins(omega: Floats) -> Floats:

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from foam_writer import header, put_linear, write_case
-from mesh_shapes import cyclic_row, layer
+from mesh_shapes import block, box_patches, cyclic_row, layer
 
 from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, WallLift, spheres
 from foamprb.cloud.injection.models import BoxInjection
@@ -20,7 +20,7 @@ from foamprb.cloud.patches import Adhere, Mirror
 from foamprb.errors import InputError
 from foamprb.flow.deforming import DeformingFlow
 from foamprb.flow.fluxes import Conservation
-from foamprb.flow.mesh.mesh import with_points
+from foamprb.flow.mesh.mesh import build_mesh, with_points
 from foamprb.flow.motion import match_walls
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.motion import deformation_of, note_of_deformation
@@ -411,6 +411,18 @@ def test_a_time_that_is_read_again_from_the_cache_has_the_same_bits(tmp_path):
         for name in ("shapes", "past", "fields", "phi", "curvatures"):
             if hasattr(of, name):
                 np.testing.assert_array_equal(getattr(of, name), getattr(to, name))
+
+
+def test_a_mesh_that_slides_along_an_edge_between_walls_moves_no_fluid_there():
+    """Across the edge, and at corners, the fluid follows the mesh."""
+    shape = block(2, 0.0)
+    mesh = build_mesh(shape, [p._replace(type="wall") for p in box_patches(shape)])
+    u, w = np.zeros_like(mesh.nodes), mesh.nodes.copy()
+    match_walls(mesh, u, w)
+    at = {tuple(x): v for x, v in zip(mesh.nodes.tolist(), u.tolist(), strict=True)}
+    assert at[0.0, 1.0, 0.5] == pytest.approx([0.0, 1.0, 0.0])
+    assert at[1.0, 1.0, 0.5] == pytest.approx([1.0, 1.0, 0.0])
+    assert at[1.0, 1.0, 1.0] == pytest.approx([1.0, 1.0, 1.0])
 
 
 def test_another_number_of_points_is_reported():
