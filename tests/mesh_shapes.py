@@ -306,9 +306,9 @@ def ring(inner, outer, around, layers=3):
     return grid(points, [(12, np.hstack([low, low + top]))])
 
 
-def rings(around=(24, 36)):
+def rings(around=(24, 36), layers=3):
     """Two rings, from r = 0.5 to 1 and from 1 to 1.5, that slide on each other."""
-    parts = [ring(0.5, 1.0, around[0]), ring(1.0, 1.5, around[1])]
+    parts = [ring(0.5, 1.0, around[0], layers), ring(1.0, 1.5, around[1], layers)]
     patches = []
     for part, own, other, edges in zip(
         parts, ("in", "out"), ("out", "in"), ((0.5, 1.0), (1.5, 1.0)), strict=True

@@ -13,10 +13,10 @@ from typing import Annotated, ClassVar, NamedTuple
 import numpy as np
 
 from foamprb.body.bonds import exponential_deviate, force_on_held_sphere, off_rate
-from foamprb.body.tensor import Vector, dot
+from foamprb.body.tensor import Vector
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud import lanes, motion
-from foamprb.cloud.block import Scratch, at, load3, load9, store3, store9
+from foamprb.cloud.block import Scratch, at, load3, load9, store3
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
@@ -29,7 +29,10 @@ from foamprb.cloud.motion import (
     STUCK,
     PatchTable,
     renew_clearance,
+    resume,
     settle,
+    turn_along,
+    turn_body,
 )
 from foamprb.cloud.patches import STICK
 from foamprb.cloud.paths import record_rest
@@ -121,7 +124,9 @@ def let_go(flow: object, s: Scratch, i: int, t: float, dt: float) -> None:
     block = s.block
     x, turn, v = ride(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i], t)
     if turn[0] < 1.0 or turn[4] < 1.0:
-        store9(block, at.F, i, dot(turn, load9(block, at.F, i)))
+        turn_body(block, i, turn, load9(block, at.F, i), load9(block, at.A, i))
+        turn_along(block, i, turn)
+    resume(block, i)
     record_rest(s, i, t)
     change_bond(s, i)
     s.status[i], s.patch[i] = ACTIVE, -1

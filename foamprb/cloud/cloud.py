@@ -44,7 +44,6 @@ from foamprb.cloud.stability import unstable, warning_of
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.surroundings.base import Survey
 from foamprb.cloud.surroundings.memory import FadingMemory
-from foamprb.cloud.surroundings.quadratic import QuadraticSolid
 from foamprb.cloud.tracker import Models, Tracker, available_threads, check, never
 from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import conform, link, packed
@@ -175,8 +174,6 @@ class Cloud:
             for kernel in model.kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
-        if "wall_velocity" in self.flow.kernels and any(isinstance(m, QuadraticSolid) for m in around):
-            raise InputError("the mesh moves, but shapeModel quadratic needs one at rest. Allowed: affine.")
         self.map_ranks(_begin, around)
         self._warned: set[str] = set()
         self._next_check = self.step + _FIRST_CHECK

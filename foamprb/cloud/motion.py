@@ -1,7 +1,7 @@
 """Motion of particles through the mesh, contact with patches, and the end of particles.
 
-What models add is behind the slots :func:`turn_along`, :func:`bounce_along`, :func:`form_bond` and
-:func:`mirror_memory`; :func:`rewind` is that of the integrator.
+What models add is behind the slots :func:`turn_along`, :func:`bounce_along`, :func:`form_bond`,
+:func:`resume` and :func:`mirror_memory`; :func:`rewind` is that of the integrator.
 """
 
 from __future__ import annotations
@@ -157,6 +157,11 @@ def form_bond(
     _flow: object, _patches: PatchTable, _s: Scratch, _i: int, _patch: int, _t: float, _h: float
 ) -> None:
     """No-op: bodies in contact with a wall form no bonds."""
+
+
+@slot
+def resume(_block: Block, _i: int) -> None:
+    """No-op: no further quantity of lane i stays as it was while a wall held the body."""
 
 
 @slot

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats
+from foamprb.flow.mesh.coupling import Coupling
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import PatchKind
 
@@ -63,9 +64,12 @@ class Motion(NamedTuple):
 
     def joins(self, mesh: Mesh) -> bool:
         """Return whether patches of different pieces are coupled."""
-        owner = mesh.owner[mesh.n_internal :]
-        ends = ((self.piece[owner[c.faces]], self.piece[owner[c.partners]]) for c in mesh.couplings)
-        return any((here != there).any() for here, there in ends)
+        return len(self.within(mesh)) < len(mesh.couplings)
+
+    def within(self, mesh: Mesh) -> tuple[Coupling, ...]:
+        """Return the couplings of patches of the same piece."""
+        piece = self.piece[mesh.owner[mesh.n_internal :]]
+        return tuple(c for c in mesh.couplings if (piece[c.faces] == piece[c.partners]).all())
 
     def of_frames(self) -> Motion:
         """Return the same rates in components of the frames, for points at their places at the first time."""

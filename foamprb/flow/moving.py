@@ -553,10 +553,10 @@ class MovingFlow(MovingMeshFlow):
         nodes, pieces = mesh.nodes, motion.nodes(mesh)
         low, size = nodes.min(axis=0), float(np.ptp(nodes, axis=0).max())
         self._pitch, self._low = _APART * size, float(low[0]) - 0.5 * (_APART - 1.0) * size
-        super().__init__(_apart(mesh, motion.piece, pieces, self._pitch), *given, **options)
+        super().__init__(_apart(mesh, motion, pieces, self._pitch), *given, **options)
         self._apart, couplings, owner = self.mesh, mesh.couplings, mesh.owner[mesh.n_internal :]
         if self._division is not None:
-            mesh = _apart(self.mesh, motion.piece, motion.nodes(self.mesh), -self._pitch)
+            mesh = _apart(self.mesh, motion, motion.nodes(self.mesh), -self._pitch)
         self.mesh, self.bounds, self.width = mesh, (low, nodes.max(axis=0)), shortest_extent(mesh)
         self._rows = np.array([self._poses(i) for i in range(len(motion.turns))])
         self._beyond = np.full(len(mesh.patches), -1, dtype=np.int32)
@@ -664,15 +664,15 @@ def _jacobian(r: Floats) -> Floats:
     return J
 
 
-def _apart(mesh: Mesh, piece: NDArray[np.int64], pieces: NDArray[np.int64], pitch: float) -> Mesh:
-    """Return the mesh with its pieces (n_cells,), of the nodes ``pieces``, moved apart along x."""
+def _apart(mesh: Mesh, motion: Motion, pieces: NDArray[np.int64], pitch: float) -> Mesh:
+    """Return the mesh with its pieces, of the nodes ``pieces``, moved apart along x."""
     shift = np.zeros((len(pieces), 3))
     shift[:, 0] = pitch * pieces
     owner = mesh.owner[mesh.n_internal :]
     couplings = [
-        _shifted(c, *(pitch * float(piece[owner[faces[0]]]) for faces in (c.faces, c.partners)))
-        for c in mesh.couplings
-        if len(c.faces) and (piece[owner[c.faces]] == piece[owner[c.partners]]).all()
+        _shifted(c, pitch * float(motion.piece[owner[c.faces[0]]]))
+        for c in motion.within(mesh)
+        if len(c.faces)
     ]
     return replace(
         mesh,
@@ -683,9 +683,9 @@ def _apart(mesh: Mesh, piece: NDArray[np.int64], pieces: NDArray[np.int64], pitc
     )
 
 
-def _shifted(c: Coupling, here: float, there: float) -> Coupling:
+def _shifted(c: Coupling, way: float) -> Coupling:
     """Return a coupling whose patches have been moved along x."""
-    return c._replace(shift=c.shift + np.array([there, 0.0, 0.0]) - c.turn @ np.array([here, 0.0, 0.0]))
+    return c._replace(shift=c.shift + way * np.eye(3)[0] - way * c.turn[:, 0])
 
 
 def _tree_of(mesh: Mesh, triangles: NDArray[np.intp]) -> tuple[Floats, Ints]:

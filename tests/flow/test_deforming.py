@@ -18,6 +18,7 @@ from foamprb.cloud.injection.models import BoxInjection
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.patches import Adhere, Mirror
 from foamprb.errors import InputError
+from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.deforming import DeformingFlow
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import build_mesh, with_points
@@ -32,7 +33,7 @@ from foamprb.run.room import Room
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
 
 
-def deforming(mesh, motion, u, times, period=None):
+def deforming(mesh, motion, u, times, period=None, curved=False):
     """Return the flow u(x, t) on a mesh that ``motion(points, t)`` moves, as a case would give it."""
     names = [f"{t:.12g}" for t in times]
     fit = deformation_of(Path("case"), names, lambda n: motion(mesh.points, float(n)), mesh, period)
@@ -47,9 +48,10 @@ def deforming(mesh, motion, u, times, period=None):
         w = fit.rates(k, lambda j: at(j).nodes)
         match_walls(here, v, w)
         shapes[k] = np.concatenate([here.nodes, w], axis=1)
-        return v, l, Conservation(here)(v, l, fastest=fit.fastest(here))
+        fluxes = Conservation(here)(v, l, fastest=fit.fastest(here))
+        return (v, l, fluxes, mean_curvatures(here, l)) if curved else (v, l, fluxes)
 
-    return DeformingFlow(fit, shapes, mesh, times, read, period, conservative=True)
+    return DeformingFlow(fit, shapes, mesh, times, read, period, conservative=True, curved=curved)
 
 
 def layers_up_to(length):
@@ -297,6 +299,30 @@ def test_bonds_hold_bodies_on_a_wall_that_moves():
     assert np.array_equal(p.status, there.status)
     assert p.x[:, 0] == pytest.approx(SPEED * 0.3 + 0.01, abs=1e-5)
     assert p.v[:, 0] == pytest.approx(SPEED + np.where(held, 0.0, there.v[:, 0]), abs=1e-6)
+
+
+def test_bullets_in_a_channel_are_those_of_a_mesh_at_rest():
+    """While points inside move: B = 35/32 μ a S/μ_s of plane Poiseuille flow."""
+    mesh, a, y = layer((0.0, 2.0), (-0.5, 0.5), 32, 12, left="patch", right="patch"), 0.02, (0.05, 0.2, -0.3)
+    bullets = []
+    for way in (0.0, 0.05):
+
+        def motion(x, t, way=way):
+            s = way * np.sin(2.0 * np.pi * t) * np.sin(np.pi * x[:, 0]) * np.cos(np.pi * x[:, 1])
+            return x + np.stack([s, s * np.cos(3.0 * x[:, 0]), 0.0 * s], axis=1)
+
+        def u(x, _t):
+            return np.stack([1.0 - 4.0 * x[:, 1] ** 2, 0.0 * x[:, 0], 0.0 * x[:, 0]], axis=1)
+
+        flow = deforming(mesh, motion, u, np.linspace(0.0, 0.6, 8), curved=True)
+        p = spheres([[0.3, at, 0.05] for at in y], d=2.0 * a, rho=1e-9, mu=0.1, poissons_ratio=0.4999)
+        patches = [Mirror() if patch.type == "empty" else Escape() for patch in flow.patches]
+        thin, models = Medium(1e-3, 1e-9, (0.0, 0.0, 0.0)), Models(integrator="stokes", shape="quadratic")
+        Cloud(p, flow, thin, patches, 0.01, models, threads=1).advance(60)
+        bullets.append(p.B[:, [0, 3]])
+    S = 8.0 * np.array([1.0 / 5.0, -4.0 / 15.0])
+    assert bullets[0] / (35.0 / 32.0 * 1e-3 * a * S / 0.1) == pytest.approx(1.0, abs=7e-3)
+    assert bullets[1] == pytest.approx(bullets[0], rel=2e-3)
 
 
 def test_patches_zones_and_hosts_are_where_they_are_at_a_time(piston):

@@ -13,8 +13,10 @@ from mesh_shapes import block, box_patches, layer, rings
 from scipy.spatial.transform import Rotation
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, Stick, WallLift, spheres
+from foamprb.cloud.instants import ridden
 from foamprb.cloud.patches import Cyclic, Mirror
 from foamprb.errors import InputError
+from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.moving import MovingFlow
 from foamprb.flow.read.motion import notes_of, rigid_motion
@@ -30,8 +32,8 @@ def no_walls(_index, cells):
     """No wall shows how fast a piece turns."""
 
 
-def moved_by(mesh, motion, u, l=None, period=None, times=TIMES):
-    """Return the flow u(x, t), with the gradient l, on a mesh that ``motion(points, t)`` moves."""
+def moved_by(mesh, motion, u, l=None, period=None, times=TIMES, curved=False):
+    """Return the flow u(x, t), with the gradient l or l(x), on a mesh that ``motion(points, t)`` moves."""
     t = [float(name) for name in times]
     fit = rigid_motion(
         Path("case"), times, lambda name: motion(mesh.points, float(name)), mesh, {}, no_walls, period
@@ -41,13 +43,15 @@ def moved_by(mesh, motion, u, l=None, period=None, times=TIMES):
     def read(index):
         x = np.einsum("nij,nj->ni", fit.Q[index, fit.nodes(mesh)], mesh.nodes - fit.c[fit.nodes(mesh)])
         x += fit.y[index, fit.nodes(mesh)]
-        gradient = np.zeros((3, 3)) if l is None else l
+        gradient = np.zeros((3, 3)) if l is None else l(x) if callable(l) else l
         _, W = fit.frame(index, mesh)
         means[index] = fit.means(mesh, u(x, t[index])[mesh.n_points :])
         v = u(x, t[index]) - fit.speed(index, x, fit.nodes(mesh))
-        return fit.in_frames(index, mesh, v, gradient - W)
+        v, gradient = fit.in_frames(index, mesh, v, gradient - W)
+        own = replace(mesh, couplings=fit.within(mesh))
+        return (v, gradient, mean_curvatures(own, gradient)) if curved else (v, gradient)
 
-    return MovingFlow(fit, means, mesh, t, read, period)
+    return MovingFlow(fit, means, mesh, t, read, period, curved=curved)
 
 
 def turned(angle):
@@ -59,15 +63,15 @@ def rotor(angle):
 
     def motion(points, t):
         inner = np.hypot(*points[:, :2].T) < 0.99
-        inner |= np.arange(len(points)) < len(points) * 24 // 60
+        inner |= np.arange(len(points)) < len(points) * 2 // 5
         return np.where(inner[:, None], turned(angle)(points, t), points)
 
     return motion
 
 
-def open_rings():
+def open_rings(**shape):
     """Rings without walls, through which a fluid may flow."""
-    mesh = rings()
+    mesh = rings(**shape)
     return replace(mesh, patches=[p._replace(type="patch") if p.type == "wall" else p for p in mesh.patches])
 
 
@@ -139,6 +143,52 @@ def test_tracers_cross_the_interface_of_a_turning_ring(stirred):
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     assert np.all(bodies.status == Status.ACTIVE)
     assert bodies.x[:, :2] == pytest.approx(centre + (x[:, :2] - centre) @ turn.T, abs=2e-4)
+
+
+@pytest.mark.parametrize("angle", [0.0, 50.0])
+def test_the_quadratic_mode_between_cylinders_is_that_on_a_mesh_at_rest(angle):
+    """Of u = (A r + B/r) e_θ in closed form, within the ring that turns, beside the interface, and outside.
+
+    S = 2i B e^{3iθ}/r³ for S₁₁₁ + i S₁₁₂ turns with 3 (A + B/r²) 1/s, the fluid with A, and the body follows.
+    """
+    A, B, a, mu_s = -1.1, 2.45, 0.02, 0.1
+
+    def spin(x, _t=0.0):
+        return A + B / (x[:, 0] ** 2 + x[:, 1] ** 2)
+
+    def u(x, t):
+        return spin(x)[:, None] * np.cross([0.0, 0.0, 1.0], x)
+
+    def gradient(x):
+        slope = -2.0 * B * x * [1.0, 1.0, 0.0] / ((x[:, :2] ** 2).sum(axis=1) ** 2)[:, None]
+        e = np.cross([0.0, 0.0, 1.0], x)
+        turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+        return e[:, :, None] * slope[:, None] + spin(x)[:, None, None] * turn
+
+    mesh = open_rings(around=(48, 72), layers=6)
+    flow = moved_by(mesh, rotor(np.radians(angle)), u, gradient, curved=True)
+    x = [[0.67, 0.2, 0.5], [-0.35, 0.77, 0.4], [1.2, 0.0, 0.5], [0.976, 0.085, 0.45]]
+    p = spheres(x, d=2.0 * a, rho=1e-9, mu=mu_s, poissons_ratio=0.4999)
+    thin, models = Medium(1e-3, 1e-9, (0.0, 0.0, 0.0)), Models(integrator="stokes", shape="quadratic")
+    patches = [Cyclic() if patch.neighbour else Rebound() for patch in flow.patches]
+    Cloud(p, flow, thin, patches, 0.01, models, threads=1).advance(30)
+    z, c = p.x[:, 0] + 1j * p.x[:, 1], 1.0 / (19.0 * 1e-3)
+    S = 2j * B * z**3 / np.abs(z) ** 6
+    expected = 17.5e-3 * a * c * S / (16.0 * mu_s * c + 3j * (spin(p.x) - A))
+    off = np.abs(p.B[:, 0] + 1j * p.B[:, 1] - expected) / np.abs(expected)
+    assert off[:3].max() < 0.02
+    assert off[3] < 0.07
+
+
+def test_what_sticks_to_a_rotor_turns_with_it(stirred):
+    """By 100 degrees; its quadratic mode, too."""
+    flow, p = stirred[0], spheres([[0.6, 0.0, 0.5]], d=1e-3, rho=1000.0, mu=1e3)
+    p.status[:], p.host[:], p.B[0, :4] = Status.STUCK, flow.locate(p.x), [0.1, 0.2, 0.0, -0.1]
+    p.B[0, 5], turn = -0.2, np.exp(1j * np.radians(100.0))
+    now = ridden(flow.kernels, flow.arrays(), p, 0.2)
+    assert now.x[0, 0] + 1j * now.x[0, 1] == pytest.approx(0.6 * turn)
+    assert now.F[0, 0] + 1j * now.F[0, 3] == pytest.approx(turn)
+    assert now.B[0, 0] + 1j * now.B[0, 1] == pytest.approx((0.1 + 0.2j) * turn**3)
 
 
 @pytest.mark.parametrize(("writes", "limit"), [(6, 3.5e-3), (12, 8e-4)])

@@ -71,7 +71,7 @@ from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3, store
 from foamprb.cloud.contact import mode_in, mode_of
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Block, Row, offsets
-from foamprb.cloud.motion import renew_clearance, turn_along
+from foamprb.cloud.motion import renew_clearance, resume, turn_along
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Remarks, Stage, Surrounding, Survey, add3
 from foamprb.cloud.surroundings.memory import rows_for
@@ -110,8 +110,6 @@ class SecondRows(NamedTuple):
     laplacian: Annotated[int, Row(3, "1/(m s)", "Laplacian of the velocity")]
 
 
-_HELD = 6.0
-"""Time without an update, in steps, after which a body at rest has been held by a wall."""
 _CHANGE, _CHANGE_OF_B = 0.2, 1e-3
 """Relative change of S, and change of B, within a step longer than Δt."""
 
@@ -154,13 +152,15 @@ def flow_parts(flow: object, s: Scratch, i: int) -> Parts:
 def elapsed(block: Block, i: int) -> float:
     """Return the time for which the mode of lane i has to be advanced, s.
 
-    It is 0 for a body that has just been loaded, and for one at rest of which a wall has just let go. Where
-    the flow has no velocity a body is at rest, too, and is updated in each step.
+    It is 0 for a body that has just been loaded, or of which a wall has just let go.
     """
-    if not block[mode.sampled * LANES + i] > 0.0:
-        return 0.0
-    h = float(block[at.t * LANES + i] - block[mode.reached * LANES + i])
-    return h if norm(load3(block, at.v, i)) > 0.0 or h <= _HELD * block[at.h * LANES + i] else 0.0
+    k = mode.sampled * LANES + i
+    return float(block[at.t * LANES + i] - block[mode.reached * LANES + i]) if block[k] > 0.0 else 0.0
+
+
+def restart_mode(block: Block, i: int) -> None:
+    """Let the mode of lane i, which a wall has held, go on as it is."""
+    block[mode.sampled * LANES + i] = 0.0
 
 
 def ahead(block: Block, i: int, remaining: float) -> float:
@@ -601,6 +601,7 @@ class QuadraticSolid(Surrounding):
         return {
             **(with_past(self.n_times) if self.n_times else {}),
             turn_along: turn_mode,
+            resume: restart_mode,
             mode_in: mode_of_lane,
             mode_of: mode_of_row,
             swelling: swelling_by_mode,

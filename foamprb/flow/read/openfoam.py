@@ -371,6 +371,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
         whole = whole._replace(mesh=with_points(whole.mesh, layers[names[0]]))
     operators = _Operators(whole.mesh)
     prepared = PreparedTimes(source.cache, whole.mesh)
+    # In the frames of pieces fields do not continue from one to another.
+    framed = whole.mesh if rigid is None else replace(whole.mesh, couplings=rigid.within(whole.mesh))
 
     def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
         return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators.reconstruct)
@@ -465,7 +467,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
             for array in more:
                 slopes = array[:, -3 * (array.shape[1] // 3) :]
                 slopes[:] = rigid.turned(index, slopes, rigid.nodes(here.mesh))
-        bent = whole.mesh if rates is None else here.mesh
+        bent = framed if rates is None else here.mesh
         curvatures = [mean_curvatures(bent, l)] if source.curved else []
         return (u, l, *more, *([sampled(name)[0]] if kinds else []), fluxes, *curvatures)
 
