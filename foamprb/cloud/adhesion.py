@@ -126,7 +126,7 @@ def let_go(flow: object, s: Scratch, i: int, t: float, dt: float) -> None:
     if turn[0] < 1.0 or turn[4] < 1.0:
         turn_body(block, i, turn, load9(block, at.F, i), load9(block, at.A, i))
         turn_along(block, i, turn)
-    resume(block, i)
+    resume(block, i, t - block[at.t * LANES + i])
     record_rest(s, i, t)
     change_bond(s, i)
     s.status[i], s.patch[i] = ACTIVE, -1

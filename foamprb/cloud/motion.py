@@ -160,8 +160,8 @@ def form_bond(
 
 
 @slot
-def resume(_block: Block, _i: int) -> None:
-    """No-op: no further quantity of lane i stays as it was while a wall held the body."""
+def resume(_block: Block, _i: int, _held: float) -> None:
+    """No-op: no further quantity of lane i stays as it was while a wall held the body for a time, s."""
 
 
 @slot

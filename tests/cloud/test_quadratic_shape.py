@@ -360,7 +360,7 @@ def test_a_mirrored_body_goes_on_as_the_mirror_image(lane, sign):
 
 def test_a_body_that_a_wall_lets_go_keeps_the_shape_with_which_it_was_held(lane):
     B = load7(lane.block, lane.mode.B, 3)
-    quadratic.restart_mode(lane.block, 3)
+    quadratic.hold_mode(lane.block, 3, 0.5)
     quadratic.advance_mode(lane.block, 3, (1.0,) * 7, 2.0, (0.0, 0.0, 0.0), 0.3)
     assert load7(lane.block, lane.mode.B, 3) == B
 

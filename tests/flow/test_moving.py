@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, Stick, WallLift, spheres
 from foamprb.cloud.instants import ridden
-from foamprb.cloud.patches import Cyclic, Mirror
+from foamprb.cloud.patches import Adhere, Cyclic, Mirror
 from foamprb.errors import InputError
 from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.mesh.mesh import build_mesh
@@ -208,6 +208,28 @@ def test_a_fluid_that_is_shaken_with_its_box_stays_in_place(writes, limit):
     assert np.all(bodies.status == Status.ACTIVE)
     off = bodies.x - x - np.sin(1.4 * np.pi) * way
     assert np.sqrt(np.mean(np.sum(off[:, :2] ** 2, axis=1))) < limit
+
+
+def test_bodies_that_bonds_hold_for_a_while_turn_with_the_wall_and_the_fluid():
+    """Their shape, and the quadratic mode, up to the step at whose end each bond forms."""
+    omega, n = np.radians(300.0), 20
+    shape = block(3, 0.0)
+    mesh = build_mesh(shape, [p._replace(type="wall") for p in box_patches(shape)])
+    spin = np.array([[0.0, -omega, 0.0], [omega, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    flow = moved_by(mesh, turned(omega * STEP), lambda x, _t: x @ spin.T, spin)
+    p = spheres([[0.4, y, 0.01] for y in np.linspace(0.3, 0.7, n)], d=0.02, rho=2000.0, mu=1e-3)
+    p.B[:, [0, 3]] = 0.1, -0.1
+    models, oil = Models(integrator="stokes", shape="quadratic"), Medium(1.0, 1000.0, (0.0, 0.0, -9.81))
+    walls = [Adhere(kOn=30.0, kOff=20.0)] * len(flow.patches)
+    cloud = Cloud(p, flow, oil, walls, 0.005, models, threads=1)
+    cloud.advance(60)
+    now, turn = cloud.comm.rank.at_instant(0.3, False), np.exp(1j * omega * 0.3)
+    assert p.bonds.max() > 1
+    assert 3 < np.count_nonzero(now.status == Status.STUCK) < n - 3
+    assert now.F[:, 0] + 1j * now.F[:, 3] == pytest.approx(np.full(n, turn), abs=2e-3)
+    off = (now.B[:, 0] + 1j * now.B[:, 1]) / (0.1 * turn**3)
+    assert np.abs(off) == pytest.approx(1.0, abs=1e-3)
+    assert np.all(np.abs(np.angle(off)) < 3.0 * omega * 0.005 * (0.5 * p.bonds + 0.51))
 
 
 def box_at(speed):

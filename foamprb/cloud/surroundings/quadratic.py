@@ -150,17 +150,14 @@ def flow_parts(flow: object, s: Scratch, i: int) -> Parts:
 
 
 def elapsed(block: Block, i: int) -> float:
-    """Return the time for which the mode of lane i has to be advanced, s.
-
-    It is 0 for a body that has just been loaded, or of which a wall has just let go.
-    """
+    """Return the time for which the mode of lane i has to be advanced, s; 0 if it has just been loaded."""
     k = mode.sampled * LANES + i
     return float(block[at.t * LANES + i] - block[mode.reached * LANES + i]) if block[k] > 0.0 else 0.0
 
 
-def restart_mode(block: Block, i: int) -> None:
-    """Let the mode of lane i, which a wall has held, go on as it is."""
-    block[mode.sampled * LANES + i] = 0.0
+def hold_mode(block: Block, i: int, held: float) -> None:
+    """Let the mode of lane i go on as it was before a wall held it for a time, s."""
+    block[mode.reached * LANES + i] += held
 
 
 def ahead(block: Block, i: int, remaining: float) -> float:
@@ -601,7 +598,7 @@ class QuadraticSolid(Surrounding):
         return {
             **(with_past(self.n_times) if self.n_times else {}),
             turn_along: turn_mode,
-            resume: restart_mode,
+            resume: hold_mode,
             mode_in: mode_of_lane,
             mode_of: mode_of_row,
             swelling: swelling_by_mode,
