@@ -381,7 +381,12 @@ def layer(x, y, n, m, **types):
         near = np.abs([c[0] - x[0], c[0] - x[1], c[1] - y[0], c[1] - y[1]]) < 1e-9
         return [*SIDES][near.argmax() if near.any() else 4]
 
-    return build_mesh(shape, boundary(shape, name, {**SIDES, **types}))
+    patches = boundary(shape, name, {**SIDES, **types})
+    if types.get("left") == "cyclic":
+        patches[0] = patches[0]._replace(neighbour="right")
+        shift = np.array([x[1] - x[0], 0.0, 0.0])
+        patches[1] = matching(patches[0], patches[1], np.eye(3), shift, 1)._replace(neighbour="left")
+    return build_mesh(shape, patches)
 
 
 def octants(*fine):

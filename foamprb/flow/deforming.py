@@ -76,6 +76,7 @@ from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walk import walk_on as walk_on_mesh
 from foamprb.flow.wall_lists import near_walls, wall_tree
+from foamprb.flow.walls import Walls, images_of_walls
 from foamprb.flow.walls import gap as gap_mesh
 
 _SAME: Tensor = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
@@ -608,31 +609,66 @@ class DeformingFlow(MovingMeshFlow):
         seen: Sequence[int],
     ) -> MeshArrays:
         mesh, arrays = self._reference, self._arrays
-        names = np.flatnonzero(np.isin(mesh.triangle_patch, seen)).astype(np.int32)
-        if len(names) > 0:
+        names = np.flatnonzero(np.isin(mesh.triangle_patch, [*touchable, *seen])).astype(np.int32)
+        corners, off = mesh.points[mesh.triangles[names]], self._off[mesh.triangles[names]].max(axis=1)
+        if mesh.couplings:
+            far = max(reach if touchable else 0.0, sight if seen else 0.0) + 2.0 * off.max(initial=0.0)
+            images = images_of_walls(mesh, Walls(corners, mesh.triangle_normals[names], names), far)
+            of = images.patches
+            names = np.concatenate([names, len(mesh.triangles) + np.arange(len(of), dtype=np.int32)])
+            corners = np.concatenate([corners, images.corners])
+            off = np.concatenate([off, self._off[mesh.triangles[of]].max(axis=1)])
+            arrays = arrays._replace(
+                triangles=np.concatenate([arrays.triangles, self._place_images(of, images.corners)]),
+                triangle_patch=np.concatenate([arrays.triangle_patch, arrays.triangle_patch[of]]),
+            )
+        some = np.isin(arrays.triangle_patch[names], seen)
+        if some.any():
             # Each of them may be the nearest wall of some place at some time.
-            corners = mesh.points[mesh.triangles[names]]
-            far = sight + self._off[mesh.triangles[names]].max(axis=1)[:, None]
-            targets = np.concatenate([corners.min(axis=1) - far, corners.max(axis=1) + far], axis=1)
-            start, found = pairs_near(self._boxes, Tree(arrays.tree_boxes, arrays.tree_cells), targets)
-            arrays = arrays._replace(seen_start=start, seen=2 * names[found] + 1)
-        names = np.flatnonzero(np.isin(mesh.triangle_patch, touchable)).astype(np.int32)
-        if len(names) == 0:
+            far = sight + off[some, None]
+            lower, upper = corners[some].min(axis=1) - far, corners[some].max(axis=1) + far
+            tree = Tree(arrays.tree_boxes, arrays.tree_cells)
+            start, found = pairs_near(self._boxes, tree, np.concatenate([lower, upper], axis=1))
+            arrays = arrays._replace(seen_start=start, seen=2 * names[some][found] + 1)
+        some = np.isin(arrays.triangle_patch[names], touchable)
+        if not some.any():
             return arrays
-        triangles = mesh.triangles[names]
+        names, most = names[some], float(off[some].max())
         # Without normals no triangle stands for others in its plane.
-        tree = wall_tree(mesh.points[triangles], np.zeros((len(names), 3)), seen=False)
-        off = float(self._off[triangles].max())
-        tree = tree._replace(boxes=tree.boxes + off * np.repeat([-1.0, 1.0], 3))
+        walls = wall_tree(corners[some], np.zeros((len(names), 3)), seen=False)
+        walls = walls._replace(boxes=walls.boxes + most * np.repeat([-1.0, 1.0], 3))
         size = float(np.cbrt(np.median(mesh.volumes)))
-        start, near = near_walls(tree, self._boxes, reach + off, names, size)
-        leaves = np.where(tree.leaves < 0, np.int32(-1), names[tree.leaves])
-        return arrays._replace(near_start=start, near=near, wall_boxes=tree.boxes, wall_leaves=leaves)
+        start, near = near_walls(walls, self._boxes, reach + most, names, size)
+        leaves = np.where(walls.leaves < 0, np.int32(-1), names[walls.leaves])
+        return arrays._replace(near_start=start, near=near, wall_boxes=walls.boxes, wall_leaves=leaves)
+
+    def _place_images(self, of: Ints, corners: Floats) -> Ints:
+        """Place the corners of images of triangles at the loaded times; return their nodes, (n, 3).
+
+        Their rows follow those of all times in memory: that of a node is as far from row to row.
+        """
+        mesh, (capacity, n) = self._reference, self._fields.shape[:2]
+        nodes = mesh.triangles[of].ravel()
+        rows, columns = np.divmod(np.arange(len(nodes)), n)
+        rows = capacity * (1 + rows)
+        if len(nodes) and rows[-1] + capacity > len(self._shapes):
+            self._shapes = self._grown(self._shapes, rows[-1] + capacity)
+        # Triangles without an area have no inverse.
+        back = np.linalg.pinv(_edges(mesh.points[mesh.triangles[of]]))
+        turns = np.repeat(_edges(corners) @ back, 3, axis=0)
+        shifts = corners.reshape(-1, 3) - np.einsum("nij,nj->ni", turns, mesh.points[nodes])
+        for level in self._levels:
+            place = self._in_memory[self._index(level)]
+            shapes = self._shapes[place, nodes].reshape(-1, 2, 3) @ turns.transpose(0, 2, 1)
+            shapes[:, 0] += shifts
+            self._shapes[rows + place, columns] = shapes.reshape(-1, 6)
+        return (rows * n + columns).astype(np.int32).reshape(-1, 3)
 
     def _make_room(self, wanted: Sequence[int]) -> None:
+        before = len(self._fields)
         super()._make_room(wanted)
-        if len(self._fields) > len(self._shapes):
-            self._shapes = self._grown(self._shapes, len(self._fields))
+        if len(self._fields) > before:
+            self._shapes, self._near = self._grown(self._shapes[:before], len(self._fields)), None
 
     def _fetch(self, index: int) -> None:
         super()._fetch(index)
@@ -654,6 +690,12 @@ class DeformingFlow(MovingMeshFlow):
         (x, v), (y, w) = (np.split(arrays.shapes[row : row + n], 2, axis=1) for row in rows)
         nodes: Floats = at.a * x + at.b * v + at.c * y + at.d * w
         return nodes
+
+
+def _edges(corners: Floats) -> Floats:
+    """Return matrices of two edges of triangles (n, 3, 3) and the normal, as columns."""
+    p, q = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return np.stack([p, q, np.cross(p, q)], axis=2)
 
 
 def _pull_all(flow: DeformingArrays, hosts: NDArray[np.int64], t: Floats, x: Floats, apart: bool) -> None:

@@ -12,6 +12,9 @@ from foamprb.flow.mesh.lists import Index, take_lists
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import PatchKind
 
+SEAM = 0.05
+"""Largest distance of a point from its image beyond a coupled patch, over the width of a face."""
+
 
 def _unchanged(values: Floats) -> Floats:
     return values
@@ -47,7 +50,7 @@ class Images:
             places.append((mesh.centres[cells[-1]] - coupling.shift) @ coupling.turn)
             turns.append(np.broadcast_to(coupling.turn.T, (len(coupling.faces), 3, 3)))
             if coupling.patch < coupling.other and len(coupling.faces):
-                self._seams.append(_seam(mesh, coupling))
+                self._seams.append(seam(mesh, coupling))
         self.faces: Index = np.concatenate([np.empty(0, dtype=np.intp), *faces])
         self.cells: Index = np.concatenate([np.empty(0, dtype=np.intp), *cells])
         self.places: Floats = np.concatenate([np.empty((0, 3)), *places])
@@ -112,13 +115,13 @@ def _mean_normals(mesh: Mesh, faces: Index, normals: Floats) -> tuple[Index, Flo
     return points, np.eye(3) - 2.0 * mean[:, :, None] * mean[:, None, :]
 
 
-def _seam(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Floats]:
+def seam(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Floats]:
     """Return points of a coupled patch, their images on the other patch, and the rotation between."""
     from scipy.spatial import KDTree
 
     here, there = (np.unique(points_of_faces(mesh, f)[0]) for f in (coupling.faces, coupling.partners))
     images = mesh.points[here] @ coupling.turn.T + coupling.shift
-    distance, nearest = KDTree(mesh.points[there]).query(images, distance_upper_bound=0.05 * coupling.size)
+    distance, nearest = KDTree(mesh.points[there]).query(images, distance_upper_bound=SEAM * coupling.size)
     near = np.isfinite(distance)
     return here[near], there[np.asarray(nearest)[near]], coupling.turn
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.flow.base import Floats
+from foamprb.flow.images import seam
 from foamprb.flow.mesh.coupling import Coupling
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.patches import PatchKind
@@ -157,17 +158,26 @@ def match_walls(mesh: Mesh, u: Floats, w: Floats) -> None:
     """
     walls = np.array([patch.kind is PatchKind.WALL for patch in mesh.patches], dtype=bool)
     some = walls[mesh.triangle_patch]
-    nodes, of = np.unique(mesh.triangles[some], return_inverse=True)
-    normals, squares, counts = (
-        np.zeros((len(nodes), 3)),
-        np.zeros((len(nodes), 3, 3)),
-        np.bincount(of.ravel()),
-    )
-    n = np.repeat(mesh.triangle_normals[some], 3, axis=0)
+    seams = [seam(mesh, coupling) for coupling in mesh.couplings if coupling.patch < coupling.other]
+    touched, corners = np.zeros(len(u), dtype=bool), mesh.triangles[some].ravel()
+    touched[corners] = True
+    for here, there, _ in seams:
+        touched[here] = touched[there] = touched[here] | touched[there]
+    nodes, number = np.flatnonzero(touched), np.cumsum(touched) - 1
+    of, n = number[corners], np.repeat(mesh.triangle_normals[some], 3, axis=0)
+    normals, squares = np.zeros((len(nodes), 3)), np.zeros((len(nodes), 3, 3))
+    counts = np.bincount(of, minlength=len(nodes))
     for k in range(3):
-        normals[:, k] = np.bincount(of.ravel(), n[:, k])
+        normals[:, k] = np.bincount(of, n[:, k], len(nodes))
         for j in range(3):
-            squares[:, k, j] = np.bincount(of.ravel(), n[:, k] * n[:, j])
+            squares[:, k, j] = np.bincount(of, n[:, k] * n[:, j], len(nodes))
+    for here, there, turn in seams:
+        # A wall goes on beyond coupled patches.
+        a, b = number[here[touched[here]]], number[there[touched[here]]]
+        normals[a], counts[a] = normals[a] + normals[b] @ turn, counts[a] + counts[b]
+        squares[a] += turn.T @ squares[b] @ turn
+        normals[b], counts[b] = normals[a] @ turn.T, counts[a]
+        squares[b] = turn @ squares[a] @ turn.T
     length = np.linalg.norm(normals, axis=1)
     normals /= np.maximum(length, 1e-300)[:, None]
     lack = u[nodes] - w[nodes]

@@ -9,7 +9,7 @@ from mesh_shapes import block, box_patches, cyclic_row
 from foamprb.compile.link import link
 from foamprb.flow import analytic
 from foamprb.flow.curvatures import _PLACES, mean_curvatures
-from foamprb.flow.images import _seam
+from foamprb.flow.images import seam
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction
@@ -100,7 +100,7 @@ def test_second_derivatives_are_the_same_on_both_sides_of_a_period():
     )
     found = mean_curvatures(mesh, l.reshape(-1, 3, 3))
     (coupling,) = [c for c in mesh.couplings if c.turn[0, 1] < 0.0]
-    here, there, turn = _seam(mesh, coupling)
+    here, there, turn = seam(mesh, coupling)
     full = np.take(found.reshape(-1, 6, 3), _PLACES, axis=1).transpose(0, 3, 1, 2).astype(float)
     turned = np.einsum("ia,jb,kc,nabc->nijk", turn, turn, turn, full[here])
     np.testing.assert_allclose(full[there], turned, atol=1e-5)

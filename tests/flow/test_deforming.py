@@ -11,12 +11,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from foam_writer import header, put_linear, write_case
-from mesh_shapes import block, box_patches, cyclic_row, layer
+from mesh_shapes import block, box_patches, cyclic_row, interfaces, layer
 
 from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, WallLift, spheres
+from foamprb.cloud.cloud import clearances
 from foamprb.cloud.injection.models import BoxInjection
 from foamprb.cloud.injection.shapes import Sphere
-from foamprb.cloud.patches import Adhere, Mirror
+from foamprb.cloud.patches import Adhere, Cyclic, Mirror
 from foamprb.errors import InputError
 from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.deforming import DeformingFlow
@@ -167,29 +168,72 @@ def test_gas_is_compressed_with_its_layers_of_density(tmp_path, layers):
     assert rms(p.x, x[:, :2] * [1.0, h(0.5)]) < 4e-4
 
 
-@pytest.mark.parametrize("speed", [0.0, 0.5])
-def test_walls_that_wave_touch_no_tracer_of_a_fluid_that_moves_with_them(speed):
-    """The fluid rests in a channel whose walls are a running wave, or slides through it."""
+def wave(x, t):
+    y = 0.15 * np.sin(np.pi * x[:, 0] - OMEGA * t)
+    return x + np.stack([0.0 * y, y, 0.0 * y], axis=1)
+
+
+def waving(speed, length, ends="patch"):
+    """A channel whose walls are a running wave, and a fluid that slides through it, or rests in it."""
 
     def u(x, t):
         c = np.cos(np.pi * x[:, 0] - OMEGA * t)
         return np.stack([speed + 0.0 * c, 0.15 * (np.pi * speed - OMEGA) * c, 0.0 * c], axis=1)
 
-    def wave(x, t):
-        return 0.15 * np.sin(np.pi * x[:, 0] - OMEGA * t)
+    mesh = layer((0.0, length), (-0.5, 0.5), round(12 * length), 12, left=ends, right=ends)
+    return deforming(mesh, wave, u, np.linspace(0.0, 0.75, 10))
 
-    def motion(x, t):
-        return x + np.stack([0.0 * x[:, 0], wave(x, t), 0.0 * x[:, 0]], axis=1)
 
-    mesh = layer((0.0, 4.0), (-0.5, 0.5), 48, 12, left="patch", right="patch")
-    flow = deforming(mesh, motion, u, np.linspace(0.0, 0.75, 10))
+@pytest.mark.parametrize("speed", [0.0, 0.5])
+def test_walls_that_wave_touch_no_tracer_of_a_fluid_that_moves_with_them(speed):
+    flow = waving(speed, 4.0)
     y = spread(100, (0.4, -0.498), (3.1, 0.498))
     end = y + np.array([0.75 * speed, 0.0, 0.0])
     walls = dict.fromkeys(("bottom", "top"), Stick())
     ends = dict.fromkeys(("left", "right"), Escape())
-    _, p = followed(flow, motion(y, 0.0), {**walls, **ends}, 0.00625, 120)
+    _, p = followed(flow, wave(y, 0.0), {**walls, **ends}, 0.00625, 120)
     assert np.all(p.status == Status.ACTIVE)
-    assert rms(p.x, motion(end, 0.75)) < 1e-3
+    assert rms(p.x, wave(end, 0.75)) < 1e-3
+
+
+CHANNEL = {"bottom": Stick(), "top": Stick(), "left": Cyclic(), "right": Cyclic()}
+
+
+def test_a_wave_of_one_length_between_cyclic_ends_is_an_endless_channel():
+    """A fluid slides through it; a ball beside an end has the gap of one in a longer channel."""
+    flow = waving(0.5, 2.0, "cyclic")
+    y = spread(100, (0.0, -0.498), (2.0, 0.498))
+    _, p = followed(flow, wave(y, 0.0), CHANNEL, 0.00625, 120)
+    assert np.all(p.status == Status.ACTIVE)
+    end = wave(y + np.array([0.375, 0.0, 0.0]), 0.75)
+    turns = np.round((end[:, 0] - p.x[:, 0]) / 2.0)
+    assert np.count_nonzero(turns) > 15
+    assert rms(p.x + np.outer(turns, [2.0, 0.0, 0.0]), end) < 1e-3
+    x, gaps = np.array([[0.05, 0.05], [1.95, 1.95]]), []
+    for ends, row in (("cyclic", x[0]), ("cyclic", x[1]), ("patch", x[0] + 2.0), ("patch", x[1])):
+        flow = waving(0.5, 2.0 if ends == "cyclic" else 4.0, ends)
+        bodies = spheres(np.column_stack([row, [-0.25, 0.25], [0.05, 0.05]]), d=0.2, rho=1e3, mu=1e3, t0=0.2)
+        bodies.t[:] = 0.2
+        gaps.append(clearances(bodies, flow, 0.4, [2, 3]))
+    assert np.all(np.abs(gaps[0]) < 0.3)
+    assert gaps[:2] == pytest.approx(np.array(gaps[2:]), abs=1e-4)
+
+
+def test_a_stream_through_a_cyclic_box_whose_inside_moves_returns_where_it_was():
+    mesh = layer((0.0, 1.0), (0.0, 1.0), 6, 6, left="cyclic", right="cyclic")
+
+    def motion(x, t):
+        s = 0.05 * np.sin(OMEGA * t) * np.prod(np.sin(np.pi * x[:, :2]), axis=1)
+        return x + np.outer(s, [1.0, -1.0, 0.0])
+
+    def u(x, _t):
+        return np.broadcast_to([2.0, 0.0, 0.0], x.shape)
+
+    flow = deforming(mesh, motion, u, np.linspace(0.0, 1.0, 9))
+    x = spread(50, (0.05, 0.01), (0.95, 0.99))
+    _, p = followed(flow, x, CHANNEL, 0.02, 50)
+    assert np.all(p.status == Status.ACTIVE)
+    assert p.x == pytest.approx(x, abs=1e-6)
 
 
 @pytest.fixture(scope="module", params=["cells that shrink", "layers that vanish"])
@@ -471,7 +515,14 @@ def test_a_period_that_does_not_return_the_points_is_reported():
         deformation_of(Path("case"), ("0", "0.5", "1"), points, mesh, 1.0)
 
 
-def test_coupled_patches_of_a_mesh_that_deforms_are_reported():
-    mesh = cyclic_row(0.0, 2)
-    with pytest.raises(InputError, match=r"the mesh deforms, and its patch .* is coupled"):
-        deformation_of(Path("case"), ("0", "1"), lambda _: mesh.points, mesh, None)
+@pytest.mark.parametrize("kind", ["cyclic", "cyclicAMI"])
+def test_coupled_patches_that_do_not_move_alike_are_reported(kind):
+    mesh = cyclic_row(0.0, 2) if kind == "cyclic" else interfaces(0.0)[0]
+
+    def points(name):
+        """All that moves as one body is allowed."""
+        x, t = mesh.points, float(name)
+        return x + t if t < 2.0 else x + np.outer(0.1 * x[:, 0] * np.sin(3.0 * x[:, 1]), [0.0, 0.0, 1.0])
+
+    with pytest.raises(InputError, match=rf"at 2 s points of its {kind} patch \w+ are up to 0\.\d+ m off"):
+        deformation_of(Path("case"), ("0", "1", "2"), points, mesh, None)

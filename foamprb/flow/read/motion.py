@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.images import SEAM, seam
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.motion import Deformation, Motion, nearest_times, rates_of
 from foamprb.flow.patches import PatchKind
@@ -184,9 +185,8 @@ def deformation_of(
     Raises
     ------
     InputError
-        The number of points changes, a period does not return them, or coupled patches may not move alike.
+        The number of points changes, a period does not return them, or coupled patches do not move alike.
     """
-    require_uncoupled(source, mesh)
     ends = (PatchKind.WALL, PatchKind.OPENING)
     kinds = np.array([patch.kind in ends for patch in mesh.patches], dtype=bool)
     own = np.unique(mesh.triangles[kinds[mesh.triangle_patch]])
@@ -196,6 +196,7 @@ def deformation_of(
     past, ways, before = np.empty((len(times), len(own), 6)), np.empty(len(times) - 1), mesh.points
     for j, name in enumerate(times):
         now = _same_points(source, name, points(name), mesh.n_points)
+        require_couples(source, name, mesh, now)
         past[j, :, :3] = now[own]
         if j > 0:
             ways[j - 1] = np.linalg.norm(now - before, axis=1).max()
@@ -207,13 +208,36 @@ def deformation_of(
 
 
 def require_uncoupled(source: Path, mesh: Mesh) -> None:
-    """Raise InputError if a mesh that deforms has coupled patches other than wedges."""
+    """Raise InputError if a mesh with other faces at other times has coupled patches other than wedges."""
     coupled = [mesh.patches[c.patch] for c in mesh.couplings if mesh.patches[c.patch].type != "wedge"]
     if coupled:
         raise InputError(
-            f"{source}: the mesh deforms, and its patch {coupled[0].name} ({coupled[0].type}) is coupled. "
-            "Allowed: coupled patches of meshes at rest, and of pieces that move as rigid bodies."
+            f"{source}: the mesh has other faces at other times, and its patch {coupled[0].name} "
+            f"({coupled[0].type}) is coupled. Allowed: coupled patches of meshes that keep their faces."
         )
+
+
+def require_couples(source: Path, time: str, mesh: Mesh, now: Floats) -> None:
+    """Raise InputError if points now at a time are off their images beyond coupled patches.
+
+    Points of a patch whose neighbour is cut into other faces must move with that as one rigid body.
+    """
+    for c in mesh.couplings:
+        if mesh.patches[c.patch].type == "wedge" or c.patch > c.other or not len(c.faces):
+            continue
+        here, there, _ = seam(mesh, c)
+        a, b = (np.unique(mesh.triangles[mesh.triangle_patch == patch]) for patch in (c.patch, c.other))
+        if c.matching or (len(np.unique(here)) == len(a) and len(np.unique(there)) == len(b)):
+            off = float(np.abs(now[here] @ c.turn.T + c.shift - now[there]).max(initial=0.0))
+        else:
+            ends = (np.concatenate([x[a] @ c.turn.T + c.shift, x[b]]) for x in (mesh.points, now))
+            off = _fit(*ends, 0.0)[2]
+        if off > SEAM * c.size:
+            patch, other = mesh.patches[c.patch], mesh.patches[c.other]
+            raise InputError(
+                f"{source}: the mesh deforms, and at {time} s points of its {patch.type} patch {patch.name} "
+                f"are up to {off:.3g} m off those of {other.name}. Allowed: coupled patches that move alike."
+            )
 
 
 def _with_whole_turns(
