@@ -351,6 +351,33 @@ def test_whole_turns_follow_from_the_walls():
 
 
 @pytest.mark.parametrize(
+    ("precision", "way", "rigid"),
+    [(6, 0.0, True), (10, 0.0, True), (17, 2e-7, True), (17, 2e-5, False), (8, 2e-5, False)],
+)
+def test_a_piece_is_rigid_up_to_the_digits_of_its_points_and_a_share_of_its_edges(precision, way, rigid):
+    """Fine cells, 2e-4 of the mesh, may not move by 0.1 of themselves, which is 2e-5 of the mesh."""
+    shape = block(4, 0.0)
+    x = np.array(shape.points)
+    x[:, 0] = np.interp(x[:, 0], np.linspace(0.0, 1.0, 5), [0.0, 2e-4, 0.3, 0.7, 1.0])
+    shape.points = x
+    mesh = build_mesh(shape, box_patches(shape))
+
+    def points(name):
+        own = mesh.points + [0.0, way, 0.0] * np.isclose(mesh.points[:, :1], 2e-4)
+        moved = turned(np.radians(7.0))(own, float(name)) + np.array([2.0, 0.1, 0.0])
+        return np.array([[float(f"{c:.{precision}g}") for c in place] for place in moved])
+
+    def fit():
+        return rigid_motion(Path("case"), ("0", "0.1"), points, mesh, {}, no_walls, None)
+
+    if rigid:
+        assert np.linalg.norm(fit().turns[0, 0]) == pytest.approx(np.radians(7.0), abs=2e-5)
+    else:
+        with pytest.raises(InputError, match=r"points at 0\.1 s are up to"):
+            fit()
+
+
+@pytest.mark.parametrize(
     ("motion", "period", "message"),
     [
         (

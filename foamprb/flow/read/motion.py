@@ -26,7 +26,11 @@ from foamprb.flow.timeline import one_period
 _RIGID = 1e-4
 """Largest distance of a point from its place by a rigid motion, over the size of the piece."""
 _STILL = 1e-6
-"""The distance up to which a piece is at rest: its points are written with few digits."""
+"""The distance up to which a piece is at rest."""
+_OF_EDGE, _ROUND_OFF = 0.01, 1e-7
+"""The largest such distance over the shortest edge at a point, and the least over the size of the piece."""
+_DIGITS, _SAMPLE = range(6, 12), 1000
+"""Numbers of digits with which points may be written, and number of points whose digits are counted."""
 _QUARTER = 0.5 * np.pi
 _LIKE = 0.1
 """Largest difference between the turn by the points and that by a rate, over half a radian and the turn."""
@@ -74,6 +78,7 @@ def rigid_motion(
     zones: Mapping[str, NDArray[np.int64]],
     spin: Spin,
     period: float | None,
+    of_edge: float = _OF_EDGE,
 ) -> Motion:
     """Fit the motion of the pieces of a mesh.
 
@@ -94,11 +99,13 @@ def rigid_motion(
         an index; None without such walls.
     period
         Period of the flow, s.
+    of_edge
+        Largest distance of a point from its place by a rigid motion, over the shortest edge there.
 
     Raises
     ------
     DeformsError
-        A piece deforms.
+        A piece deforms, by more than the digits of its points.
     InputError
         A piece turns by more than 90 degrees between two times, and no wall shows how fast;
         or a period does not return the points.
@@ -110,20 +117,24 @@ def rigid_motion(
     of_points = np.zeros(mesh.n_points, dtype=np.int64)
     of_points[mesh.cell_points] = np.repeat(piece, np.diff(mesh.cell_point_start))
     first, n_points = mesh.points, len(points(times[0]))
+    near = shortest_edges(mesh)
     R, s = np.tile(np.eye(3), (n, count, 1, 1)), np.zeros((n, count, 3))
     for j, name in enumerate(times[1:], 1):
         now = _same_points(source, name, points(name), n_points)
+        digits = 2.0 * last_digit(now)
         for p in range(count):
             own = np.flatnonzero(of_points[: len(now)] == p)
             a, b = first[own], now[own]
-            size = float(np.ptp(a, axis=0).max())
-            if np.abs(b - a).max() <= _STILL * size:
+            size, share = float(np.ptp(a, axis=0).max()), of_edge * near[own]
+            least = max(digits, _ROUND_OFF * size)
+            still = np.maximum(np.minimum(_STILL * size, share), least)
+            if (np.abs(b - a).max(axis=1) <= still).all():
                 continue
-            R[j, p], s[j, p], miss = _fit(a, b, _STILL * size)
-            if miss > _RIGID * size:
+            R[j, p], s[j, p], miss = _fit(a, b, still)
+            if (miss > np.maximum(np.minimum(_RIGID * size, share), least)).any():
                 raise DeformsError(
                     f"{source}: {names[p]} of the mesh deforms: its points at {name} s are up to "
-                    f"{miss:.3g} m off a rigid motion."
+                    f"{miss.max():.3g} m off a rigid motion."
                 )
     c = np.stack([_quiet_point(first[of_points == p], R[:, p], s[:, p]) for p in range(count)])
     y = np.einsum("jpab,pb->jpa", R, c) + s
@@ -146,6 +157,29 @@ def rigid_motion(
             turn = turn if known is None else known
             turns[k, p], rate = turn, turn / h
     return _with_rates(Motion(piece, names, c, R, y, turns, np.zeros_like(y), np.zeros_like(y)), t, period)
+
+
+def shortest_edges(mesh: Mesh) -> Floats:
+    """Return the length of the shortest edge at each point, (n_points,), m, above 0; infinite without any."""
+    points, first = mesh.face_points, mesh.face_start
+    others = np.append(points[1:], 0)
+    others[first[1:] - 1] = points[first[:-1]]
+    lengths = np.linalg.norm(mesh.points[points] - mesh.points[others], axis=1)
+    found = np.full(mesh.n_points, np.inf)
+    for ends in (points, others):
+        np.minimum.at(found, ends, np.maximum(lengths, 1e-300))
+    return found
+
+
+def last_digit(points: Floats) -> float:
+    """Return the unit of the last of at least six digits of the largest coordinate, m; 0 if it has all."""
+    x = np.abs(points[:: 1 + len(points) // _SAMPLE])
+    x = x[x > 0.0]
+    for digits in _DIGITS:
+        unit = 10.0 ** (np.floor(np.log10(x)) - digits + 1.0)
+        if (np.abs(x / unit - np.rint(x / unit)) < 1e-3).all():
+            return float(unit.max(initial=0.0))
+    return 0.0
 
 
 def _of_one_period(
@@ -231,7 +265,7 @@ def require_couples(source: Path, time: str, mesh: Mesh, now: Floats) -> None:
             off = float(np.abs(now[here] @ c.turn.T + c.shift - now[there]).max(initial=0.0))
         else:
             ends = (np.concatenate([x[a] @ c.turn.T + c.shift, x[b]]) for x in (mesh.points, now))
-            off = _fit(*ends, 0.0)[2]
+            off = float(_fit(*ends, 0.0)[2].max())
         if off > SEAM * c.size:
             patch, other = mesh.patches[c.patch], mesh.patches[c.other]
             raise InputError(
@@ -298,20 +332,20 @@ def nearest_turn(turn: Floats, guess: Floats) -> Floats:
     return near
 
 
-def _fit(a: Floats, b: Floats, least: float) -> tuple[Floats, Floats, float]:
-    """Return the rigid motion b = R·a + s of best fit (Kabsch 1976), and the largest distance from it.
+def _fit(a: Floats, b: Floats, least: Floats | float) -> tuple[Floats, Floats, Floats]:
+    """Return the rigid motion b = R·a + s of best fit (Kabsch 1976), and the distances from it, (n,).
 
     A motion without rotation whose distances are up to ``least``, m, counts as one.
     """
     middle, other = a.mean(axis=0), b.mean(axis=0)
-    miss = float(np.abs(b - a - (other - middle)).max())
-    if miss <= least:
+    miss = np.abs(b - a - (other - middle)).max(axis=1)
+    if (miss <= least).all():
         return np.eye(3), other - middle, miss
     u, _, v = np.linalg.svd((a - middle).T @ (b - other))
     sign = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))])
     R: Floats = (u @ sign @ v).T
     s: Floats = other - R @ middle
-    return R, s, float(np.abs(a @ R.T + s - b).max())
+    return R, s, np.abs(a @ R.T + s - b).max(axis=1)
 
 
 def _quiet_point(points: Floats, R: Floats, s: Floats) -> Floats:

@@ -609,10 +609,12 @@ def _motion(
         raise InputError(
             f"{case.root}: cyclicACMI patches are read on meshes at rest only. Allowed: cyclicAMI."
         )
+    named = moves_rigidly(case.root, case.region)
+    given = case.root, names, case.points, whole.mesh, case.zones(names[0]), spin, period
     try:
-        motion = rigid_motion(case.root, names, case.points, whole.mesh, case.zones(names[0]), spin, period)
+        motion = rigid_motion(*given, **({"of_edge": np.inf} if named else {}))
     except DeformsError as error:
-        if moves_rigidly(case.root, case.region):
+        if named:
             raise InputError(
                 f"{error} Its dynamicMeshDict names rigid motions only. Allowed: points of such a motion."
             ) from None
