@@ -160,7 +160,8 @@ def ridden(kernels: Mapping[str, Any], flow: object, p: Particles, time: float) 
     moved: dict[str, NDArray[Any]] = {"x": x, "v": v}
     for name in ("F", "A"):
         moved[name] = (turns @ getattr(p, name)[rows].reshape(-1, 3, 3)).reshape(-1, 9)
-    moved["B"] = np.stack(turned(tuple(p.B[rows].T), tuple(turns.reshape(-1, 9).T)), axis=1)
+    given: Any = tuple(p.B[rows].T), tuple(turns.reshape(-1, 9).T)
+    moved["B"] = np.stack(turned(*given), axis=1)
     whole = {name: np.array(getattr(p, name)) for name in moved}
     for name, values in moved.items():
         whole[name][rows] = values

@@ -44,10 +44,10 @@ from foamprb.flow.mesh.arrays import FREE, MeshArrays, arm, frame, point
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.locator import locate as locate_mesh
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.mesh.tree import Tree, pairs_near, tree_with
+from foamprb.flow.mesh.tree import Tree, next_node, pairs_near, square_to_box, tree_with
 from foamprb.flow.meshflow import folds_of, graded
 from foamprb.flow.motion import Deformation
-from foamprb.flow.moving import MovingMeshFlow, any_interval, hermite, hermite_rate
+from foamprb.flow.moving import MovingMeshFlow, any_interval, hermite, hermite_rate, tree_of
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.series import _OF_VELOCITY as OF_VELOCITY
 from foamprb.flow.series import _OF_VISCOSITY as OF_VISCOSITY
@@ -102,6 +102,10 @@ class DeformingArrays(NamedTuple):
     """Number of these points."""
     past_rows: Ints
     """(n_nodes,) row of each node among those of a time in ``past``, −1 for others."""
+    past_boxes: Floats
+    """Boxes of a tree over their triangles that hold at all times; see :class:`MeshArrays`."""
+    past_leaves: Ints
+    """(n_leaves, leaf size) triangles, −1 for none."""
     starts: Floats
     """(n,) the starts of the intervals between times, s."""
     end: float
@@ -435,12 +439,17 @@ def _touched(flow: DeformingArrays, host: int, x: Vector, t: float) -> int:
         own = -1 - mesh.neighbours[host, k]
         if own >= 0 and _is_past(flow, own):
             return int(own)
-    for triangle in range(mesh.triangle_tet.shape[0]):
-        if _is_past(flow, triangle):
-            a, b, c = _corners(flow, now, triangle)
-            p = nearest_point(minus(a, x), minus(b, x), minus(c, x))
-            if inner(p, p) < best:
-                best, found = inner(p, p), triangle
+    boxes, leaves, node = flow.past_boxes, flow.past_leaves, 1
+    while node > 0:
+        hit = square_to_box(boxes, node, x) <= best
+        for k in range(leaves.shape[1] if hit and node >= leaves.shape[0] else 0):
+            triangle = int(leaves[node - leaves.shape[0], k])
+            if triangle >= 0:
+                a, b, c = _corners(flow, now, triangle)
+                p = nearest_point(minus(a, x), minus(b, x), minus(c, x))
+                if inner(p, p) < best or (inner(p, p) == best and triangle < found):
+                    best, found = inner(p, p), triangle
+        node = next_node(node, leaves.shape[0], hit)
     return found
 
 
@@ -552,13 +561,20 @@ class DeformingFlow(MovingMeshFlow):
         """Folds at the covered times, by their indices."""
         self._past_rows = np.full(len(self._arrays.nodes), -1, dtype=np.int32)
         self._past_rows[: mesh.n_points] = motion.rows
+        past, ends = motion.past, np.append(*self.intervals())
+        past = past if self.period is None else np.concatenate([past, past[:1]])
+        rows = self._past_rows[self.mesh.triangles]
+        own = np.flatnonzero((rows >= 0).all(axis=1))
+        off = strays(past[:, :, :3], past[:, :, 3:], np.diff(ends))[rows[own]].max(axis=1, initial=0.0)
+        self._past_tree = tree_of(past[0, rows[own], :3], own, off[:, None])
 
     @staticmethod
     def nothing() -> DeformingArrays:  # type: ignore[override]
         """See :meth:`MeshFlow.nothing`."""
         series = SeriesFlow.nothing()
         none, rows = np.empty((0, 6)), np.empty(0, dtype=np.int32)
-        return DeformingArrays(series.mesh, series, none, none, 0, rows, np.empty(0), 0.0)
+        tree = tree_of(np.empty((0, 3, 3)), np.empty(0, dtype=np.intp))
+        return DeformingArrays(series.mesh, series, none, none, 0, rows, *tree, np.empty(0), 0.0)
 
     def arrays(  # type: ignore[override]
         self,
@@ -571,7 +587,7 @@ class DeformingFlow(MovingMeshFlow):
         self._cover()
         series = super().arrays(reach, touchable, sight, seen)
         shapes, past = self._shapes.reshape(-1, 6), self.motion.past
-        rows = past.reshape(-1, 6), past.shape[1], self._past_rows
+        rows = past.reshape(-1, 6), past.shape[1], self._past_rows, *self._past_tree
         return DeformingArrays(series.mesh, series, shapes, *rows, *self.intervals())
 
     def _cover(self) -> None:
@@ -582,11 +598,7 @@ class DeformingFlow(MovingMeshFlow):
             return
         self._covered, self._near, n = key, None, self.mesh.n_points
         x, w = self._shapes[rows, :, :3], self._shapes[rows, :, 3:]
-        h = np.diff([self._time_of(level) for level in self._inner])[:, None, None]
-        off = np.linalg.norm(x - x[0], axis=2).max(axis=0)
-        chord = np.diff(x, axis=0)
-        bulge = np.linalg.norm(h * w[:-1] - chord, axis=2) + np.linalg.norm(h * w[1:] - chord, axis=2)
-        off += _BULGE * bulge.max(axis=0)
+        off = strays(x, w, np.diff([self._time_of(level) for level in self._inner]))
         mesh = replace(self.mesh, points=x[0, :n], centres=x[0, n:])
         start = mesh.cell_point_start[:-1]
         of_cells = np.maximum(np.maximum.reduceat(off[mesh.cell_points], start), off[n:])[:, None]
@@ -690,6 +702,17 @@ class DeformingFlow(MovingMeshFlow):
         (x, v), (y, w) = (np.split(arrays.shapes[row : row + n], 2, axis=1) for row in rows)
         nodes: Floats = at.a * x + at.b * v + at.c * y + at.d * w
         return nodes
+
+
+def strays(x: Floats, w: Floats, h: Floats) -> Floats:
+    """Return how far points (n_times, n, 3) of velocities w go from the first places, (n,), m.
+
+    ``h`` (n_times − 1,) are the times between, s.
+    """
+    chord, h = np.diff(x, axis=0), h[:, None, None]
+    bulge = np.linalg.norm(h * w[:-1] - chord, axis=2) + np.linalg.norm(h * w[1:] - chord, axis=2)
+    off: Floats = np.linalg.norm(x - x[0], axis=2).max(axis=0) + _BULGE * bulge.max(axis=0)
+    return off
 
 
 def _edges(corners: Floats) -> Floats:

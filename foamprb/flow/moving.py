@@ -564,7 +564,7 @@ class MovingFlow(MovingMeshFlow):
             if len(c.faces) and (motion.piece[owner[c.faces]] != motion.piece[owner[c.partners]]).any():
                 self._beyond[c.patch] = c.other
         between = np.flatnonzero(self._beyond[self._apart.triangle_patch] >= 0)
-        self._tree = _tree_of(self._apart, between)
+        self._tree = tree_of(self._apart.points[self._apart.triangles[between]], between)
 
     @staticmethod
     def nothing() -> MovingArrays:  # type: ignore[override]
@@ -688,11 +688,11 @@ def _shifted(c: Coupling, way: float) -> Coupling:
     return c._replace(shift=c.shift + way * np.eye(3)[0] - way * c.turn[:, 0])
 
 
-def _tree_of(mesh: Mesh, triangles: NDArray[np.intp]) -> tuple[Floats, Ints]:
-    """Return boxes and leaves of a tree over some triangles."""
+def tree_of(corners: Floats, triangles: NDArray[np.intp], off: Floats | float = 0.0) -> tuple[Floats, Ints]:
+    """Return boxes and leaves of a tree over triangles (n,) whose corners (n, 3, 3) move by up to ``off``."""
     if len(triangles) == 0:
         return np.empty((2, 6)), np.full((1, 1), -1, dtype=np.int32)
-    corners = mesh.points[mesh.triangles[triangles]]
-    tree = build_tree(np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1))
+    lower, upper = corners.min(axis=1) - off, corners.max(axis=1) + off
+    tree = build_tree(np.concatenate([lower, upper], axis=1))
     leaves = np.where(tree.leaves < 0, -1, triangles[tree.leaves])
     return tree.boxes, np.ascontiguousarray(leaves, dtype=np.int32)

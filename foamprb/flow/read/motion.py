@@ -78,7 +78,7 @@ def rigid_motion(
     zones: Mapping[str, NDArray[np.int64]],
     spin: Spin,
     period: float | None,
-    of_edge: float = _OF_EDGE,
+    named: bool = False,
 ) -> Motion:
     """Fit the motion of the pieces of a mesh.
 
@@ -99,8 +99,8 @@ def rigid_motion(
         an index; None without such walls.
     period
         Period of the flow, s.
-    of_edge
-        Largest distance of a point from its place by a rigid motion, over the shortest edge there.
+    named
+        Whether the case names rigid motions, so that edges do not count.
 
     Raises
     ------
@@ -117,7 +117,7 @@ def rigid_motion(
     of_points = np.zeros(mesh.n_points, dtype=np.int64)
     of_points[mesh.cell_points] = np.repeat(piece, np.diff(mesh.cell_point_start))
     first, n_points = mesh.points, len(points(times[0]))
-    near = shortest_edges(mesh)
+    shares = np.full(mesh.n_points, np.inf) if named else _OF_EDGE * shortest_edges(mesh)
     R, s = np.tile(np.eye(3), (n, count, 1, 1)), np.zeros((n, count, 3))
     for j, name in enumerate(times[1:], 1):
         now = _same_points(source, name, points(name), n_points)
@@ -125,7 +125,7 @@ def rigid_motion(
         for p in range(count):
             own = np.flatnonzero(of_points[: len(now)] == p)
             a, b = first[own], now[own]
-            size, share = float(np.ptp(a, axis=0).max()), of_edge * near[own]
+            size, share = float(np.ptp(a, axis=0).max()), shares[own]
             least = max(digits, _ROUND_OFF * size)
             still = np.maximum(np.minimum(_STILL * size, share), least)
             if (np.abs(b - a).max(axis=1) <= still).all():
@@ -160,14 +160,14 @@ def rigid_motion(
 
 
 def shortest_edges(mesh: Mesh) -> Floats:
-    """Return the length of the shortest edge at each point, (n_points,), m, above 0; infinite without any."""
+    """Return the length of the shortest edge at each point, (n_points,), m; infinite without edges."""
     points, first = mesh.face_points, mesh.face_start
     others = np.append(points[1:], 0)
     others[first[1:] - 1] = points[first[:-1]]
     lengths = np.linalg.norm(mesh.points[points] - mesh.points[others], axis=1)
     found = np.full(mesh.n_points, np.inf)
     for ends in (points, others):
-        np.minimum.at(found, ends, np.maximum(lengths, 1e-300))
+        np.minimum.at(found, ends, lengths)
     return found
 
 
@@ -264,8 +264,8 @@ def require_couples(source: Path, time: str, mesh: Mesh, now: Floats) -> None:
         if c.matching or (len(np.unique(here)) == len(a) and len(np.unique(there)) == len(b)):
             off = float(np.abs(now[here] @ c.turn.T + c.shift - now[there]).max(initial=0.0))
         else:
-            ends = (np.concatenate([x[a] @ c.turn.T + c.shift, x[b]]) for x in (mesh.points, now))
-            off = float(_fit(*ends, 0.0)[2].max())
+            then, later = (np.concatenate([x[a] @ c.turn.T + c.shift, x[b]]) for x in (mesh.points, now))
+            off = float(_fit(then, later, 0.0)[2].max())
         if off > SEAM * c.size:
             patch, other = mesh.patches[c.patch], mesh.patches[c.other]
             raise InputError(

@@ -610,9 +610,9 @@ def _motion(
             f"{case.root}: cyclicACMI patches are read on meshes at rest only. Allowed: cyclicAMI."
         )
     named = moves_rigidly(case.root, case.region)
-    given = case.root, names, case.points, whole.mesh, case.zones(names[0]), spin, period
+    given = case.root, names, case.points, whole.mesh, case.zones(names[0]), spin, period, named
     try:
-        motion = rigid_motion(*given, **({"of_edge": np.inf} if named else {}))
+        motion = rigid_motion(*given)
     except DeformsError as error:
         if named:
             raise InputError(
