@@ -13,7 +13,6 @@ from mesh_shapes import block, box_patches, layer, rings
 from scipy.spatial.transform import Rotation
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, Stick, WallLift, spheres
-from foamprb.cloud.instants import ridden
 from foamprb.cloud.patches import Adhere, Cyclic, Mirror
 from foamprb.errors import InputError
 from foamprb.flow.curvatures import mean_curvatures
@@ -178,17 +177,6 @@ def test_the_quadratic_mode_between_cylinders_is_that_on_a_mesh_at_rest(angle):
     off = np.abs(p.B[:, 0] + 1j * p.B[:, 1] - expected) / np.abs(expected)
     assert off[:3].max() < 0.02
     assert off[3] < 0.07
-
-
-def test_what_sticks_to_a_rotor_turns_with_it(stirred):
-    """By 100 degrees; its quadratic mode, too."""
-    flow, p = stirred[0], spheres([[0.6, 0.0, 0.5]], d=1e-3, rho=1000.0, mu=1e3)
-    p.status[:], p.host[:], p.B[0, :4] = Status.STUCK, flow.locate(p.x), [0.1, 0.2, 0.0, -0.1]
-    p.B[0, 5], turn = -0.2, np.exp(1j * np.radians(100.0))
-    now = ridden(flow.kernels, flow.arrays(), p, 0.2)
-    assert now.x[0, 0] + 1j * now.x[0, 1] == pytest.approx(0.6 * turn)
-    assert now.F[0, 0] + 1j * now.F[0, 3] == pytest.approx(turn)
-    assert now.B[0, 0] + 1j * now.B[0, 1] == pytest.approx((0.1 + 0.2j) * turn**3)
 
 
 @pytest.mark.parametrize(("writes", "limit"), [(6, 3.5e-3), (12, 8e-4)])
