@@ -561,6 +561,11 @@ class DeformingFlow(MovingMeshFlow):
         """Folds at the covered times, by their indices."""
         self._past_rows = np.full(len(self._arrays.nodes), -1, dtype=np.int32)
         self._past_rows[: mesh.n_points] = motion.rows
+        of = self.mesh.triangle_patch
+        for patch, other in motion.sliding:
+            # The triangles of a patch are consecutive, and the first of the partners are all triangles.
+            there = np.flatnonzero(of == other)
+            self._arrays.across[of == patch] = there[0], there[-1] + 1
         past, ends = motion.past, np.append(*self.intervals())
         past = past if self.period is None else np.concatenate([past, past[:1]])
         rows = self._past_rows[self.mesh.triangles]

@@ -135,6 +135,8 @@ class Deformation(NamedTuple):
     """(n_points,) row of each point on walls and openings in ``past``, −1 for others."""
     past: Floats
     """(n, n_rows, 6) places, m, and velocities, m/s."""
+    sliding: frozenset[tuple[int, int]] = frozenset()
+    """Pairs of coupled patches, each way, that slide on each other."""
 
     def fastest(self, mesh: Mesh) -> float:  # noqa: ARG002
         """Return the largest speed of the mesh at any time, m/s."""

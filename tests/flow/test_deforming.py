@@ -11,7 +11,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from foam_writer import header, put_linear, write_case
-from mesh_shapes import block, box_patches, cyclic_row, interfaces, layer
+from mesh_shapes import block, box_patches, cyclic_row, interfaces, layer, rings
+from scipy.spatial.transform import Rotation
 
 from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, WallLift, spheres
 from foamprb.cloud.cloud import clearances
@@ -22,6 +23,7 @@ from foamprb.errors import InputError
 from foamprb.flow.curvatures import mean_curvatures
 from foamprb.flow.deforming import DeformingFlow
 from foamprb.flow.fluxes import Conservation
+from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.mesh import build_mesh, with_points
 from foamprb.flow.motion import match_walls
 from foamprb.flow.read.describe import describe
@@ -34,14 +36,14 @@ from foamprb.run.room import Room
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
 
 
-def deforming(mesh, motion, u, times, period=None, curved=False):
+def deforming(mesh, motion, u, times, period=None, curved=False, surfaces=()):
     """Return the flow u(x, t) on a mesh that ``motion(points, t)`` moves, as a case would give it."""
     names = [f"{t:.12g}" for t in times]
-    fit = deformation_of(Path("case"), names, lambda n: motion(mesh.points, float(n)), mesh, period)
+    fit = deformation_of(Path("case"), names, lambda n: motion(mesh.points, float(n)), mesh, period, surfaces)
     shapes = {}
 
     def at(k):
-        return with_points(mesh, motion(mesh.points, times[k]))
+        return with_points(mesh, motion(mesh.points, times[k]), surfaces)
 
     def read(k):
         here = at(k)
@@ -234,6 +236,39 @@ def test_a_stream_through_a_cyclic_box_whose_inside_moves_returns_where_it_was()
     _, p = followed(flow, x, CHANNEL, 0.02, 50)
     assert np.all(p.status == Status.ACTIVE)
     assert p.x == pytest.approx(x, abs=1e-6)
+
+
+def test_a_stream_crosses_a_ring_that_turns_in_a_mesh_whose_cells_breathe():
+    """Patches of cyclicAMI slide on each other, cut into different faces."""
+    mesh = rings()
+    mesh = replace(mesh, patches=[p._replace(type="patch") if p.type == "wall" else p for p in mesh.patches])
+    surfaces = [PatchSurface(p.name, p.type, None, p.neighbour) for p in mesh.patches]
+
+    def motion(x, t):
+        r = np.hypot(x[:, 0], x[:, 1])
+        inner = (r < 0.99) | (np.arange(len(x)) < 0.4 * len(x))
+        turned = np.where(inner[:, None], Rotation.from_rotvec([0.0, 0.0, 3.0 * t]).apply(x), x)
+        return turned * (1.0 + np.outer(0.02 * np.sin(OMEGA * t) * np.sin(OMEGA * r), [1.0, 1.0, 0.0]))
+
+    stream = np.array([0.5, 0.2, 0.0])
+
+    def u(x, _t):
+        return np.broadcast_to(stream, x.shape)
+
+    flow = deforming(mesh, motion, u, np.linspace(0.0, 1.0, 9), surfaces=surfaces)
+    a = np.linspace(1.5, 5.0, 24)
+    x = np.column_stack([1.2 * np.cos(a), 1.2 * np.sin(a), np.full(24, 0.5)])
+    through = {p.name: Cyclic() if p.neighbour else Escape() for p in flow.patches}
+    _, p = followed(flow, x, through, 0.01, 100)
+    inside = p.status == Status.ACTIVE
+    assert np.count_nonzero(inside) > 8
+    assert np.count_nonzero(np.hypot(p.x[inside, 0], p.x[inside, 1]) < 0.95) > 4
+    assert p.x[inside] == pytest.approx((x + stream)[inside], abs=5e-4)
+    now, arrays = flow.nodes_at(0.9), flow.arrays()
+    for triangle in np.flatnonzero(flow.mesh.triangle_patch == 0)[::6]:
+        place = now[flow.mesh.triangles[triangle]].mean(axis=0)
+        host, y, _ = flow.kernels["cross"](arrays, int(triangle), tuple(place), 0.9)
+        assert np.linalg.norm(now[flow.mesh.tets[host]].mean(axis=0) - y) < 0.3
 
 
 @pytest.fixture(scope="module", params=["cells that shrink", "layers that vanish"])

@@ -14,7 +14,8 @@ from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.images import SEAM, seam
-from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.mesh import Mesh, with_points
 from foamprb.flow.motion import Deformation, Motion, nearest_times, rates_of
 from foamprb.flow.patches import PatchKind
 from foamprb.flow.read.boundary import CaseMesh
@@ -212,9 +213,14 @@ def _same_points(source: Path, time: str, now: Floats, n: int) -> Floats:
 
 
 def deformation_of(
-    source: Path, times: Sequence[str], points: Callable[[str], Floats], mesh: Mesh, period: float | None
+    source: Path,
+    times: Sequence[str],
+    points: Callable[[str], Floats],
+    mesh: Mesh,
+    period: float | None,
+    surfaces: Sequence[PatchSurface] = (),
 ) -> Deformation:
-    """Read the motion of a mesh that deforms; see :func:`rigid_motion`.
+    """Read the motion of a mesh that deforms; see :func:`rigid_motion`, and :func:`sliding_patches`.
 
     Raises
     ------
@@ -227,15 +233,16 @@ def deformation_of(
     rows = np.full(mesh.n_points, -1, dtype=np.int32)
     rows[own] = np.arange(len(own))
     times = _of_one_period(source, times, points, mesh, period)
+    sliding: set[tuple[int, int]] = set()
     past, ways, before = np.empty((len(times), len(own), 6)), np.empty(len(times) - 1), mesh.points
     for j, name in enumerate(times):
         now = _same_points(source, name, points(name), mesh.n_points)
-        require_couples(source, name, mesh, now)
+        sliding |= sliding_patches(source, name, mesh, now, surfaces)
         past[j, :, :3] = now[own]
         if j > 0:
             ways[j - 1] = np.linalg.norm(now - before, axis=1).max()
         before = now
-    motion = Deformation(tuple(map(float, times)), period, ways, rows, past)
+    motion = Deformation(tuple(map(float, times)), period, ways, rows, past, frozenset(sliding))
     for j in range(len(times)):
         past[j, :, 3:] = motion.rates(j, lambda k: past[k, :, :3])
     return motion
@@ -251,27 +258,45 @@ def require_uncoupled(source: Path, mesh: Mesh) -> None:
         )
 
 
-def require_couples(source: Path, time: str, mesh: Mesh, now: Floats) -> None:
-    """Raise InputError if points now at a time are off their images beyond coupled patches.
+def sliding_patches(
+    source: Path, time: str, mesh: Mesh, now: Floats, surfaces: Sequence[PatchSurface]
+) -> set[tuple[int, int]]:
+    """Return pairs of coupled patches, each way, that have slid on each other at a time.
 
-    Points of a patch whose neighbour is cut into other faces must move with that as one rigid body.
+    Other points of coupled patches must lie on their images, or move with these as one rigid body. Patches
+    slide if those of ``surfaces`` are coupled as before with the points now.
+
+    Raises
+    ------
+    InputError
+        Points are off their images.
     """
+    sliding: set[tuple[int, int]] = set()
     for c in mesh.couplings:
         if mesh.patches[c.patch].type == "wedge" or c.patch > c.other or not len(c.faces):
             continue
         here, there, _ = seam(mesh, c)
         a, b = (np.unique(mesh.triangles[mesh.triangle_patch == patch]) for patch in (c.patch, c.other))
+        off, most = np.inf, SEAM * c.size
         if c.matching or (len(np.unique(here)) == len(a) and len(np.unique(there)) == len(b)):
             off = float(np.abs(now[here] @ c.turn.T + c.shift - now[there]).max(initial=0.0))
-        else:
+        if off > most and not c.matching:
             then, later = (np.concatenate([x[a] @ c.turn.T + c.shift, x[b]]) for x in (mesh.points, now))
             off = float(_fit(then, later, 0.0)[2].max())
-        if off > SEAM * c.size:
+        if off > most and surfaces and not c.matching:
+            again = with_points(mesh, now, surfaces, str(source)).couplings
+            same = [d for d in again if (d.patch, d.other) == (c.patch, c.other)]
+            if any(np.allclose(d.turn, c.turn) and np.abs(d.shift - c.shift).max() <= most for d in same):
+                sliding |= {(c.patch, c.other), (c.other, c.patch)}
+                continue
+        if off > most:
             patch, other = mesh.patches[c.patch], mesh.patches[c.other]
             raise InputError(
                 f"{source}: the mesh deforms, and at {time} s points of its {patch.type} patch {patch.name} "
-                f"are up to {off:.3g} m off those of {other.name}. Allowed: coupled patches that move alike."
+                f"are up to {off:.3g} m off those of {other.name}. Allowed: coupled patches that move alike, "
+                "and cyclicAMI patches that slide on each other."
             )
+    return sliding
 
 
 def _with_whole_turns(

@@ -366,7 +366,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     local = None if rigid is None else rigid.of_frames()
     # Patches that slide along each other are coupled anew at each time.
     joined = rigid is not None and rigid.joins(whole.mesh)
-    surfaces = case.poly(base)[0].patches if joined else ()
+    slides = joined or (isinstance(motion, Deformation) and len(motion.sliding) > 0)
+    surfaces = case.poly(base)[0].patches if slides else ()
     if layers:
         whole = whole._replace(mesh=with_points(whole.mesh, layers[names[0]]))
     operators = _Operators(whole.mesh)
@@ -619,7 +620,9 @@ def _motion(
                 f"{error} Its dynamicMeshDict names rigid motions only. Allowed: points of such a motion."
             ) from None
         read = partial(_points_at, case, mesh=whole.mesh)
-        return deformation_of(case.root, names, read, whole.mesh, period)
+        cut = any(not c.matching for c in whole.mesh.couplings)
+        surfaces = case.poly(names[0])[0].patches if cut else ()
+        return deformation_of(case.root, names, read, whole.mesh, period, surfaces)
     return motion if motion.turns.any() or np.ptp(motion.y, axis=0).any() else None
 
 
