@@ -35,6 +35,7 @@ from numba.core.compiler_machinery import PassManager, register_pass
 from numba.core.funcdesc import PythonFunctionDescriptor
 from numba.core.ir import Return
 from numba.core.lowering import Environment
+from numba.core.runtime import rtsys
 from numba.core.serialize import dumps
 from numba.core.typed_passes import NativeLowering
 from numba.core.types.functions import BaseFunction
@@ -514,15 +515,21 @@ class _Cache:
         Functions that its code may call by name.
     is_entry
         Whether Python calls it.
+    allocates
+        Whether it needs numba's runtime. Other saved code needs nothing of numba's library of functions, whose
+        loading takes a third of a second; a compilation loads it.
     """
 
-    def __init__(self, store: Store, keys: Keys, named: Mapping[str, Part], is_entry: bool) -> None:
-        self._store, self._named, self._is_entry = store, dict(named), is_entry
+    def __init__(
+        self, store: Store, keys: Keys, named: Mapping[str, Part], is_entry: bool, allocates: bool
+    ) -> None:
+        self._store, self._named, self._is_entry, self._allocates = store, dict(named), is_entry, allocates
         self._keys = [keys, *(part.keys for part in named.values())]
         self.cache_path = str(store.folder)
 
     def load_overload(self, signature: Signature, context: BaseContext) -> CompileResult | None:
-        context.refresh()
+        if self._allocates:
+            rtsys.initialize(context)
         saved = self._store.load(signature)
         if saved is None:
             return None
@@ -593,5 +600,5 @@ def use_cache(dispatcher: Any, keys: Keys, named: Mapping[str, Part], is_entry: 
         Whether Python calls it.
     """
     store = Store(keys.outside, dumps)
-    dispatcher._cache = _Cache(store, keys, named, is_entry)
+    dispatcher._cache = _Cache(store, keys, named, is_entry, dispatcher.targetoptions["_nrt"])
     return store
