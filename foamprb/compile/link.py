@@ -484,8 +484,16 @@ def _compile(function: Function, role: Role, keys: Keys, named: Mapping[str, Par
 @cache
 def _global_names(code: CodeType) -> frozenset[str]:
     """Return the names that the code reads from its module; ``co_names`` has attributes as well."""
-    names = frozenset(step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL")
-    return names.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
+    names, argument, load = set(), 0, dis.opmap["LOAD_GLOBAL"]
+    # dis.get_instructions takes twenty times as long.
+    for operation, low in zip(code.co_code[::2], code.co_code[1::2], strict=True):
+        argument = argument << 8 | low
+        if operation == load:
+            names.add(code.co_names[argument >> 1])
+        argument = argument if operation == dis.EXTENDED_ARG else 0
+    return frozenset(names).union(
+        *(_global_names(item) for item in code.co_consts if isinstance(item, CodeType))
+    )
 
 
 @cache
