@@ -289,11 +289,19 @@ def tracks_data(tracks: Tracks) -> vtkPolyData:
 
 def write_triangles(path: Path, corners: NDArray[np.float64]) -> None:
     """Write n triangles, (n, 3, 3), m, as VTK PolyData, in one step."""
-    data = _points(corners.reshape(-1, 3), {})
-    data.SetPolys(_cells(3 * np.arange(len(corners) + 1, dtype=np.int64)))
     writer = vtkXMLPolyDataWriter()
-    writer.SetInputData(data)
+    writer.SetInputData(triangles_data(corners.reshape(-1, 3), np.arange(3 * len(corners))))
     _write_xml(path, writer)
+
+
+def triangles_data(points: NDArray[Any], triangles: NDArray[np.int64]) -> vtkPolyData:
+    """Return triangles of points (n, 3) as PolyData; it shares the memory of the points."""
+    data, count = _points(points, {}), triangles.size // 3
+    offsets = _vtk_array("offsets", 3 * np.arange(count + 1, dtype=np.int64))
+    cells = vtkCellArray()
+    cells.SetData(offsets, _vtk_array("connectivity", triangles.ravel()))
+    data.SetPolys(cells)
+    return data
 
 
 def poly_data(snapshot: PointCloud) -> vtkPolyData:

@@ -49,8 +49,9 @@ class Style(NamedTuple):
 @cache
 def colour_map(name: str) -> Table:
     """Return 256 colours, (256, 3)."""
-    colormaps = load("matplotlib").colormaps
-    return np.asarray(colormaps[name](np.arange(256), bytes=True))[:, :3].astype(np.uint8)
+    # Those of matplotlib, whose import takes longer than a page.
+    tables: Table = np.load(Path(__file__).parent / "page/maps.npy")
+    return tables[MAPS.index(name)]
 
 
 def rgb(colour: str) -> tuple[int, int, int]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.optional import load
-from foamprb.view.geometry import Geometry, Surface
+from foamprb.results.vtk import triangles_data
+from foamprb.view.geometry import Geometry, Surface, filtered, triangles_of
 from foamprb.view.results import Table
 
 Floats = NDArray[np.float64]
@@ -44,19 +44,19 @@ def with_density(wall: Surface, x: Floats) -> Surface:
     if len(x) < FEW:
         return wall
     from scipy.spatial import cKDTree
+    from vtkmodules.vtkFiltersModeling import vtkAdaptiveSubdivisionFilter
 
     area = float(np.linalg.norm(wall.areas, axis=1).sum())
     samples, side = spread_over([wall]), np.sqrt(area)
     radius = side * max(np.sqrt(_PER_CIRCLE / (np.pi * len(x))), _WIDEST / np.sqrt(_SAMPLES))
     tree = cKDTree(samples)
-    fine = load("pyvista").PolyData.from_regular_faces(wall.points, wall.triangles)
-    fine = fine.subdivide_adaptive(max_edge_len=max(0.7 * radius, _FINEST * side))
-    points = np.array(fine.points, dtype=np.float64)
+    finer = vtkAdaptiveSubdivisionFilter()
+    finer.SetMaximumEdgeLength(max(0.7 * radius, _FINEST * side))
+    points, triangles = triangles_of(filtered(finer, triangles_data(wall.points, wall.triangles)))
     # The centres of the particles are off the wall.
     on_wall = cKDTree(samples[tree.query(x)[1]])
     number, share = (t.query_ball_point(points, radius, return_length=True) for t in (on_wall, tree))
     density = number / (np.maximum(share, 1) * area / len(samples))
-    triangles = np.array(fine.regular_faces, dtype=np.int64)
     return wall._replace(points=points, triangles=triangles, density=density)
 
 

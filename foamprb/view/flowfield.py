@@ -8,17 +8,18 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersFlowPaths import vtkStreamTracer
 
 from foamprb.body.viscosity import shear_rate
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
+from foamprb.results.vtk import triangles_data
 from foamprb.view.colours import round_limits
-
-pyvista = load("pyvista")
+from foamprb.view.geometry import filtered
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -36,6 +37,8 @@ _STARTS, _LINES = 150, 36
 """Starts of streamlines, and the number of lines that are taken, far from each other."""
 _LONGEST = 3.0
 """Largest length of a streamline each way, in longest sides."""
+_MOST_COMPARED = 200
+"""Points of a line, about, whose distances from the starts are compared."""
 _SLOW = 1e-3
 """Share of the mean speed below which a streamline ends."""
 _BEND, _PIECE = 0.06, 0.5
@@ -142,13 +145,12 @@ def sample_grid(flow: MeshFlow) -> Grid:
     shape = points.shape[:3]
     points = points.reshape(-1, 3)
     hosts = flow.locate(points)
-    inside, outside = np.flatnonzero(hosts >= 0), np.flatnonzero(hosts < 0)
-    nearest = np.arange(len(points))
+    inside = np.flatnonzero(hosts >= 0)
     u, l = np.zeros((len(points), 3)), np.zeros((len(points), 9))
     if len(inside):
         u[inside], gradient = flow.sample(points[inside], hosts[inside], 0.0)
         l[inside] = gradient.reshape(-1, 9)
-        nearest[outside] = inside[cKDTree(points[inside]).query(points[outside])[1]]
+    nearest = _nearest_inside(hosts.reshape(shape) >= 0)
     values = {"speed": np.linalg.norm(u, axis=1), "shearRate": _rate(l)}
     return Grid(
         low,
@@ -156,6 +158,18 @@ def sample_grid(flow: MeshFlow) -> Grid:
         u.reshape(*shape, 3),
         {name: v[nearest].reshape(shape) for name, v in values.items()},
     )
+
+
+def _nearest_inside(inside: NDArray[np.bool_]) -> Ints:
+    """Return for each point of a grid the index of a near point inside, its own for points inside."""
+    nearest = np.where(inside, np.arange(inside.size).reshape(inside.shape), -1)
+    while inside.any() and (nearest < 0).any():
+        for axis in range(3):
+            for shifted in (nearest, nearest[::-1, ::-1, ::-1]):
+                along = np.moveaxis(shifted, axis, 0)
+                before, after = along[:-1].copy(), along[1:]
+                after[(after < 0) & (before >= 0)] = before[(after < 0) & (before >= 0)]
+    return nearest
 
 
 def streamlines(flow: MeshFlow, grid: Grid) -> Streamlines:
@@ -173,22 +187,30 @@ def streamlines(flow: MeshFlow, grid: Grid) -> Streamlines:
     thin = shape == 1
     u = grid.u.repeat(1 + thin[2], axis=0).repeat(1 + thin[1], axis=1).repeat(1 + thin[0], axis=2)
     spacing = np.where(thin, 1e-2 * sides[2], (grid.high - grid.low) / np.maximum(shape - 1, 1))
-    image = pyvista.ImageData(
-        dimensions=shape + thin, spacing=spacing, origin=grid.low - np.where(thin, 0.5 * spacing, 0.0)
-    )
-    image.point_data["u"] = u.reshape(-1, 3)
-    image.point_data.active_vectors_name = "u"
+    image = vtkImageData()
+    image.SetDimensions(*(shape + thin).tolist())
+    image.SetSpacing(*spacing)
+    image.SetOrigin(*(grid.low - np.where(thin, 0.5 * spacing, 0.0)))
+    image.GetPointData().SetVectors(numpy_to_vtk(u.reshape(-1, 3)))
+    tracer = vtkStreamTracer()
+    tracer.SetSourceData(triangles_data(starts, np.zeros(0, dtype=np.int64)))
+    tracer.SetIntegrationDirectionToBoth()
+    tracer.SetIntegratorTypeToRungeKutta45()
+    tracer.SetComputeVorticity(False)
+    tracer.SetIntegrationStepUnit(vtkStreamTracer.CELL_LENGTH_UNIT)
+    tracer.SetInitialIntegrationStep(0.5)
+    tracer.SetMaximumIntegrationStep(1.0)
+    tracer.SetMaximumPropagation(_LONGEST * sides[2])
+    tracer.SetTerminalSpeed(_SLOW * float(weight.sum() / mesh.volumes.sum()))
+    tracer.SetMaximumNumberOfSteps(4000)
     with vtk_messages():
-        traced = image.streamlines_from_source(
-            pyvista.PolyData(starts), vectors="u", integration_direction="both", compute_vorticity=False,
-            max_length=_LONGEST * sides[2], terminal_speed=_SLOW * float(weight.sum() / mesh.volumes.sum()),
-            max_steps=4000,
-        )  # fmt: skip
-    points, places = (
-        np.asarray(traced.points, dtype=np.float64),
-        vtk_to_numpy(traced.GetLines().GetConnectivityArray()),
+        traced = filtered(tracer, image)
+    points, lines_of = vtk_to_numpy(traced.GetPoints().GetData()).astype(np.float64), traced.GetLines()
+    places, ends = (
+        vtk_to_numpy(lines_of.GetConnectivityArray()),
+        vtk_to_numpy(lines_of.GetOffsetsArray()),
     )
-    ends, seeds = vtk_to_numpy(traced.GetLines().GetOffsetsArray()), traced.cell_data["SeedIds"]
+    seeds = vtk_to_numpy(traced.GetCellData().GetArray("SeedIds"))
     halves: dict[int, list[Floats]] = {}
     for seed, a, b in zip(seeds.tolist(), ends[:-1], ends[1:], strict=True):
         halves.setdefault(seed, []).append(points[places[a:b]])
@@ -202,7 +224,8 @@ def streamlines(flow: MeshFlow, grid: Grid) -> Streamlines:
         seed = max(remaining, key=lambda seed: apart[seed])
         line = remaining.pop(seed)
         lines.append(_simplified(line, _PIECE * sides[1]))
-        apart = np.minimum(apart, cKDTree(line).query(starts)[0])
+        few = line[:: 1 + len(line) // _MOST_COMPARED]
+        apart = np.minimum(apart, np.linalg.norm(starts[:, None] - few, axis=2).min(axis=1))
     return Streamlines(np.concatenate(lines), np.cumsum([0, *map(len, lines)])) if lines else empty
 
 
@@ -280,7 +303,7 @@ def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
     origin, normal
         A point of the plane, m, and its unit normal, each (3,).
     """
-    nodes, tets = flow.mesh.nodes, flow.mesh.tets
+    pyvista, nodes, tets = load("pyvista"), flow.mesh.nodes, flow.mesh.tets
     grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: tets}, nodes)
     grid.cell_data["tet"] = np.arange(len(tets), dtype=np.int32)
     # Nodes on the plane, such as cell centres of a mesh with one layer, count as above it.

@@ -6,11 +6,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkPolyDataNormals, vtkQuadricDecimation
 
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.optional import load
-
-pyvista = load("pyvista")
+from foamprb.results.vtk import triangles_data
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -77,24 +77,46 @@ def boundary(mesh: Mesh) -> Geometry:
 
 def _smooth(nodes: Floats, triangles: Ints, share: float) -> tuple[Floats, Ints]:
     used, corners = np.unique(triangles, return_inverse=True)
-    data = pyvista.PolyData.from_regular_faces(nodes[used], corners.reshape(-1, 3))
+    data = triangles_data(nodes[used], corners)
     if share < 1.0:
-        data = data.decimate(1.0 - share)
-    data = data.compute_normals(
-        cell_normals=False, split_vertices=True, feature_angle=_FEATURE_ANGLE, consistent_normals=False
+        coarser = vtkQuadricDecimation()
+        coarser.SetTargetReduction(1.0 - share)
+        data = filtered(coarser, data)
+    normals = vtkPolyDataNormals()
+    normals.SetFeatureAngle(_FEATURE_ANGLE)
+    normals.ConsistencyOff()
+    return triangles_of(filtered(normals, data))
+
+
+def filtered(algorithm: Any, data: Any) -> Any:
+    """Return the output of a filter of VTK for some data."""
+    algorithm.SetInputData(data)
+    algorithm.Update()
+    return algorithm.GetOutput()
+
+
+def triangles_of(data: Any) -> tuple[Floats, Ints]:
+    """Return copies of the points (n, 3) and the triangles (t, 3) of PolyData."""
+    points, triangles = data.GetPoints().GetData(), data.GetPolys().GetConnectivityArray()
+    return (
+        np.array(vtk_to_numpy(points), dtype=np.float64),
+        np.array(vtk_to_numpy(triangles), dtype=np.int64).reshape(-1, 3),
     )
-    # Copies: the arrays of pyvista may share the memory of this temporary mesh.
-    return np.array(data.points, dtype=np.float64), np.array(data.regular_faces, dtype=np.int64)
 
 
 def _edges(nodes: Floats, triangles: Ints, patch: NDArray[Any]) -> Floats:
     """Return the edges of a single triangle, between patches, or where the surface bends sharply."""
     pairs = [np.zeros((0, 2), dtype=np.int64)]
     for index in np.unique(patch):
-        data = pyvista.PolyData.from_regular_faces(nodes, triangles[patch == index])
-        data.point_data["node"] = np.arange(len(nodes))
-        sharp = data.extract_feature_edges(_FEATURE_ANGLE)
-        pairs.append(np.asarray(sharp.point_data["node"])[sharp.lines.reshape(-1, 3)[:, 1:]])
+        data = triangles_data(nodes, triangles[patch == index])
+        data.GetPointData().SetScalars(numpy_to_vtk(np.arange(len(nodes))))
+        bends = vtkFeatureEdges()
+        bends.SetFeatureAngle(_FEATURE_ANGLE)
+        bends.ColoringOff()
+        sharp = filtered(bends, data)
+        node, ends = sharp.GetPointData().GetScalars(), sharp.GetLines().GetConnectivityArray()
+        if ends.GetNumberOfValues():
+            pairs.append(vtk_to_numpy(node)[vtk_to_numpy(ends)].reshape(-1, 2))
     return np.asarray(nodes[np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)])
 
 

@@ -346,7 +346,8 @@ def _run_of(request: Request) -> Run:
 
 def _surroundings(request: Request, run: Run, *, drawn: bool) -> tuple[Geometry | None, FlowField | None]:
     """Return the geometry, and the flow unless the mesh is large and no plane is requested."""
-    source = run.source(request.source)
+    # The correction that keeps volume is invisible.
+    source = replace(run.source(request.source), balanced=False)
 
     def read() -> MeshFlow:
         return read_flow(request.case, request.flow_time, source)

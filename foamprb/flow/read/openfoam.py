@@ -286,6 +286,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
         # Its arrays take half as much memory as the flow.
         operators.free()
         trim()
+        if not source.balanced:
+            return u, l, None
         fluxes = balanced(operators.conserve, u, l, mass, file, notes=notes)
         operators.free()
         return u, l, fluxes

@@ -71,6 +71,9 @@ class FlowSource:
     cache: Path | None = None
     """Folder that keeps the times of cases; see :class:`~foamprb.flow.read.prepared.PreparedTimes`."""
 
+    balanced: bool = True
+    """Balance the fluxes of a steady flow of a case, so that its velocities keep volume."""
+
     @property
     def length_scale(self) -> float:
         """Return the factor of the lengths in a mesh file, m."""
