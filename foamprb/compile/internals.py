@@ -516,8 +516,8 @@ class _Cache:
     is_entry
         Whether Python calls it.
     allocates
-        Whether it needs numba's runtime. Other saved code needs nothing of numba's library of functions, whose
-        loading takes a third of a second; a compilation loads it.
+        Whether it needs numba's runtime. Other saved code needs nothing of numba's functions, whose loading
+        takes a third of a second; a compilation loads them.
     """
 
     def __init__(

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkLight, vtkPolyDataMapper2D
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 from foamprb import optional
 from foamprb.errors import InputError
@@ -18,13 +22,13 @@ from foamprb.flow.read.vtk_messages import vtk_messages
 from foamprb.optional import load
 from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
+from foamprb.view.canvas import Canvas, dots, segments, surface
 from foamprb.view.colours import (
     OF_DEPOSITS,
     Style,
     Table,
     colour_map,
     colour_of_name,
-    font_file,
     number,
     readable,
     rgb,
@@ -32,7 +36,7 @@ from foamprb.view.colours import (
     written,
 )
 from foamprb.view.flowfield import PLANE, QUANTITIES, STREAM_OPACITY, FlowField
-from foamprb.view.geometry import FLAT_TYPES, Geometry
+from foamprb.view.geometry import FLAT_TYPES, Geometry, filtered, triangles_of
 from foamprb.view.scene import (
     INSETS,
     MOST_TRAILS,
@@ -42,11 +46,6 @@ from foamprb.view.scene import (
     anchor,
 )
 from foamprb.view.surfaces import bulges
-
-if TYPE_CHECKING:
-    from pyvista import Plotter
-
-pyvista = load("pyvista")
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -58,16 +57,17 @@ _SPHERES = ((300, 48, 24), (1_000, 24, 12), (5_000, 16, 9), (20_000, 12, 7), (ma
 _MOST_MARKED = 500
 _MARK_WIDTH, _SPOT_WIDTH, _MARK_STEPS = 0.04, 0.3, 72
 _BAR = 280.0
-_FONT_FILE = 4
-"""VTK's number of a font family that is a file."""
 _UNKNOWN = 153
 _TRAIL_OPACITY = 0.85
 _HAZE, _HAZE_LENGTH = 0.3, 0.6
 """Largest share of the paper in colours, and how far behind the focus it is reached, in its distances."""
+_WIDER, _MOST_STRETCHED = 1.2, 4.0
+"""Bodies are drawn a little beyond the picture, too; half lengths of bodies in radii, at most."""
 _NEAR_DEPOSITS = 0.35
 """Opacity of the near side of a wall that is coloured by its deposits."""
-_LATER: dict[str, Any] = {"render": False, "reset_camera": False}
-"""Options of the plotter: the picture is rendered once, by the camera of the scene."""
+_AXES = {"X": "#ff6347", "Y": "#2e8b57", "Z": "#3a6df0"}
+_AXIS, _TIP = 46.0, 11.0
+"""Lengths of an axis and of its arrow head, pixels of the page."""
 
 
 class Triangles(NamedTuple):
@@ -81,9 +81,9 @@ class Triangles(NamedTuple):
 
 @dataclass
 class Drawing:
-    """Scene on a plotter, with the parts that change from time to time."""
+    """Scene on a canvas, with the parts that change from time to time."""
 
-    plotter: Plotter
+    canvas: Canvas
     scene: Scene
     texts: bool
     style: Style
@@ -97,14 +97,15 @@ class Drawing:
             return
         shown = np.flatnonzero(bodies.shown[frame])
         for old in ("bodies", "mark", "trails"):
-            self.plotter.remove_actor(old, render=False)
+            self.canvas.remove(old)
         self._draw_trails(frame)
-        if len(shown):
-            colours = self._hazed(body_colours(scene, frame, shown), bodies.x[frame, shown])
-            F = bodies.F[frame, shown].astype(np.float64)
-            K = bulges(F, bodies.B[frame, shown]) if bodies.B is not None else None
-            place, size = bodies.x[frame, shown], bodies.radius[shown] * scene.enlargement
-            self._add("bodies", draw(sphere_for(len(shown)), place, F, size, colours, K))
+        visible = shown[self._visible(bodies.x[frame, shown], scene.enlargement * bodies.radius[shown])]
+        if len(visible):
+            colours = self._hazed(body_colours(scene, frame, visible), bodies.x[frame, visible])
+            F = bodies.F[frame, visible].astype(np.float64)
+            K = bulges(F, bodies.B[frame, visible]) if bodies.B is not None else None
+            place, size = bodies.x[frame, visible], bodies.radius[visible] * scene.enlargement
+            self._add("bodies", draw(sphere_for(len(shown)), place, F, size, colours, K), "back")
             if len(shown) <= _MOST_MARKED:
                 self._add("mark", draw(mark(), place, F, 1.002 * size, marked(colours), K))
         self._show_deposits(frame)
@@ -117,29 +118,33 @@ class Drawing:
         """Draw the fading trails of the bodies."""
         points, colours = trails(self.scene, frame)
         if len(points):
-            lines = pyvista.line_segments_from_points(points.reshape(-1, 3))
             colours[..., :3] = self._hazed(colours[..., :3], points)
-            lines.point_data["colour"] = colours.reshape(-1, 4)
-            self.plotter.add_mesh(
-                lines, scalars="colour", rgb=True, lighting=False, line_width=2.2 * self.scale, name="trails",
-                show_scalar_bar=False, **_LATER,
-            )  # fmt: skip
+            self.canvas.mesh("trails", segments(points, colours), width=2.2 * self.scale)
+
+    def _visible(self, places: Floats, size: Floats) -> NDArray[np.bool_]:
+        """Return whether bodies at places (n, 3), of a size at rest, (n,), m, are in the picture, (n,)."""
+        eye, (width, height) = self.canvas.camera, self.canvas.size
+        ahead, up = np.subtract(eye.GetFocalPoint(), eye.GetPosition()), np.array(eye.GetViewUp())
+        ahead /= np.linalg.norm(ahead)
+        right = np.cross(ahead, up) / np.linalg.norm(np.cross(ahead, up))
+        axes = np.array([right, np.cross(right, ahead), ahead])
+        x, y, z = axes @ (places - eye.GetPosition()).T
+        slope = _WIDER * math.tan(math.radians(0.5 * eye.GetViewAngle()))
+        room = _MOST_STRETCHED * size
+        return (np.abs(y) < slope * z + room) & (np.abs(x) < slope * width / height * z + room)
 
     def _hazed(self, colours: Table, places: Floats) -> Table:
         """Return colours (…, 3) faded towards the paper at places (…, 3) beyond the focus."""
-        eye = self.plotter.camera
-        towards = np.subtract(eye.focal_point, eye.position)
-        ahead = (places - eye.position) @ towards / (towards @ towards)
+        eye = self.canvas.camera
+        towards = np.subtract(eye.GetFocalPoint(), eye.GetPosition())
+        ahead = (places - eye.GetPosition()) @ towards / (towards @ towards)
         share = _HAZE * np.clip((ahead - 1.0) / _HAZE_LENGTH, 0.0, 1.0)[..., None]
         hazed: Table = np.rint(colours + share * (np.array(rgb(self.style.paper)) - colours)).astype(np.uint8)
         return hazed
 
-    def _add(self, name: str, mesh: Any) -> None:
+    def _add(self, name: str, mesh: Any, culling: str = "") -> None:
         """Draw a mesh with its own colours, in the light of the bodies."""
-        self.plotter.add_mesh(
-            mesh, scalars="colour", rgb=True, smooth_shading=True, name=name, show_scalar_bar=False,
-            ambient=0.36, diffuse=0.68, specular=0.25, specular_power=40.0, **_LATER,
-        )  # fmt: skip
+        self.canvas.mesh(name, mesh, culling=culling, light=(0.36, 0.68, 0.25))
 
     def label(self) -> None:
         """Write the texts that do not change: title, legends and names of patches."""
@@ -160,55 +165,59 @@ class Drawing:
             self._bar(label, field.unit, scene.limits, colour_map(scene.map_name), left, scene.extremes)
         else:
             self._names(scene.codes(name))
-        for surface in scene.geometry.surfaces if scene.geometry is not None else ():
-            if surface.type not in FLAT_TYPES:
-                self._name(surface.name, anchor(surface, scene.camera))
+        for patch in scene.geometry.surfaces if scene.geometry is not None else ():
+            if patch.type not in FLAT_TYPES:
+                self._name(patch.name, anchor(patch, scene.camera))
 
     def _name(self, text: str, place: Floats) -> None:
         """Write the name of a patch on a pill above a place of the scene."""
-        actor = pyvista.Text(f" {text} ")
-        typeset(actor.prop)
+        actor = self.canvas.text(f"patch {text}", f" {text} ", 12 * self.scale, self.style.soft)
         actor.GetPositionCoordinate().SetCoordinateSystemToWorld()
         actor.GetPositionCoordinate().SetValue(*place)
-        actor.prop.font_size = max(6, round(12 * self.scale))
-        actor.prop.justification_horizontal, actor.prop.justification_vertical = "center", "bottom"
-        actor.prop.color, actor.prop.background_color = self.style.soft, self.style.paper
-        actor.prop.background_opacity = 0.82
-        self.plotter.add_actor(actor, name=f"patch {text}", **_LATER)
+        letters = actor.GetTextProperty()
+        letters.SetJustificationToCentered()
+        letters.SetBackgroundColor(*(c / 255.0 for c in rgb(self.style.paper)))
+        letters.SetBackgroundOpacity(0.82)
 
     def compass(self) -> None:
         """Draw axes and a scale bar in the lower right corner."""
-        axes = self.plotter.add_axes(
-            interactive=False, color=self.style.soft, line_width=2, viewport=(0.88, 0.08, 1.0, 0.3)
-        )
-        for name in "XYZ":
-            typeset(getattr(axes, f"Get{name}AxisCaptionActor2D")().GetCaptionTextProperty())
-        eye = self.plotter.camera
-        width, height = (length / self.scale for length in self.plotter.window_size)
-        distance = float(np.linalg.norm(np.subtract(eye.position, eye.focal_point)))
-        pixel = 2.0 * distance * math.tan(math.radians(0.5 * eye.view_angle)) / height
+        eye = self.canvas.camera
+        width, height = (length / self.scale for length in self.canvas.size)
+        towards = np.subtract(eye.GetPosition(), eye.GetFocalPoint())
+        distance = float(np.linalg.norm(towards))
+        pixel = 2.0 * distance * math.tan(math.radians(0.5 * eye.GetViewAngle())) / height
         length = round_down(SCALE_BAR * pixel, (1, 2, 5))
         right, left = width - 20.0, width - 20.0 - length / pixel
-        points = np.array([[left, 30.0, 0.0], [left, 26.0, 0.0], [right, 26.0, 0.0], [right, 30.0, 0.0]])
+        bar = np.array([[left, 30.0], [left, 26.0], [right, 26.0], [right, 30.0]])
         self._write("scale", written(length, "m", length), 12, "center", height - 12.0, 0.5 * (left + right))
-        actor = self._add_flat("scale bar", pyvista.lines_from_points(points * self.scale))
-        actor.GetProperty().SetColor(*(c / 255.0 for c in rgb(self.style.ink)))
-        actor.GetProperty().SetLineWidth(1.5 * self.scale)
+        bar = self._flat("scale bar", np.stack([bar[:-1], bar[1:]], axis=1), self.style.ink)
+        bar.GetProperty().SetLineWidth(1.5 * self.scale)
+        towards, up = towards / distance, np.array(eye.GetViewUp())
+        across = np.cross(up, towards) / np.linalg.norm(np.cross(up, towards))
+        screen = np.array([across, np.cross(towards, across)])
+        middle = np.array([0.94 * width, 0.19 * height])
+        # The axis that points to the viewer is in front of the others.
+        for k in np.argsort(towards).tolist():
+            name, tip = "XYZ"[k], middle + _AXIS * screen[:, k]
+            shown = float(np.linalg.norm(screen[:, k]))
+            along = screen[:, k] / max(shown, 1e-9)
+            back, side = tip - min(_TIP, _AXIS * shown) * along, np.array([-along[1], along[0]])
+            shaft = self._flat(f"axis {name}", np.array([[middle, back]]), _AXES[name])
+            shaft.GetProperty().SetLineWidth(2.0 * self.scale)
+            head = np.array([tip, back + 0.4 * _TIP * side, back - 0.4 * _TIP * side])
+            self._flat(f"head {name}", head, _AXES[name])
+            x, y = tip + 8.0 * along
+            self._write(f"name {name}", name, 14, "center", height - y + 5.0, x)
 
     def _write(
         self, name: str, text: str, size: float, side: str, top: float, left: float = 22.0, bold: bool = False
     ) -> None:
         """Write a line; ``top`` and ``left`` are pixels of the page from the upper and the ``side`` edge."""
-        width, height = self.plotter.window_size
-        s = self.scale
-        actor = pyvista.Text(
-            text, position=(width - left * s if side == "right" else left * s, height - top * s)
-        )
-        typeset(actor.prop, bold)
-        actor.prop.font_size = max(6, round(size * s))
-        actor.prop.justification_horizontal = side
-        actor.prop.color = self.style.ink if bold else self.style.soft
-        self.plotter.add_actor(actor, name=name, **_LATER)
+        (width, height), s = self.canvas.size, self.scale
+        actor = self.canvas.text(name, text, size * s, self.style.ink if bold else self.style.soft, bold)
+        actor.SetPosition(width - left * s if side == "right" else left * s, height - top * s)
+        letters = actor.GetTextProperty()
+        letters.SetJustification(("left", "center", "right").index(side))
 
     def _bar(
         self, label: str, unit: str, limits: tuple[float, float], table: Table, left: float,
@@ -218,26 +227,22 @@ class Drawing:
 
         Values beyond the limits are named by their extremes.
         """
-        width, height = (length / self.scale for length in self.plotter.window_size)
+        width, height = (length / self.scale for length in self.canvas.size)
         factor, shown_unit = readable(unit, max(map(abs, limits)))
         low, high = (value / factor for value in limits)
         title = label[:1].upper() + label[1:] + (f"  ({shown_unit})" if shown_unit else "")
         ends = [f"min {number(extremes[0] / factor, 2)}"] * (extremes[0] < limits[0])
         ends += [f"max {number(extremes[1] / factor, 2)}"] * (extremes[1] > limits[1])
-        colours = np.column_stack([table, np.full(len(table), 255)]).astype(np.uint8)
-        mapper = pyvista.DataSetMapper()
-        mapper.lookup_table = pyvista.LookupTable(values=colours, scalar_range=(low, high))
-        mapper.scalar_range = low, high
         self._write(f"{label} title", "  ".join([title, *ends]), 13, "left", height - 62.0, left, bold=True)
         for k, side in enumerate(("left", "center", "center", "center", "right")):
             value, at = low + 0.25 * k * (high - low), left + 0.25 * k * _BAR
             at = width - at if side == "right" else at
             self._write(f"{label} {k}", number(value, 3), 12, side, height - 12.0, at)
-        # The title of the bar, blanks, is the name of its actor.
-        self.plotter.add_scalar_bar(
-            round(left) * " ", mapper=mapper, vertical=False, n_labels=0, position_x=left / width,
-            position_y=30.0 / height, width=_BAR / width, height=62.0 / height, render=False,
-        )  # fmt: skip
+        x = left + _BAR * np.linspace(0.0, 1.0, len(table))
+        corners = np.stack([np.repeat(x, 2), np.tile([30.0, 53.0], len(x))], axis=1)
+        k = np.arange(0, len(corners) - 2, 2)[:, None]
+        bands = np.concatenate([k + np.array([0, 2, 1]), k + np.array([1, 2, 3])])
+        self._flat(f"{label} bar", corners, None, bands, np.repeat(table, 2, axis=0))
         return left + _BAR + 40.0
 
     def _names(self, codes: Codes) -> None:
@@ -245,20 +250,22 @@ class Drawing:
         present = [
             k for k in np.unique(codes.codes).tolist() if k < len(codes.meanings) and codes.meanings[k]
         ]
-        names = [[codes.meanings[k], colour_of_name(k)] for k in present]
-        legend = self.plotter.add_legend(
-            names, bcolor=self.style.paper, background_opacity=0.82, face="rectangle", loc="lower left",
-            size=(0.2, 0.035 * len(names)),
-        )  # fmt: skip
-        typeset(legend.GetEntryTextProperty())
+        height = self.canvas.size[1] / self.scale
+        for row, k in enumerate(reversed(present)):
+            low, high = 24.0 + 24.0 * row, 38.0 + 24.0 * row
+            square = np.array([[22.0, low], [36.0, low], [36.0, high], [22.0, high]])
+            self._flat(f"square {k}", square, colour_of_name(k), np.array([[0, 1, 2], [0, 2, 3]]))
+            self._write(f"name {k}", codes.meanings[k], 13, "left", height - low - 2.0, 44.0)
 
-    def _add_flat(self, name: str, data: Any) -> Any:
-        """Draw a mesh in front of the scene, in pixels of the picture; return its actor."""
-        actor = vtkActor2D()
-        actor.SetMapper(vtkPolyDataMapper2D())
-        actor.GetMapper().SetInputData(data)
-        self.plotter.add_actor(actor, name=name, **_LATER)
-        return actor
+    def _flat(
+        self, name: str, points: Floats, colour: str | None, triangles: Ints | None = None,
+        colours: Table | None = None,
+    ) -> Any:  # fmt: skip
+        """Draw lines (s, 2, 2) or triangles of points (n, 2), pixels of the page, in front of the scene."""
+        flat = np.concatenate([self.scale * points, np.zeros((*points.shape[:-1], 1))], axis=-1)
+        triangles = np.array([[0, 1, 2]]) if triangles is None else triangles
+        data = segments(flat) if flat.ndim == 3 else surface(flat, triangles, colours)
+        return self.canvas.flat(name, data, colour)
 
     def _show_deposits(self, frame: int) -> None:
         """Mark the deposits in front of everything."""
@@ -266,21 +273,11 @@ class Drawing:
         stuck = [k for k, word in enumerate(bodies.status.meanings) if word == "stuck"]
         codes = bodies.status.codes
         rows = np.flatnonzero(bodies.present[frame] & np.isin(codes[min(frame, len(codes) - 1)], stuck))
-        self.plotter.remove_actor("deposits", render=False)
+        self.canvas.remove("deposits")
         if len(rows) == 0:
             return
-        actor = self._add_flat("deposits", pyvista.PolyData(bodies.x[frame, rows]))
-        world = vtkCoordinate()
-        world.SetCoordinateSystemToWorld()
-        actor.GetMapper().SetTransformCoordinate(world)
-        actor.GetProperty().SetColor(*(c / 255.0 for c in rgb(self.style.deposit)))
+        actor = self.canvas.flat("deposits", dots(bodies.x[frame, rows]), self.style.deposit, world=True)
         actor.GetProperty().SetPointSize(6.0 * self.scale)
-
-
-def typeset(text: Any, bold: bool = False) -> None:
-    """Set the typeface of a text of VTK."""
-    text.SetFontFamily(_FONT_FILE)
-    text.SetFontFile(font_file(bold))
 
 
 def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, texts: bool = True) -> None:
@@ -293,13 +290,29 @@ def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, texts
     """
     if path.suffix.lower() != ".png":
         raise InputError(f"-png {path}: the name must end in .png.")
+    (image,) = images(scene, size, (style,), texts)
+    with atomic_write(path) as temporary:
+        temporary.write_bytes(png_of(image))
+
+
+def png_of(image: NDArray[np.uint8]) -> bytes:
+    """Return a picture, (height, width, 3), as a PNG file."""
+    file = io.BytesIO()
+    # Higher levels take two and more times as long, for a tenth of the size.
+    load("PIL.Image").fromarray(image).save(file, format="png", compress_level=3)
+    return file.getvalue()
+
+
+def images(
+    scene: Scene, size: tuple[int, int], styles: Sequence[Style], texts: bool = True
+) -> Iterator[NDArray[np.uint8]]:
+    """Yield pictures of the scene's first time in several styles, (height, width, 3), on one canvas."""
     with vtk_messages():
-        drawing = _drawing(scene, size, style, texts)
-        drawing.show(scene.first)
-        image = drawing.plotter.screenshot(return_img=True)
-        drawing.plotter.close()
-    with atomic_write(path) as temporary, temporary.open("wb") as file:
-        load("PIL.Image").fromarray(image).save(file, format="png")
+        canvas = Canvas(size)
+        for style in styles:
+            _drawing(canvas, scene, style, texts).show(scene.first)
+            yield canvas.image()
+        canvas.close()
 
 
 def film(scene: Scene, path: Path, size: tuple[int, int], style: Style) -> None:
@@ -320,12 +333,11 @@ def film(scene: Scene, path: Path, size: tuple[int, int], style: Style) -> None:
     writer: Any
     try:
         with vtk_messages(), get_writer(temporary, **options) as writer:
-            drawing = _drawing(scene, even, style, texts=True)
+            drawing = _drawing(Canvas(even), scene, style, texts=True)
             for frame in range(m):
                 drawing.show(frame)
-                drawing.plotter.render()
-                writer.append_data(drawing.plotter.screenshot(return_img=True))
-            drawing.plotter.close()
+                writer.append_data(drawing.canvas.image())
+            drawing.canvas.close()
         temporary.replace(path)
     except (ImportError, ValueError) as error:
         # Without its encoder imageio does not support the format.
@@ -336,82 +348,71 @@ def film(scene: Scene, path: Path, size: tuple[int, int], style: Style) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool) -> Drawing:
-    """Return the scene without its bodies."""
-    plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting=None)
-    plotter.set_background(style.paper)
-    plotter.enable_anti_aliasing("msaa", multi_samples=8)
-    light = vtkLight()
-    light.SetLightTypeToCameraLight()
-    light.SetPosition(-0.35, 0.6, 0.72)
-    plotter.renderer.AddLight(light)
-    scale = size[1] / PAGE_HEIGHT
-    drawing = Drawing(plotter, scene, texts, style, scale)
+def _drawing(canvas: Canvas, scene: Scene, style: Style, texts: bool) -> Drawing:
+    """Return the scene without its bodies, alone on a canvas."""
+    canvas.clear(style.paper)
+    scale = canvas.size[1] / PAGE_HEIGHT
+    drawing = Drawing(canvas, scene, texts, style, scale)
     if scene.geometry is not None:
-        draw_geometry(plotter, scene.geometry, style, scene.most_dense if scene.painted else 0.0)
+        draw_geometry(canvas, scene.geometry, style, scene.most_dense if scene.painted else 0.0)
     if len(scene.edges):
-        lines = pyvista.line_segments_from_points(scene.edges.reshape(-1, 3))
-        plotter.add_mesh(lines, color=style.edge, line_width=1.0, lighting=False, **_LATER)
+        canvas.mesh("edges", segments(scene.edges), style.edge)
     if scene.flowfield is not None:
-        draw_flow(plotter, scene.flowfield, style)
+        draw_flow(canvas, scene.flowfield, style)
     if texts:
         drawing.label()
-    _place_camera(plotter, scene, size, [inset * scale for inset in INSETS] if texts else [0.0, 0.0])
+    _place_camera(canvas, scene, [inset * scale for inset in INSETS] if texts else [0.0, 0.0])
     if texts:
         drawing.compass()
     return drawing
 
 
-def _place_camera(plotter: Plotter, scene: Scene, size: tuple[int, int], insets: list[float]) -> None:
-    camera, eye = scene.camera, plotter.camera
-    width, height = size
+def _place_camera(canvas: Canvas, scene: Scene, insets: list[float]) -> None:
+    camera, eye = scene.camera, canvas.camera
+    width, height = canvas.size
     above, below = insets
     free = max(0.3, 1.0 - (above + below) / height)
     distance = camera.distance(width / height, free)
-    eye.view_angle = VIEW_ANGLE
-    eye.focal_point = camera.focus
-    eye.position = camera.focus + distance * camera.towards
-    eye.up = camera.up
+    eye.SetViewAngle(VIEW_ANGLE)
+    eye.SetFocalPoint(*camera.focus)
+    eye.SetPosition(*(camera.focus + distance * camera.towards))
+    eye.SetViewUp(*camera.up)
     # The scene is centred between the texts above and below.
     eye.SetWindowCenter(0.0, (above - below) / height)
-    plotter.renderer.ResetCameraClippingRange()
-    plotter.camera_set = True
 
 
-def draw_geometry(plotter: Plotter, geometry: Geometry, style: Style, most_dense: float = 0.0) -> None:
+def draw_geometry(canvas: Canvas, geometry: Geometry, style: Style, most_dense: float = 0.0) -> None:
     """Draw the far side of walls, and the near side and other patches almost transparent.
 
     Up to the density ``most_dense``, 1/m², if it is given, colours of walls tell that of their deposits.
     """
-    for surface in geometry.surfaces:
-        if surface.type in FLAT_TYPES:
+    for k, patch in enumerate(geometry.surfaces):
+        if patch.type in FLAT_TYPES:
             continue
-        mesh = pyvista.PolyData.from_regular_faces(surface.points, surface.triangles)
-        more = {"smooth_shading": True} | _LATER
-        if kind_of_type(surface.type) is PatchKind.WALL:
-            more["color"], opacity = style.glass, 0.1
-            if most_dense > 0.0 and surface.density is not None:
-                shares = np.clip(255.0 * surface.density / most_dense, 0, 255).astype(np.uint8)
-                mesh.point_data["colour"] = colour_map(OF_DEPOSITS)[shares]
-                more |= {"color": None, "scalars": "colour", "rgb": True, "show_scalar_bar": False}
-                opacity = _NEAR_DEPOSITS
-            plotter.add_mesh(mesh, culling="back", opacity=opacity, ambient=0.6, diffuse=0.4, **more)
-            plotter.add_mesh(mesh, culling="front", ambient=0.8, diffuse=0.22, specular=0.0, **more)
-        else:
-            plotter.add_mesh(mesh, color=style.accent, opacity=0.07, ambient=1.0, diffuse=0.0, **more)
+        if kind_of_type(patch.type) is not PatchKind.WALL:
+            mesh = surface(patch.points, patch.triangles)
+            canvas.mesh(f"patch {k}", mesh, style.accent, opacity=0.07)
+            continue
+        colour, colours, opacity = style.glass, None, 0.1
+        if most_dense > 0.0 and patch.density is not None:
+            shares = np.clip(255.0 * patch.density / most_dense, 0, 255).astype(np.uint8)
+            colour, colours, opacity = None, colour_map(OF_DEPOSITS)[shares], _NEAR_DEPOSITS
+        normals = vtkPolyDataNormals()
+        normals.SplittingOff()
+        mesh = filtered(normals, surface(patch.points, patch.triangles, colours))
+        canvas.mesh(f"near {k}", mesh, colour, opacity, culling="back", light=(0.6, 0.4, 0.0))
+        canvas.mesh(f"far {k}", mesh, colour, culling="front", light=(0.8, 0.22, 0.0))
 
 
-def draw_flow(plotter: Plotter, field: FlowField, style: Style) -> None:
+def draw_flow(canvas: Canvas, field: FlowField, style: Style) -> None:
     """Draw streamlines, faintly, and the plane through the flow, coloured by the speed."""
     if len(field.lines.points):
-        lines = pyvista.line_segments_from_points(field.lines.segments.reshape(-1, 3))
-        plotter.add_mesh(lines, color=style.soft, opacity=STREAM_OPACITY, lighting=False, **_LATER)
+        canvas.mesh("streamlines", segments(field.lines.segments), style.soft, STREAM_OPACITY)
     if field.slice is not None:
         low, high = field.scales[PLANE].limits
-        mesh = pyvista.PolyData.from_regular_faces(field.slice.points, field.slice.triangles)
         share = (field.slice.values[PLANE] - low) / ((high - low) or 1.0)
-        mesh.point_data["colour"] = style.plane[np.clip(255.0 * share, 0, 255).astype(np.uint8)]
-        plotter.add_mesh(mesh, scalars="colour", rgb=True, lighting=False, show_scalar_bar=False, **_LATER)
+        colours = style.plane[np.clip(255.0 * share, 0, 255).astype(np.uint8)]
+        canvas.mesh("plane", surface(field.slice.points, field.slice.triangles, colours))
 
 
 def trails(scene: Scene, frame: int) -> tuple[Floats, Table]:
@@ -463,11 +464,13 @@ def marked(colours: Table) -> Table:
 def sphere_for(count: int) -> Triangles:
     """Return the unit sphere, coarser for more bodies."""
     around, down = next((around, down) for most, around, down in _SPHERES if count <= most)
-    ball = pyvista.Sphere(radius=1.0, theta_resolution=around, phi_resolution=down)
-    points = np.asarray(ball.points, dtype=np.float64)
-    return Triangles(
-        points / np.linalg.norm(points, axis=1, keepdims=True), np.array(ball.regular_faces, dtype=np.int64)
-    )
+    ball = vtkSphereSource()
+    ball.SetRadius(1.0)
+    ball.SetThetaResolution(around)
+    ball.SetPhiResolution(down)
+    ball.Update()
+    points, triangles = triangles_of(ball.GetOutput())
+    return Triangles(points / np.linalg.norm(points, axis=1, keepdims=True), triangles)
 
 
 def mark() -> Triangles:
@@ -521,9 +524,7 @@ def draw(
         cofactors = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=2)
         normals = np.einsum("vj,nvji->nvi", sphere, cofactors)
     normals /= np.linalg.norm(normals, axis=2, keepdims=True)
-    faces = shape.triangles.astype(np.int32)[None] + (v * np.arange(n, dtype=np.int32))[:, None, None]
-    mesh = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), faces.reshape(-1, 3))
-    mesh.point_data["Normals"] = normals.reshape(-1, 3)
-    mesh.point_data.active_normals_name = "Normals"
-    mesh.point_data["colour"] = np.repeat(colours, v, axis=0)
+    faces = shape.triangles.astype(np.int64)[None] + (v * np.arange(n))[:, None, None]
+    mesh = surface(points.reshape(-1, 3), faces, np.repeat(colours, v, axis=0))
+    mesh.GetPointData().SetNormals(numpy_to_vtk(normals.reshape(-1, 3)))
     return mesh

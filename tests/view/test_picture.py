@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from PIL import Image
 from view_run import modes, motion, write_run
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.cli import main
+from foamprb.view.canvas import Canvas
 from foamprb.view.colours import DARK, LIGHT, rgb
 from foamprb.view.picture import _drawing, draw, mark, sphere_for, trails
 from foamprb.view.results import open_run
@@ -40,8 +42,8 @@ class TestMeshes:
         place, size = random.standard_normal((2, 3)), np.array([0.5, 2.0])
         mesh = draw(sphere, place, F, size, np.zeros((2, 3), dtype=np.uint8))
         v = len(sphere.points)
-        points = np.asarray(mesh.points).reshape(2, v, 3)
-        normals = np.asarray(mesh.point_data["Normals"]).reshape(2, v, 3)
+        points = vtk_to_numpy(mesh.GetPoints().GetData()).reshape(2, v, 3)
+        normals = vtk_to_numpy(mesh.GetPointData().GetNormals()).reshape(2, v, 3)
         for k in range(2):
             expected = place[k] + size[k] * sphere.points @ F[k].T
             np.testing.assert_allclose(points[k], expected, atol=1e-6)
@@ -56,8 +58,8 @@ class TestMeshes:
         place, size = random.standard_normal((2, 3)), np.array([0.5, 2.0])
         mesh = draw(sphere, place, F, size, np.zeros((2, 3), dtype=np.uint8), K)
         v = len(sphere.points)
-        points = np.asarray(mesh.points).reshape(2, v, 3)
-        normals = np.asarray(mesh.point_data["Normals"]).reshape(2, v, 3)
+        points = vtk_to_numpy(mesh.GetPoints().GetData()).reshape(2, v, 3)
+        normals = vtk_to_numpy(mesh.GetPointData().GetNormals()).reshape(2, v, 3)
         along = np.cross(sphere.points, random.standard_normal(3))
 
         def surface(X, k):
@@ -164,14 +166,14 @@ class TestPictures:
 
     def test_the_scale_bar_has_a_round_length_in_the_plane_of_the_focus(self, case):
         scene = make_scene(Request(case), open_run(case), range(5))
-        drawing = _drawing(scene, (900, 900), LIGHT, texts=True)
-        actors, eye = drawing.plotter.actors, drawing.plotter.camera
-        assert actors["scale"].input == "200 mm"
-        bar = np.ptp(np.array(actors["scale bar"].GetMapper().GetInput().points)[:, 0])
+        canvas = _drawing(Canvas((900, 900)), scene, LIGHT, texts=True).canvas
+        actors, eye = canvas.actors, canvas.camera
+        assert actors["scale"].GetInput() == "200 mm"
+        bar = np.ptp(vtk_to_numpy(actors["scale bar"].GetMapper().GetInput().GetPoints().GetData())[:, 0])
         height = (
             2.0
-            * np.linalg.norm(np.subtract(eye.position, eye.focal_point))
-            * math.tan(math.radians(eye.view_angle / 2))
+            * np.linalg.norm(np.subtract(eye.GetPosition(), eye.GetFocalPoint()))
+            * math.tan(math.radians(eye.GetViewAngle() / 2))
         )
         assert bar / 900 == pytest.approx(0.2 / height, rel=1e-6)
-        drawing.plotter.close()
+        canvas.close()

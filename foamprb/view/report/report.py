@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import logging
 import os
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -31,7 +30,6 @@ from foamprb.view.colours import DARK, LIGHT, number, with_interval, written
 from foamprb.view.deposits import ends_of, painted, ways
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.graphics import require_graphics
-from foamprb.view.picture import picture
 from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
@@ -202,12 +200,9 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
 def _drawn(scene: Scene) -> str:
     """Return the picture of a scene for light and dark pages; raise InputError if none can be drawn."""
     require_graphics()
-    drawn = []
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "scene.png"
-        for style in (LIGHT, DARK):
-            picture(scene, file, _PICTURE, style)
-            drawn.append(file.read_bytes())
+    from foamprb.view.picture import images, png_of
+
+    light, dark = map(png_of, images(scene, _PICTURE, (LIGHT, DARK)))
     time = float(scene.bodies.times[scene.first])
     caption = "Particles per area that stuck to the walls, as the mean over circles of about four."
     caption = (
@@ -218,7 +213,7 @@ def _drawn(scene: Scene) -> str:
             f"coloured by {scene.colour[0]}."
         )
     )
-    return image(drawn[0], drawn[1], caption)
+    return image(light, dark, caption)
 
 
 def _scene(report: _Report, body: str, target: Path) -> PageSection | None:
