@@ -54,6 +54,8 @@ class Canvas:
         light = vtkLight()
         light.SetLightTypeToCameraLight()
         light.SetPosition(-0.35, 0.6, 0.72)
+        # Faces behind each other are few, and blended in the order in which they are added.
+        self.renderer.SetUseOIT(False)
         self.renderer.AutomaticLightCreationOff()
         self.renderer.AddLight(light)
 

@@ -353,12 +353,12 @@ def _drawing(canvas: Canvas, scene: Scene, style: Style, texts: bool) -> Drawing
     canvas.clear(style.paper)
     scale = canvas.size[1] / PAGE_HEIGHT
     drawing = Drawing(canvas, scene, texts, style, scale)
-    if scene.geometry is not None:
-        draw_geometry(canvas, scene.geometry, style, scene.most_dense if scene.painted else 0.0)
     if len(scene.edges):
         canvas.mesh("edges", segments(scene.edges), style.edge)
     if scene.flowfield is not None:
         draw_flow(canvas, scene.flowfield, style)
+    if scene.geometry is not None:
+        draw_geometry(canvas, scene.geometry, style, scene.most_dense if scene.painted else 0.0)
     if texts:
         drawing.label()
     _place_camera(canvas, scene, [inset * scale for inset in INSETS] if texts else [0.0, 0.0])

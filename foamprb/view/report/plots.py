@@ -17,6 +17,7 @@ from foamprb.view.colours import NAMES, number, readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.backend_bases import RendererBase
     from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
@@ -28,6 +29,8 @@ FATES = {
 """Colour of each fate: a contrast of about 3 to light and dark, distances also for the colour-blind."""
 _INK, _SOFT, _PAPER = "#17202a", "#4c5966", "#ffffff"
 _BINS = 40
+_WIDTH, _MARGIN = 6.4, 6.0
+"""Width of a plot, inches, and its margins, dots."""
 _HATCHES = dict(zip(FATES, ("", "///", "...", "xxx", "ooo", "\\\\\\"), strict=True))
 _MARKERS = dict(zip(FATES, "o^s*Dv", strict=True))
 _MOST_DOTS = 5000
@@ -86,7 +89,7 @@ def _legend(axes: Axes) -> None:
 def _plot(draw: Callable[[Figure, Axes], None], height: float = 3.2) -> Plot:
     """Return the plot that a function draws on a figure and its axes; ``height`` in inches."""
     with load("matplotlib").rc_context(_STYLE):
-        figure = load("matplotlib.figure").Figure(figsize=(6.4, height), layout="constrained")
+        figure = load("matplotlib.figure").Figure(figsize=(_WIDTH, height))
         pixels = load("matplotlib.backends.backend_agg").FigureCanvasAgg(figure)
         draw(figure, figure.add_subplot())
         ticker = load("matplotlib.ticker")
@@ -94,9 +97,7 @@ def _plot(draw: Callable[[Figure, Axes], None], height: float = 3.2) -> Plot:
             for axis in (axes.xaxis, axes.yaxis):
                 if isinstance(axis.get_major_formatter(), ticker.ScalarFormatter):
                     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: number(value)))
-        figure.draw_without_rendering()
-        # The layout is found once, not for each file.
-        figure.set_layout_engine("none")
+        _fit(figure, pixels.get_renderer())
         file, png = io.StringIO(), io.BytesIO()
         # Figure.savefig would draw each file twice.
         figure.set_facecolor("none")
@@ -106,10 +107,20 @@ def _plot(draw: Callable[[Figure, Axes], None], height: float = 3.2) -> Plot:
         figure.set_canvas(pixels)
         figure.set_facecolor(_PAPER)
         figure.set_dpi(200)
-        pixels.print_png(png)
+        pixels.print_png(png, pil_kwargs={"compress_level": 3})
     text = file.getvalue()
     alone = re.sub(r"(<svg[^>]*>)", rf'\1<rect width="100%" height="100%" fill="{_PAPER}"/>', text, count=1)
     return Plot(_inline(text), alone.encode(), png.getvalue())
+
+
+def _fit(figure: Figure, renderer: RendererBase) -> None:
+    """Let the axes with labels and legend fill a figure; layouts of matplotlib draw everything thrice."""
+    (axes,) = figure.axes
+    outer, inner = axes.get_tightbbox(renderer).extents, axes.get_window_extent(renderer).extents
+    size = figure.dpi * figure.get_size_inches()
+    low = (inner[:2] - outer[:2] + _MARGIN) / size
+    high = 1.0 - (outer[2:] - inner[2:] + _MARGIN) / size
+    axes.set_position((*low, *(high - low)))
 
 
 def _inline(svg: str) -> str:
