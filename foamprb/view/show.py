@@ -28,6 +28,7 @@ from foamprb.settings.fluid import read_gravity
 from foamprb.view.bodies import (
     FATE_COLUMNS,
     Bodies,
+    Survey,
     fates_of,
     fields_of_fates,
     gather,
@@ -249,14 +250,20 @@ def make_scene(request: Request, run: Run, frames: Sequence[int], *, drawn: bool
     return _background(request, run, drawn=drawn).read(frames, drawn=drawn)
 
 
-def make_still(request: Request, run: Run, most: int = MOST_DRAWN, fates: Table | None = None) -> Scene:
+def make_still(
+    request: Request,
+    run: Run,
+    most: int = MOST_DRAWN,
+    fates: Table | None = None,
+    seen: Survey | None = None,
+) -> Scene:
     """Return the scene of one time, by default the opening one; its colours span all times.
 
     Without ``request.bodies`` it has at most ``most`` bodies, evenly spread over their numbers. The ``fates``
-    of the run are read unless they are given.
+    of the run are read unless they are given, as are the values of all times.
     """
     name, part = require_array(run, request.colour)
-    shown, values = survey(run, name, part)
+    shown, values, _ = seen or survey(run, name, part)
     frame = opening(shown, stuck_at_end(run)) if request.time is None else run.nearest(request.time)
     if request.bodies is None and shown[frame] > most:
         request = replace(request, bodies=most)

@@ -14,7 +14,6 @@ from urllib.parse import quote
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.state import Status
 from foamprb.errors import InputError
 from foamprb.flow.base import NEAR
 from foamprb.flow.read.flows import read_mesh
@@ -26,6 +25,7 @@ from foamprb.results.manifest import Manifest
 from foamprb.results.reading import reading
 from foamprb.results.record import RECORD_FORMAT
 from foamprb.run.validity import COLUMNS, excesses, limits_of, warnings_of
+from foamprb.view.bodies import Survey, survey
 from foamprb.view.colours import DARK, LIGHT, number, with_interval, written
 from foamprb.view.deposits import ends_of, painted, ways
 from foamprb.view.geometry import Geometry, boundary
@@ -34,15 +34,13 @@ from foamprb.view.report import plots
 from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import Scene
-from foamprb.view.show import PAGE_BEGINS, Request, make_still, spread, title_of
+from foamprb.view.show import DEFAULT_COLOUR, PAGE_BEGINS, Request, make_still, spread, title_of
 
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
 
 _PICTURE = (1600, 900)
-_MOST_TIMES = 120
-"""Largest number of times read for curves over all particles."""
 _MOST_BODIES = 30_000
 """Largest number of bodies in the picture."""
 _PATHS = _MOST_NAMED = 6
@@ -55,6 +53,8 @@ class _Report:
     """Input of all sections, and the plots that they have made."""
 
     run: Run
+    seen: Survey
+    """D at all times."""
     fates: Table
     geometry: Geometry | None
     paths: tuple[int, ...] | None
@@ -99,8 +99,9 @@ def write_report(
         raise InputError(f"{run.folder}: no fates, the run has not ended. To continue: foamprb run -resume.")
     geometry: Geometry | None = None
     body, on_walls, missing = "", "", _missing_record(run)
+    seen = survey(run, DEFAULT_COLOUR, "")
     try:
-        scene = make_still(Request(case, cloud, source, results=results), run, _MOST_BODIES, fates)
+        scene = make_still(Request(case, cloud, source, results=results), run, _MOST_BODIES, fates, seen)
         geometry = scene.geometry
         body = _drawn(scene)
         if len(scene.densities):
@@ -108,7 +109,7 @@ def write_report(
     except InputError as error:
         missing.append(f"No picture: {error}")
         geometry = geometry or _geometry(case, source, fates)
-    report = _Report(run, fates, geometry, tuple(paths) if paths else None, {})
+    report = _Report(run, seen, fates, geometry, tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
     with reading(run.folder, "is not as foamprb run wrote it", "Run the particles again: foamprb run."):
         sections = [
@@ -357,23 +358,14 @@ def _deformation(report: _Report) -> PageSection | None:
             "The largest D on the path of each particle.",
         )
         drawn += _largest(report)
-    indices = spread(len(run.times), _MOST_TIMES)
-    quantiles = []
-    for index in indices:
-        D = run.cloud(index, ("taylorDeformation", "status"), _moving).arrays["taylorDeformation"]
-        quantiles.append(np.quantile(D, (0.05, 0.5, 0.95)) if len(D) else np.full(3, np.nan))
-    if len(indices) > 1 and np.isfinite(quantiles).any():
-        t, (low, middle, high) = run.times[indices], np.transpose(quantiles)
+    t, (low, middle, high) = run.times, report.seen.quantiles.T
+    if len(t) > 1 and np.isfinite(middle).any():
         drawn += report.figure(
             "deformationOverTime",
             plots.curves([("median", t, middle)], ("time t", "s"), ("D", "1"), (t, low, high)),
             "D of the moving particles over time: the median, and the range of nine in ten.",
         )
     return PageSection("deformation", "Deformation", grid(drawn)) if drawn else None
-
-
-def _moving(arrays: Table) -> NDArray[np.int64]:
-    return np.flatnonzero(arrays["status"] == Status.ACTIVE)
 
 
 def _beyond(fates: Table, run: Run) -> list[str]:
