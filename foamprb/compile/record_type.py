@@ -140,7 +140,22 @@ _record_type = functools.cache(RecordType)
 
 
 def _typeof_record(record: tuple[object, ...], context: BaseContext) -> RecordType:
-    return _record_type(type(record), tuple(typeof_impl(item, context) for item in record))
+    return _record_type(type(record), tuple(_typeof_item(item, context) for item in record))
+
+
+def _typeof_item(item: object, context: BaseContext) -> types.Type:
+    """Return the type of an item; those of arrays, which numba makes anew each time, are kept."""
+    if type(item) is not np.ndarray:
+        return typeof_impl(item, context)
+    flags = item.flags
+    layout = flags.c_contiguous, flags.f_contiguous, flags.writeable, flags.aligned
+    key = item.dtype, item.ndim, *layout
+    if key not in _array_types:
+        _array_types[key] = typeof_impl(item, context)
+    return _array_types[key]
+
+
+_array_types: dict[tuple[object, ...], types.Type] = {}
 
 
 @register_model(RecordType)

@@ -173,9 +173,12 @@ def _texts(columns: Sequence[NDArray[Any]]) -> list[list[str]]:
     numbers = np.stack(columns, axis=1, dtype=_WIDE[kind], casting="same_kind")
     text = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()
     # JSON has null for each number that is not finite, in the same order.
-    first, *others = text.split("null")
-    words = map(repr, numbers[~np.isfinite(numbers)].tolist())
-    text = first + "".join(map(add, words, others))
+    words = list(map(repr, numbers[~np.isfinite(numbers)].tolist()))
+    if len({*words}) == 1:
+        text = text.replace("null", words[0])
+    elif words:
+        first, *others = text.split("null")
+        text = first + "".join(map(add, words, others))
     return [text[2:-2].split("],[")]
 
 

@@ -169,6 +169,13 @@ def test_called_functions_are_found_by_other_processes(cache, monkeypatch):
     assert sum(code.stats.cache_hits.values()) == 1
 
 
+def test_global_names_of_long_functions_are_read_without_their_attributes():
+    names = [f"name_{k}" for k in range(300)]
+    scope = {}
+    exec(f"def f():\n    def g(): return inner.attribute\n    return {' + '.join(names)}, g", scope)
+    assert compiling._global_names(scope["f"].__code__) == {*names, "inner"}
+
+
 def test_functions_of_one_name_are_told_apart(tmp_path):
     """Numba numbers functions as they come, so that one of another process may have the same number."""
     (tmp_path / "models.py").write_text(MODELS)

@@ -7,6 +7,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from matplotlib import colormaps
 from matplotlib.font_manager import FontProperties
 from paths import ROOT
 
@@ -37,6 +38,11 @@ def lab(colours, kind):
     t = seen @ TO_XYZ.T / TO_XYZ.sum(axis=1)
     f = np.where(t > 0.008856, np.cbrt(t), 7.787 * t + 16.0 / 116.0)
     return np.stack([116 * f[:, 1] - 16, 500 * (f[:, 0] - f[:, 1]), 200 * (f[:, 1] - f[:, 2])], axis=1)
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_maps_are_those_of_matplotlib(name):
+    np.testing.assert_array_equal(colour_map(name), colormaps[name](np.arange(256), bytes=True)[:, :3])
 
 
 def least_distance(colours, kind):

@@ -6,6 +6,7 @@ import base64
 import hashlib
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -46,6 +47,17 @@ def text(case):
 @pytest.fixture
 def page(text):
     return PageReader(text)
+
+
+def test_a_page_loads_no_library_of_pictures_and_saved_code_none_of_the_compiler(case, tmp_path):
+    words = ["view", "-case", str(case), "-noBrowser", "-output", str(tmp_path / "a.html")]
+    assert main(words) == 0
+    heavy = ("matplotlib", "pyvista", "scipy.sparse", "scipy.spatial", "numba.typed.typeddict",
+             "vtkmodules.vtkRenderingCore")  # fmt: skip
+    code = f"import sys\nfrom foamprb.cli import main\nassert main({words}) == 0\n"
+    code += f"print([name for name in {heavy} if name in sys.modules])"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ran.stdout.splitlines()[-1] == "[]"
 
 
 class TestContents:

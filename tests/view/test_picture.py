@@ -164,6 +164,19 @@ class TestPictures:
             )
         assert (image(paths[0]) != image(paths[1])).any()
 
+    def test_bodies_beyond_the_picture_are_left_out(self, case):
+        scene = make_scene(Request(case), open_run(case), range(5))
+        drawing = _drawing(Canvas((900, 300)), scene, LIGHT, texts=True)
+        eye = drawing.canvas.camera
+        focus, ahead = np.array(eye.GetFocalPoint()), np.subtract(eye.GetFocalPoint(), eye.GetPosition())
+        across = np.cross(ahead, eye.GetViewUp())
+        slope = math.tan(math.radians(0.5 * eye.GetViewAngle()))
+        places = focus + np.array([[0.0], [2.9 * slope], [4.0 * slope]]) * across
+        places = np.vstack([places, focus - 2.0 * ahead])
+        assert drawing._visible(places, np.zeros(4)).tolist() == [True, True, False, False]
+        assert drawing._visible(places, np.full(4, np.linalg.norm(ahead))).all()
+        drawing.canvas.close()
+
     def test_the_scale_bar_has_a_round_length_in_the_plane_of_the_focus(self, case):
         scene = make_scene(Request(case), open_run(case), range(5))
         canvas = _drawing(Canvas((900, 900)), scene, LIGHT, texts=True).canvas
