@@ -85,7 +85,7 @@ class Canvas:
         self,
         name: str,
         data: Any,
-        colour: str | None = None,
+        colour: str = "#000000",
         opacity: float = 1.0,
         width: float = 1.0,
         culling: str = "",
@@ -98,7 +98,7 @@ class Canvas:
         name, data
             Its name; the mesh, with normals if it has light.
         colour
-            ``#rrggbb``; by default the mesh has colours, or it is drawn in black.
+            ``#rrggbb`` of a mesh that has no colours of its own.
         opacity, width
             Opacity, and width of lines in pixels.
         culling
@@ -108,10 +108,10 @@ class Canvas:
         """
         mapper, actor = vtkPolyDataMapper(), vtkActor()
         mapper.SetInputData(data)
-        mapper.SetScalarVisibility(colour is None)
+        mapper.SetScalarVisibility(data.GetPointData().GetScalars() is not None)
         actor.SetMapper(mapper)
         look = actor.GetProperty()
-        look.SetColor(*_share(colour or "#000000"))
+        look.SetColor(*_share(colour))
         look.SetOpacity(opacity)
         look.SetLineWidth(width)
         look.SetBackfaceCulling(culling == "back")

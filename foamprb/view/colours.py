@@ -51,7 +51,7 @@ def colour_map(name: str) -> Table:
     """Return 256 colours, (256, 3)."""
     # Those of matplotlib, whose import takes longer than a page.
     tables: Table = np.load(Path(__file__).parent / "page/maps.npy")
-    return tables[MAPS.index(name)]
+    return np.asarray(tables[MAPS.index(name)])
 
 
 def rgb(colour: str) -> tuple[int, int, int]:

@@ -131,7 +131,7 @@ class Drawing:
         x, y, z = axes @ (places - eye.GetPosition()).T
         slope = _WIDER * math.tan(math.radians(0.5 * eye.GetViewAngle()))
         room = _MOST_STRETCHED * size
-        return (np.abs(y) < slope * z + room) & (np.abs(x) < slope * width / height * z + room)
+        return np.asarray((np.abs(y) < slope * z + room) & (np.abs(x) < slope * width / height * z + room))
 
     def _hazed(self, colours: Table, places: Floats) -> Table:
         """Return colours (…, 3) faded towards the paper at places (…, 3) beyond the focus."""
@@ -240,8 +240,8 @@ class Drawing:
             self._write(f"{label} {k}", number(value, 3), 12, side, height - 12.0, at)
         x = left + _BAR * np.linspace(0.0, 1.0, len(table))
         corners = np.stack([np.repeat(x, 2), np.tile([30.0, 53.0], len(x))], axis=1)
-        k = np.arange(0, len(corners) - 2, 2)[:, None]
-        bands = np.concatenate([k + np.array([0, 2, 1]), k + np.array([1, 2, 3])])
+        first = np.arange(0, len(corners) - 2, 2)[:, None]
+        bands = np.concatenate([first + np.array([0, 2, 1]), first + np.array([1, 2, 3])])
         self._flat(f"{label} bar", corners, None, bands, np.repeat(table, 2, axis=0))
         return left + _BAR + 40.0
 
@@ -396,7 +396,7 @@ def draw_geometry(canvas: Canvas, geometry: Geometry, style: Style, most_dense: 
         colour, colours, opacity = style.glass, None, 0.1
         if most_dense > 0.0 and patch.density is not None:
             shares = np.clip(255.0 * patch.density / most_dense, 0, 255).astype(np.uint8)
-            colour, colours, opacity = None, colour_map(OF_DEPOSITS)[shares], _NEAR_DEPOSITS
+            colours, opacity = colour_map(OF_DEPOSITS)[shares], _NEAR_DEPOSITS
         normals = vtkPolyDataNormals()
         normals.SplittingOff()
         mesh = filtered(normals, surface(patch.points, patch.triangles, colours))

@@ -116,8 +116,9 @@ def _plot(draw: Callable[[Figure, Axes], None], height: float = 3.2) -> Plot:
 def _fit(figure: Figure, renderer: RendererBase) -> None:
     """Let the axes with labels and legend fill a figure; layouts of matplotlib draw everything thrice."""
     (axes,) = figure.axes
-    outer, inner = axes.get_tightbbox(renderer).extents, axes.get_window_extent(renderer).extents
-    size = figure.dpi * figure.get_size_inches()
+    boxes = axes.get_tightbbox(renderer), axes.get_window_extent(renderer)
+    outer, inner = (np.array(box.extents if box else np.zeros(4)) for box in boxes)
+    size = figure.dpi * np.array(figure.get_size_inches())
     low = (inner[:2] - outer[:2] + _MARGIN) / size
     high = 1.0 - (outer[2:] - inner[2:] + _MARGIN) / size
     axes.set_position((*low, *(high - low)))
