@@ -8,7 +8,7 @@ from typing import Any
 from foamprb.errors import InputError
 
 
-def load(module: str, extra: str = "view", reason: str = "pages, pictures and reports need") -> Any:
+def load(module: str, extra: str = "view", reason: str = "pictures and reports need") -> Any:
     """Import a module of an extra.
 
     Parameters

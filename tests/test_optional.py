@@ -45,16 +45,16 @@ def case(tmp_path_factory):
 
 
 def test_commands_without_pictures_need_no_extra(case):
-    commands = ["info"], ["export", "openfoam"], ["run", "-dry-run", "-overwrite"]
+    commands = ["info"], ["export", "openfoam"], ["view", "-noBrowser"], ["run", "-dry-run", "-overwrite"]
     done = without_extras(*([*words, "-case", case] for words in commands))
     assert (done.returncode, done.stderr) == (0, "")
 
 
-def test_pages_and_pictures_name_their_extra(case):
-    commands = ["view", "-noBrowser"], ["view", "-png", "a.png"], ["report"]
+def test_pictures_and_reports_name_their_extra(case):
+    commands = ["view", "-png", "a.png"], ["report"]
     done = without_extras(*([*words, "-case", case] for words in commands))
     assert done.returncode == len(commands)
-    expected = "need pyvista: pip install 'foamprb[view]', or in a clone pip install '.[view]'"
+    expected = "need matplotlib: pip install 'foamprb[view]', or in a clone pip install '.[view]'"
     assert done.stderr.count(expected) == len(commands)
 
 
