@@ -16,6 +16,8 @@ SOLVER = "icoUncoupledKinematicParcelFoam"
 STEP = {"paper": 2e-5, "rosenbrock": 1e-4, "stokes": 1e-4}
 """Δt, s: the paper's scheme is stable below 9e-5; the others take OpenFOAM's step."""
 OPENFOAM_STEP = 1e-4
+ENOUGH = 30
+"""Steps of OpenFOAM's that are measured beside runs of ours, which are many times shorter."""
 
 
 class Tracker:
