@@ -27,7 +27,7 @@ from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.mesh import build_mesh, with_points
 from foamprb.flow.motion import match_walls
 from foamprb.flow.read.describe import describe
-from foamprb.flow.read.motion import deformation_of, note_of_deformation
+from foamprb.flow.read.motion import deformation_of, note_of_deformation, require_uncoupled
 from foamprb.flow.read.openfoam import Case, read_series, transient_flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.reconstruct import Reconstruction
@@ -219,6 +219,12 @@ def test_a_wave_of_one_length_between_cyclic_ends_is_an_endless_channel():
         gaps.append(clearances(bodies, own, 0.4, [2, 3]))
     assert np.all(np.abs(gaps[1]) < 0.3)
     assert gaps[0] == pytest.approx(gaps[1], abs=1e-4)
+
+
+def test_coupled_patches_of_a_mesh_whose_faces_change_are_refused():
+    mesh = layer((0.0, 1.0), (0.0, 1.0), 2, 2, left="cyclic", right="cyclic")
+    with pytest.raises(InputError, match=r"^case: .* other faces .* its patch left \(cyclic\)"):
+        require_uncoupled(Path("case"), mesh)
 
 
 def test_a_stream_through_a_cyclic_box_whose_inside_moves_returns_where_it_was():
