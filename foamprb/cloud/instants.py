@@ -46,33 +46,37 @@ class Moments(NamedTuple):
 
 def store(moments: Moments, arrays: Mapping[str, NDArray[Any]], steps: Steps) -> None:
     """Store the states at the instants within undivided steps in arrays, see :meth:`Moments.layout`."""
-    (t0, t1), times = steps.t, np.array(moments.times)[:, None]
-    which, passing = np.nonzero((steps.row >= 0) & (t0 < times) & (times <= t1))
-    steps, time, first = steps.take(passing), times[which, 0], COLUMNS
-    (t0, t1), met = steps.t, steps.of(step.met)
-    share, rests, straight = (time - t0) / (t1 - t0), met == -np.inf, met < np.inf
-    path = np.concatenate(steps.between(share), axis=1)
-    path[straight] = _on_lines(steps.take(straight), time[straight])
-    stuck = (steps.of(step.status) == Status.STUCK) & (rests | (time == t1))
-    state = {"status": np.where(stuck, Status.STUCK, Status.ACTIVE)}
-    state |= {"patch": np.where(stuck, steps.of(step.patch), -1)}
-    state |= zip("xvF", np.split(path, (3, 6), axis=1), strict=True)
+    times = np.array(moments.times)
+    which, instant = steps.passing(times)
+    time, first = times[instant], COLUMNS
+    row, status, patch, met, t0, t1 = (
+        steps.of(number)[which] for number in (step.row, step.status, step.patch, step.met, step.t0, step.t1)
+    )
+    share, rests, straight = (time - t0) / (t1 - t0), met == -np.inf, np.flatnonzero(met < np.inf)
+    x, v, F = steps.between(share, which)
+    if len(straight):
+        some = steps.take(which[straight])
+        x[straight], v[straight], F[straight] = _on_lines(some, time[straight])
+    stuck = (status == Status.STUCK) & (rests | (time == t1))
+    state = {"status": np.where(stuck, Status.STUCK, Status.ACTIVE), "patch": np.where(stuck, patch, -1)}
+    state |= {"x": x, "v": v, "F": F}
     for name in moments.more:
-        state[name] = steps.rows(first, *VARIABLES[name].shape)
-        first += state[name].shape[1]
+        columns = VARIABLES[name].shape[0]
+        state[name] = np.stack([steps.of(first + c)[which] for c in range(columns)], axis=1)
+        first += columns
     if "A" in state:
-        before, after = (steps.between(share + change)[2] for change in (-_DIFFERENCE, _DIFFERENCE))
+        before, after = (steps.between(share + change, which)[2] for change in (-_DIFFERENCE, _DIFFERENCE))
         rate = (0.5 / (_DIFFERENCE * (t1 - t0)))[:, None] * (after - before)
-        rate[straight] = steps.rate[straight]
+        rate[straight] = steps.take(which[straight]).rate
         state["A"] = np.where(rests[:, None], state["A"], rate)
     if "B" in state:
-        state["B"] = np.where(rests[:, None], state["B"], steps.mode_between(share))
+        state["B"] = np.where(rests[:, None], state["B"], steps.take(which).mode_between(share))
     for name, values in state.items():
-        arrays[f"{PREFIX}{name}"][steps.row, which] = values
+        arrays[f"{PREFIX}{name}"][row.astype(np.int64), instant] = values
 
 
-def _on_lines(steps: Steps, time: Floats) -> Floats:
-    """Return x, v and F at times, s, in steps through coupled patches or mirrors, or in bonds, (n, 15).
+def _on_lines(steps: Steps, time: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return x, v and F at times, s, in steps through coupled patches or mirrors, or in bonds.
 
     The places are on the line to the first of the patches, or on that from the last. Between two passages the
     particle stays where it comes to after the last.
@@ -84,7 +88,7 @@ def _on_lines(steps: Steps, time: Floats) -> Floats:
     to_first = steps.x[0], steps.rows(step.met_x, 3), steps.both("v")[0], steps.both("F")[0]
     from_last = steps.rows(step.left_x, 3), steps.x[1], steps.both("v")[1], steps.both("F")[1]
     x0, x1, v, F = (np.where(early[:, None], *ends) for ends in zip(to_first, from_last, strict=True))
-    return np.concatenate([x1 + remaining[:, None] * (x0 - x1), v, F], axis=1)
+    return x1 + remaining[:, None] * (x0 - x1), v, F
 
 
 def state_at(p: Particles, arrays: Mapping[str, NDArray[Any]], w: int, moments: Moments) -> Particles:

@@ -335,8 +335,9 @@ class Steps(NamedTuple):
     def take(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> Steps:
         """Return some of the steps, in a single table."""
         rows = np.flatnonzero(which) if which.dtype == np.bool_ else which
-        m, k = np.divmod(rows, max(self.tables.shape[2], 1))
-        return self._replace(tables=np.ascontiguousarray(self.tables[m, :, k].T)[None])
+        taken = np.empty((1, self.tables.shape[1], len(rows)))
+        compiled(_take)(self.tables, rows, taken[0])
+        return self._replace(tables=taken)
 
     def divided(self, rebounds: Floats, coupled: Sequence[int]) -> Steps:
         """Return the steps, those through coupled patches divided there; rests take no time.
@@ -361,8 +362,8 @@ class Steps(NamedTuple):
         compiled(_rates)(self.tables[0], int(self.in_frame), rate)
         return rate
 
-    def between(self, share: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return where and what particles are after a share (n,) of each step of a single table.
+    def between(self, share: Floats, which: NDArray[np.int64] | None = None) -> tuple[Floats, Floats, Floats]:
+        """Return where and what particles are after a share (n,) of each step, or of those at some indices.
 
         Returns
         -------
@@ -370,9 +371,16 @@ class Steps(NamedTuple):
             Positions on Hermite's cubic, (n, 3), m; velocities linear between both ends, (n, 3), m/s;
             deformation gradients by :func:`shape_between`, (n, 9).
         """
-        x, v, F = np.empty((self.n, 3)), np.empty((self.n, 3)), np.empty((self.n, 9))
-        compiled(_between)(self.tables[0], share, int(self.in_frame), x, v, F)
+        which = np.arange(self.n) if which is None else which
+        x, v, F = (np.empty((len(which), k)) for k in (3, 3, 9))
+        compiled(_between)(self.tables, which, share, int(self.in_frame), x, v, F)
         return x, v, F
+
+    def passing(self, times: Floats) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return the indices of the steps of particles past instants, s, and those of the instants."""
+        found = np.empty((2, self.n * len(times)), dtype=np.int64)
+        which, instant = found[:, : compiled(_passing)(self.tables, times, found)]
+        return which, instant
 
     def mode_between(self, share: Floats) -> Floats:
         """Return the quadratic mode after a share (n,) of each step of a single table, (n, 7).
@@ -382,6 +390,14 @@ class Steps(NamedTuple):
         B = np.empty((self.n, 7))
         compiled(_modes)(self.tables[0], share, B)
         return B
+
+
+def _take(tables: Floats, rows: NDArray[np.int64], taken: Floats) -> None:
+    lanes = tables.shape[2]
+    for n in range(len(rows)):
+        m, k = rows[n] // lanes, rows[n] % lanes
+        for c in range(tables.shape[1]):
+            taken[c, n] = tables[m, c, k]
 
 
 def _modes(table: Floats, share: Floats, modes: Floats) -> None:
@@ -405,16 +421,32 @@ def _rates(table: Floats, in_frame: int, rate: Floats) -> None:
             rate[k, c] = A[c]
 
 
-def _between(table: Floats, share: Floats, in_frame: int, x: Floats, v: Floats, F: Floats) -> None:
-    for k in range(table.shape[1]):
-        s, m0, m1 = share[k], way_at_start(table, k), way_at_end(table, k)
+def _passing(tables: Floats, times: Floats, found: NDArray[np.int64]) -> int:
+    n, lanes = 0, tables.shape[2]
+    for m in range(tables.shape[0]):
+        for k in range(lanes):
+            if tables[m, step.row, k] < 0.0:
+                continue
+            for w in range(len(times)):
+                if tables[m, step.t0, k] < times[w] <= tables[m, step.t1, k]:
+                    found[0, n], found[1, n] = m * lanes + k, w
+                    n += 1
+    return n
+
+
+def _between(
+    tables: Floats, which: NDArray[np.int64], share: Floats, in_frame: int, x: Floats, v: Floats, F: Floats
+) -> None:
+    for n in range(len(which)):
+        table, k, s = tables[which[n] // tables.shape[2]], which[n] % tables.shape[2], share[n]
+        m0, m1 = way_at_start(table, k), way_at_end(table, k)
         G = shape_between(table, k, s, in_frame)
         for c in range(3):
-            x[k, c] = cubic(s, table[step.x0 + c, k], table[step.x1 + c, k], m0[c], m1[c])
+            x[n, c] = cubic(s, table[step.x0 + c, k], table[step.x1 + c, k], m0[c], m1[c])
             v0, v1 = table[step.v0 + c, k], table[step.v1 + c, k]
-            v[k, c] = v1 if math.isnan(v0) else (1.0 - s) * v0 + s * v1
+            v[n, c] = v1 if math.isnan(v0) else (1.0 - s) * v0 + s * v1
         for c in range(9):
-            F[k, c] = G[c]
+            F[n, c] = G[c]
 
 
 def way_at_start(table: Floats, k: int) -> Vector:

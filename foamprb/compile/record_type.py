@@ -137,25 +137,25 @@ class RecordType(types.Type):  # type: ignore[misc]
 
 
 _record_type = functools.cache(RecordType)
+_record_types: dict[tuple[object, ...], RecordType] = {}
+"""By the class of a record and the :func:`_sort_of` its items."""
 
 
 def _typeof_record(record: tuple[object, ...], context: BaseContext) -> RecordType:
-    return _record_type(type(record), tuple(_typeof_item(item, context) for item in record))
+    """Return the type of a record. Those of its items, which numba makes anew each time, are asked once."""
+    sort = _sort_of(record)
+    if sort not in _record_types:
+        _record_types[sort] = _record_type(type(record), tuple(typeof_impl(item, context) for item in record))
+    return _record_types[sort]
 
 
-def _typeof_item(item: object, context: BaseContext) -> types.Type:
-    """Return the type of an item; those of arrays, which numba makes anew each time, are kept."""
-    if type(item) is not np.ndarray:
-        return typeof_impl(item, context)
-    flags = item.flags
-    layout = flags.c_contiguous, flags.f_contiguous, flags.writeable, flags.aligned
-    key = item.dtype, item.ndim, *layout
-    if key not in _array_types:
-        _array_types[key] = typeof_impl(item, context)
-    return _array_types[key]
-
-
-_array_types: dict[tuple[object, ...], types.Type] = {}
+def _sort_of(item: object) -> tuple[object, ...]:
+    """Return what two items have in common if they are of the same type to numba."""
+    if isinstance(item, np.ndarray):
+        return item.dtype, item.ndim, item.flags.num
+    if isinstance(item, tuple):
+        return type(item), *map(_sort_of, item)
+    return (type(item),)
 
 
 @register_model(RecordType)

@@ -147,6 +147,7 @@ class RunLog:
         """Numbers of failed particles that need no line; no more than lines."""
         self._unstable = 0
         self._slip = Slip()
+        self._turn = 0
 
     def begin(self) -> None:
         """Log the start of the time loop."""
@@ -243,8 +244,9 @@ class RunLog:
     def _log_slip(self) -> None:
         """Record the slip of the particles, and warn of the first Reynolds number that is too large."""
         before, cloud = self._slip.reynolds, self._job.cloud
-        for slip in cloud.map_in_flow(slip_of, cloud.medium, cloud.size):
+        for slip in cloud.map_in_flow(slip_of, cloud.medium, cloud.size, self._turn):
             self._slip = self._slip.or_more(slip)
+        self._turn += 1
         worst = self._slip.reynolds
         if before <= SMALL_REYNOLDS < worst:
             log.warning(

@@ -14,8 +14,8 @@ from foamprb.cloud.viscosity import medium_at
 from foamprb.flow.base import Sampled
 
 _CHUNK = 16_384
-_MOST = 50_000
-"""Particles whose numbers are compared, at most."""
+_MOST = 10_000
+"""Particles whose numbers are compared at a time, at most: others at each."""
 
 
 class Slip(NamedTuple):
@@ -44,10 +44,13 @@ def drag_excess(reynolds: float) -> float:
     return float(0.15 * reynolds**0.687)
 
 
-def slip_of(p: Particles, flow: Sampled, time: float, medium: Medium, size: int) -> Slip:
-    """Return the largest numbers of active particles at a time, s; of some of a cloud of large ``size``."""
+def slip_of(p: Particles, flow: Sampled, time: float, medium: Medium, size: int, turn: int = 0) -> Slip:
+    """Return the largest numbers of active particles at a time, s; of some of a cloud of large ``size``.
+
+    Those of each further ``turn`` are others, until all have had theirs.
+    """
     stride = max(1, -(-size // _MOST))
-    largest, active = Slip(), np.flatnonzero((p.status == Status.ACTIVE) & (p.number % stride == 0))
+    largest, active = Slip(), np.flatnonzero((p.status == Status.ACTIVE) & ((p.number - turn) % stride == 0))
     for start in range(0, len(active), _CHUNK):
         some = p.take(active[start : start + _CHUNK])
         fluid = medium_at(medium, flow, some, time)

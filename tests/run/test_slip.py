@@ -49,6 +49,14 @@ def test_of_a_large_cloud_some_particles_are_compared(monkeypatch):
     assert largest_in(sliding(np.repeat([1e-4, 0.1], [990, 10]))).reynolds == pytest.approx(1e-2)
 
 
+def test_further_turns_compare_the_others(monkeypatch):
+    monkeypatch.setattr(slip, "_MOST", 20)
+    cloud = sliding(np.repeat([1e-4, 0.1, 1e-4], [502, 1, 497]))
+    largest = [cloud.map_in_flow(slip_of, WATER, cloud.size, turn)[0].reynolds for turn in range(50)]
+    assert max(largest) == pytest.approx(10.0)
+    assert sum(value > 1.0 for value in largest) == 1
+
+
 def test_the_velocity_of_its_eddy_is_no_slip_of_a_particle():
     cloud = sliding([0.1])
     cloud.particles.eddy[:, 0] = 0.09
