@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from benchmarks import looking, observed, pipe
+from benchmarks import looking, observed, pipe, scaling
 from benchmarks.records import Results, Row, isolated, peak_memory, read_rows
 from benchmarks.report import TARGETS, Target, costs_table, written_table
 
@@ -72,7 +72,7 @@ def test_targets_know_their_sense():
     assert not Target("", lambda _: None, 2.0).met(2.1)
     assert Target("", lambda _: None, 2.0, least=True).met(2.1)
     assert not Target("", lambda _: None, 2.0, least=True).met(1.9)
-    rows = [Row("threads", "speed-up", "foamprb paper", 2.0, 1.5, "")]
+    rows = [Row("scaling", scaling.SPEED_UP, "threads", 2.0, 1.5, "")]
     table = written_table(Results(rows))
     assert table.count("not measured") == len(TARGETS) - 1
     assert "**not met** (1.23 of the limit)" in table
@@ -90,7 +90,7 @@ def test_every_cloud_function_is_measured_in_settings_that_are_read(tmp_path):
 
 def test_writing_every_step_is_measured_as_dearer_and_leaves_no_results(tmp_path):
     case = pipe.write_case(tmp_path, GRID)
-    bare, writing = observed.compare("writeInterval deltaT", case, observed.Size(50, 0, 1, 20, 1, 0))
+    bare, writing = observed.compare(["writeInterval deltaT"], 50, case, observed.Size(50, 0, 1, 20, 1, 0))
     assert writing > max(bare, 0.0)
     assert not [*(case / "postProcessing").iterdir()]
 

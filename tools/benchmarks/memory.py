@@ -44,7 +44,7 @@ def whole_run(case: str, n: int) -> None:
 
 def measure(options: Options) -> list[Row]:
     """Measure memory and CPU per particle."""
-    few, many, steps, repeats = (10_000, 100_000, 5, 1) if options.quick else (100_000, 1_000_000, 20, 3)
+    few, many, steps, repeats = (10_000, 100_000, 5, 1) if options.quick else (100_000, 1_000_000, 10, 1)
     table = []
     results = {n: isolated(throughput, n, steps, repeats).result for n in (few, many)}
     for n, result in results.items():

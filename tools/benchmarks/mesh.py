@@ -109,7 +109,7 @@ def costs(grids: list[str], n: int, steps: int, repeats: int) -> dict[str, float
 def measure(options: Options) -> list[Row]:
     """Time, memory and cost by the number of cells."""
     grids = ["5k", "40k", "300k", "1M"]
-    n, steps, repeats = (5000, 5, 1) if options.quick else (100_000, 20, 3)
+    n, steps, repeats = (5000, 5, 1) if options.quick else (50_000, 20, 2)
     if options.quick:
         grids = grids[:2]
     tried = list(grids)
@@ -120,7 +120,7 @@ def measure(options: Options) -> list[Row]:
         # Written in a process of its own, and the files are in the system's cache for both readers.
         isolated(write, grid)
         reading = sorted(isolated(vtk_reads, grid).result for _ in range(1 if grid == "8M" else repeats))
-        results = [isolated(ready, grid).result for _ in range(1 if grid == "8M" else min(repeats, 3))]
+        results = [isolated(ready, grid).result for _ in range(1 if grid == "8M" else min(repeats, 2))]
         cells = pipe.GRIDS[grid].cells
         spent = sorted(result["spent"] for result in results)[len(results) // 2]
         used, peak = results[0]["kept"], results[0]["peak"]
@@ -128,7 +128,7 @@ def measure(options: Options) -> list[Row]:
         table += rows("mesh", "time to ready", times, "s CPU", cells)
         table += rows("mesh", "memory kept per cell, kB", {"foamprb": used / cells / KILO}, "kB", cells)
         table += rows("mesh", "peak memory, GB", {"foamprb": peak / GIGA}, "GB", cells)
-    spent = further_time(finest := grids[-1], 4 if options.quick else 20, 1000)
+    spent = further_time(finest := grids[-1], 2 if options.quick else 4, 1000)
     table += rows("mesh", FURTHER, spent, "s CPU", pipe.GRIDS[finest].cells)
     by_cells = isolated(costs, grids, n, steps, repeats).result
     for grid, cost in by_cells.items():

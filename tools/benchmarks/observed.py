@@ -1,13 +1,8 @@
-"""What a user's run costs: each function, model and setting over the run without it, beside other programs.
-
-Pairs alternate on one thread. Two runs that differ in length only are subtracted: start, injection, the
-transient from rest and the last writing fall away.
-"""
+"""What a run costs: each function, model and setting over the run without it, beside other programs."""
 
 from __future__ import annotations
 
 import shutil
-import statistics
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -16,7 +11,7 @@ from typing import Any, NamedTuple
 from benchmarks import pipe
 from benchmarks.peers import particle_tracer
 from benchmarks.records import Options, Row, interleaved, isolated, rows
-from benchmarks.tracker import OPENFOAM_STEP, SOLVER, openfoam_cost
+from benchmarks.tracker import ENOUGH, OPENFOAM_STEP, SOLVER, openfoam_cost, pairs
 
 CAPILLARY_NUMBER = 0.5
 """At the wall."""
@@ -25,6 +20,8 @@ BARE, VTK = "nothing more", "VTK's particle tracer"
 CALL, SNAPSHOT = "calls of one deltaT", "late snapshots"
 _CALL = 160
 """Δt of a long call."""
+_TOGETHER = 7
+"""Runs that alternate with the same run without what they have, at most."""
 _PLANE = f"origin ({0.3 * pipe.LENGTH:g} 0 0); normal (1 0 0);"
 
 
@@ -129,37 +126,6 @@ def write_setup(case: Path, name: str, setup: Setup, n: int, end: float) -> str:
     return str(written)
 
 
-def pairs(case: str, runs: list[list[str]], repeats: int) -> list[float]:
-    """Return CPU µs per body and :data:`OPENFOAM_STEP` of each run; the least of the repeats counts.
-
-    Parameters
-    ----------
-    runs
-        The settings of a short and a long run of each.
-    """
-    from foamprb import execute, prepare
-    from foamprb.run.compilation import compile_run
-
-    flows: dict[Any, Any] = {}
-
-    def clock(file: str) -> tuple[float, float]:
-        job = prepare(case, dictionary=Path(file), threads=1, flows=flows)
-        compile_run(job.cloud, job.compilation)
-        start = time.process_time()
-        execute(job, "startTime")
-        spent = time.process_time() - start
-        shutil.rmtree(job.folder.path)
-        return spent, pipe.particle_steps(job.cloud) * job.cloud.dt / OPENFOAM_STEP
-
-    # What is compiled is not measured.
-    for short, _ in runs:
-        clock(short)
-    clocks = [[[clock(file) for file in ends] for ends in runs] for _ in range(repeats)]
-    # What else runs on the machine only adds to a time.
-    least = [[min(repeat[k][end] for repeat in clocks) for end in (0, 1)] for k in range(len(runs))]
-    return [1e6 * (long[0] - short[0]) / (long[1] - short[1]) for short, long in least]
-
-
 def calls(case: str, file: str, repeats: int) -> list[float]:
     """Return the least CPU seconds of a call of :data:`_CALL` Δt, and of as many calls of one."""
     from foamprb import prepare
@@ -206,7 +172,7 @@ def _openfoam(case: Path, size: Size) -> dict[str, Callable[[], float]]:
     def measured(functions: str = "", interval: int = 1_000_000) -> float:
         pipe.write_parcels(copy, x, rho=pipe.WATER.rho_s, functions=functions)
         try:
-            return openfoam_cost(copy, size.bodies, size.steps, interval=interval)
+            return openfoam_cost(copy, size.bodies, min(size.steps, ENOUGH), interval=interval)
         finally:
             for path in copy.glob("[0-9]*[!0]*"):
                 shutil.rmtree(path)
@@ -218,25 +184,37 @@ def _openfoam(case: Path, size: Size) -> dict[str, Callable[[], float]]:
     return contestants | {openfoam("writeInterval 10 deltaT"): lambda: measured(interval=10)}
 
 
-def compare(name: str, case: Path, size: Size) -> list[float]:
-    """Return the costs without and with one of :data:`ROWS`."""
-    row, settled, measured = ROWS[name], size.settling * OPENFOAM_STEP, size.steps * OPENFOAM_STEP
-    n = size.many if name == "particleTracks" else size.bodies
+def groups(bodies: int, many: int) -> list[tuple[list[str], int]]:
+    """Return the names of the :data:`ROWS` that share a run without them, and the number of its bodies."""
+    shared: dict[tuple[Setup, int], list[str]] = {}
+    for name, row in ROWS.items():
+        shared.setdefault((row.without, many if name == "particleTracks" else bodies), []).append(name)
+    return [
+        (names[k : k + _TOGETHER], n)
+        for (_, n), names in shared.items()
+        for k in range(0, len(names), _TOGETHER)
+    ]
+
+
+def compare(names: list[str], n: int, case: Path, size: Size) -> list[float]:
+    """Return the costs of the run without some of :data:`ROWS`, and of each; the Δt is that of OpenFOAM."""
+    settled, measured = (steps * OPENFOAM_STEP for steps in (size.settling, size.steps))
+    setups = [ROWS[names[0]].without, *(ROWS[name].setup for name in names)]
     files = [
         [
-            write_setup(case, f"{kind}0", setup, n, settled),
-            write_setup(case, f"{kind}1", setup, n, settled + measured),
+            write_setup(case, f"short{k}", setup, n, settled),
+            write_setup(case, f"long{k}", setup, n, settled + measured),
         ]
-        for kind, setup in (("without", row.without), ("with", row.setup))
+        for k, setup in enumerate(setups)
     ]
-    costs: list[float] = isolated(pairs, str(case), files, min(size.repeats, 200_000 // n + 2)).result
-    return costs
+    costs = isolated(pairs, str(case), files, size.repeats).result
+    return [cost * OPENFOAM_STEP / setup.dt for cost, setup in zip(costs, setups, strict=True)]
 
 
 def measure(options: Options) -> list[Row]:
     """Measure the cost of each of :data:`ROWS`, over the bare run; calls, snapshots and other programs."""
-    bodies = options.bodies or 50_000
-    size = Size(bodies, 20 * bodies, 50, 200, 3, 2000)
+    bodies = options.bodies or 20_000
+    size = Size(bodies, 5 * bodies, 50, 100, 2, 400)
     if options.quick:
         size = Size(options.bodies or 5000, 10_000, 10, 20, 1, 400)
     case, bare = pipe.case("40k"), []
@@ -256,11 +234,13 @@ def measure(options: Options) -> list[Row]:
         contestants |= _openfoam(case, size)
     theirs = interleaved(contestants, size.repeats)
     table += rows("observed", COST, theirs, "us/particle-step", size.bodies)
-    for name, row in ROWS.items():
-        without, cost = compare(name, case, size)
-        n = size.many if name == "particleTracks" else size.bodies
-        table += rows("observed", RATIO, {name: cost / without}, "", n)
-        table += rows("observed", COST, {name: cost}, "us/particle-step", n)
-        if row.without == Setup() and n == size.bodies:
+    for names, n in groups(size.bodies, size.many):
+        without, *costs = compare(names, n, case, size)
+        measured = dict(zip(names, costs, strict=True))
+        over = {name: cost / without for name, cost in measured.items()}
+        table += rows("observed", RATIO, over, "", n) + rows(
+            "observed", COST, measured, "us/particle-step", n
+        )
+        if ROWS[names[0]].without == Setup() and n == size.bodies:
             bare.append(without)
-    return table + rows("observed", COST, {BARE: statistics.median(bare)}, "us/particle-step", size.bodies)
+    return table + rows("observed", COST, {BARE: min(bare)}, "us/particle-step", size.bodies)

@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 TOOLS = Path(__file__).parents[1]
 KILO, MEGA, GIGA = 1e3, 1e6, 1e9
 PARTS = (
-    "observed", "tracker", "whole", "tutorials", "threads", "memory", "run", "mesh", "start", "scaling",
+    "observed", "tracker", "whole", "tutorials", "memory", "run", "mesh", "start", "scaling",
 )  # fmt: skip
 
 

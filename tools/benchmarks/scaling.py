@@ -70,7 +70,7 @@ def _write_cloud(case: Path, n: int, steps: int) -> Path:
 
 def measure(options: Options) -> list[Row]:
     """Measure with 1, 2, 4, … cores: medians of alternate runs, the largest memory, that of a particle."""
-    grid, n, steps, repeats = ("40k", 20_000, 10, 1) if options.quick else ("300k", 500_000, 100, 2)
+    grid, n, steps, repeats = ("40k", 20_000, 10, 1) if options.quick else ("300k", 200_000, 50, 2)
     case = pipe.case(grid)
     settings = _write_cloud(case, n, steps)
     ways = ["threads"]

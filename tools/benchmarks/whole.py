@@ -1,23 +1,18 @@
 """Cost of ``foamprb run`` with default settings, against OpenFOAM's rigid point spheres.
 
-Automatic integrator, error control, touching ellipsoids, checkpoints, particles up to the wall. Runs that
-differ in length only are subtracted, so that start, injection and output fall away.
+Automatic integrator, error control, touching ellipsoids, checkpoints, particles up to the wall.
 """
 
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
 from functools import partial
-from itertools import pairwise
 from pathlib import Path
-from statistics import median
-from typing import Any
 
 from benchmarks import pipe
-from benchmarks.records import Options, Row, interleaved, isolated, rows
+from benchmarks.records import Options, Row, isolated, rows
 from benchmarks.report import WORST_DEFAULT
-from benchmarks.tracker import ENOUGH, OPENFOAM_STEP, SOLVER, openfoam_cost
+from benchmarks.tracker import ENOUGH, OPENFOAM_STEP, SOLVER, openfoam_cost, pairs
 
 CAPILLARY_NUMBERS = (0.01, 0.5, 2.0)
 """At the wall."""
@@ -32,50 +27,19 @@ REACH = 0.985
 _WARM_UP = 5
 
 
-def run(case: str, dictionary: str) -> dict[str, Any]:
-    """Run a cloud on one thread; return how many particle-steps it did."""
-    from foamprb import execute, prepare
-
-    job = prepare(case, dictionary=Path(dictionary), threads=1)
-    execute(job, "startTime")
-    return {"particle-steps": pipe.particle_steps(job.cloud)}
-
-
-def costs(case: Path, lengths: tuple[int, ...], write: Callable[[int], Path]) -> list[float]:
-    """Measure CPU µs per particle-step between runs of successive lengths, and in total.
-
-    Parameters
-    ----------
-    lengths
-        In steps, beyond those of a first run that is shorter than all.
-    write
-        Writes the properties of a cloud for so many steps.
-    """
-    spent = []
-    for count in (0, *lengths):
-        child = isolated(run, str(case), str(write(_WARM_UP + count)))
-        spent.append((child.cpu, child.result["particle-steps"]))
-    pairs = [*pairwise(spent), (spent[0], spent[-1])]
-    return [1e6 * (after[0] - before[0]) / (after[1] - before[1]) for before, after in pairs]
-
-
 def measure(options: Options) -> list[Row]:
     """Measure cost per particle-step by stiffness, and over OpenFOAM's at the same Δt."""
-    n, steps, repeats = (10_000, 40, 2) if options.quick else (100_000, 100, 3)
+    n, steps, repeats = (10_000, 40, 1) if options.quick else (30_000, 100, 2)
     case = pipe.case("40k")
-    x = pipe.positions(n, reach=REACH)
-    pipe.write_positions(case / "constant" / "softCloudPositions", x)
-    halves: dict[str, list[list[float]]] = {}
-
     times = pipe.transient_case("40k", _EACH * OPENFOAM_STEP, (_WARM_UP + steps) // _EACH + 2)
-    pipe.write_positions(times / "constant" / "softCloudPositions", x)
+    x = pipe.positions(n, reach=REACH)
+    for folder in (case, times):
+        pipe.write_positions(folder / "constant" / "softCloudPositions", x)
 
-    def ours(name: str, Ca: float, fluid: pipe.Fluid, more: str = "", of: Path = case) -> float:
+    def ends(Ca: float, fluid: pipe.Fluid = pipe.AIR, more: str = "", of: Path = case) -> list[str]:
         write = partial(pipe.write_default_cloud, of, Ca=Ca, dt=OPENFOAM_STEP, fluid=fluid, more=more)
-        lengths = steps // 2, steps
-        first, second, both = costs(of, lengths, lambda count: write(f"soft{count}", steps=count))
-        halves.setdefault(name, []).append([first, second])
-        return both
+        name = f"soft{Ca:g}_{fluid.rho:g}_{len(more)}"
+        return [str(write(f"{name}_{k}", steps=_WARM_UP + k * steps)) for k in (0, 1)]
 
     def theirs(fluid: pipe.Fluid) -> float:
         pipe.write_dictionaries(case, fluid.nu, fluid.rho)
@@ -86,25 +50,23 @@ def measure(options: Options) -> list[Row]:
             # Other parts use the case as well.
             pipe.write_dictionaries(case, pipe.NU, pipe.RHO)
 
-    contestants: dict[str, Callable[[], float]] = {}
-    for fluid in FLUIDS:
-        for Ca in CAPILLARY_NUMBERS:
-            name = f"Ca {Ca:g}{fluid}"
-            contestants[name] = partial(ours, name, Ca, FLUIDS[fluid])
-    contestants[SHORT] = partial(ours, SHORT, 0.5, pipe.AIR, f"maxDeltaT {OPENFOAM_STEP:g};")
-    contestants[TRANSIENT] = partial(ours, TRANSIENT, 0.5, pipe.AIR, "transient yes;", times)
-    if shutil.which(SOLVER):
-        contestants |= {f"OpenFOAM{fluid}": partial(theirs, FLUIDS[fluid]) for fluid in FLUIDS}
-    medians = interleaved(contestants, repeats)
-    table = rows("whole", "cost of a default run", medians, "us/particle-step", n)
-    time = 0.5e3 * steps * OPENFOAM_STEP
-    for k, quantity in enumerate((f"in its first {time:g} ms, from rest", f"in the next {time:g} ms")):
-        parts = {name: median(half[k] for half in values) for name, values in halves.items()}
-        table += rows("whole", quantity, parts, "us/particle-step", n)
-    if "OpenFOAM" in medians:
+    runs = {f"Ca {Ca:g}{fluid}": ends(Ca, FLUIDS[fluid]) for fluid in FLUIDS for Ca in CAPILLARY_NUMBERS}
+    runs[SHORT] = ends(0.5, more=f"maxDeltaT {OPENFOAM_STEP:g};")
+    changing = [ends(0.5, more="transient yes;", of=times)]
+    costs: dict[str, list[float]] = {}
+    for _ in range(repeats):
+        ours = isolated(pairs, str(case), [*runs.values()], 1).result
+        ours += isolated(pairs, str(times), changing, 1, False).result
+        for name, cost in zip((*runs, TRANSIENT), ours, strict=True):
+            costs.setdefault(name, []).append(cost)
+        for fluid in FLUIDS if shutil.which(SOLVER) else ():
+            costs.setdefault(f"OpenFOAM{fluid}", []).append(theirs(FLUIDS[fluid]))
+    least = {name: min(values) for name, values in costs.items()}
+    table = rows("whole", "cost of a default run", least, "us/particle-step", n)
+    if "OpenFOAM" in least:
         ratios = {
-            name: medians[name] / medians["OpenFOAM, water" if "water" in name else "OpenFOAM"]
-            for name in halves
+            name: least[name] / least["OpenFOAM, water" if "water" in name else "OpenFOAM"]
+            for name in (*runs, TRANSIENT)
         }
         table += rows("whole", "default run over OpenFOAM's", ratios, "")
         worst = max(ratio for name, ratio in ratios.items() if name not in (SHORT, TRANSIENT))
