@@ -15,6 +15,7 @@ from urllib.parse import quote
 
 from foamprb.errors import InputError, suggestion
 from foamprb.results.atomic import unfinished
+from foamprb.results.tables import RECORDS
 
 DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES, TRACERS = "fates", "failed", "tracers"
@@ -173,7 +174,7 @@ class ResultsFolder:
 
 def fault_of_function(name: str, cloud: str) -> str:
     """Return why a cloud function cannot have a name, which names its folder too; empty if it can."""
-    tables = {f"{table}.csv" for table in (FATES, FAILURES, TRACERS)}
+    tables = {f"{table}.csv" for table in (FATES, FAILURES, TRACERS)} | {f"{FATES}{RECORDS}"}
     if name in {CHECKPOINTS, MANIFEST, RECORD, "manifest", *tables} or _series(cloud).fullmatch(name):
         return "the results have a file of that name"
     return fault_of_word(name)

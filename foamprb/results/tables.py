@@ -1,11 +1,11 @@
-"""Tables of comma-separated text."""
+"""Tables of comma-separated text, and beside long ones the same rows as numpy has them."""
 
 from __future__ import annotations
 
 import csv
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from io import TextIOWrapper
 from itertools import groupby, islice
 from operator import add
@@ -31,15 +31,24 @@ _SPECIAL = re.compile(r'[,"\r\n]')
 _FORMULA, _QUOTED = re.compile(r"'*[=+\-@\t]"), re.compile(r"''*[=+\-@\t]")
 
 
+LONG = 100_000
+"""Rows beyond which a table has a file of records beside it."""
+RECORDS = ".npy"
+
+
 class Rows(NamedTuple):
     """Names of the columns of a table, and some of its rows as text."""
 
     names: tuple[str, ...]
     text: bytes
+    records: NDArray[Any] | None = None
+    """The same rows, each an item with a field of each column."""
 
 
-def rows_of(columns: Mapping[str, Column]) -> Rows:
+def rows_of(columns: Mapping[str, Column], with_records: bool = False) -> Rows:
     """Return rows of a table as :func:`write_rows` takes them.
+
+    Columns of text need a width for ``with_records``, the same in all parts of a table.
 
     Raises
     ------
@@ -58,20 +67,43 @@ def rows_of(columns: Mapping[str, Column]) -> Rows:
         cells = [cell for group in groups for cell in _texts(group)]
         lines = map(",".join, zip(*cells, strict=True))
         text.append("\n".join((*lines, "")).encode())
-    return Rows(tuple(arrays), b"".join(text))
+    return Rows(tuple(arrays), b"".join(text), _records_of(arrays) if with_records else None)
 
 
-def write_rows(path: Path, parts: Iterable[Rows], before: Callable[[], object] = lambda: None) -> None:
+def _records_of(arrays: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    kinds = [(name, array.dtype) for name, array in arrays.items()]
+    records = np.empty(max(map(len, arrays.values()), default=0), dtype=kinds)
+    for name, array in arrays.items():
+        records[name] = array
+    return records
+
+
+def write_rows(
+    path: Path, parts: Iterable[Rows], before: Callable[[], object] = lambda: None, n: int = 0
+) -> None:
     """Write a table from its rows part by part; see :func:`write_table`.
 
-    ``before`` is called when all is written; if it raises, no file remains.
+    Parameters
+    ----------
+    before
+        Called when all is written; if it raises, no file remains.
+    n
+        Number of rows of parts with records, which go to a file of numpy beside the table; 0 without.
     """
-    with atomic_write(path) as temporary:
-        with temporary.open("wb") as file:
+    with atomic_write(path) as temporary, ExitStack() as beside:
+        records = beside.enter_context(atomic_write(path.with_suffix(RECORDS))) if n else None
+        with temporary.open("wb") as file, ExitStack() as opened:
+            other = opened.enter_context(records.open("wb")) if records else None
             for i, part in enumerate(parts):
                 if i == 0:
                     file.write((",".join(map(_cell, part.names)) + "\n").encode())
                 file.write(part.text)
+                if other and part.records is not None:
+                    if i == 0:
+                        kind = np.lib.format.dtype_to_descr(part.records.dtype)
+                        head = {"descr": kind, "fortran_order": False, "shape": (n,)}
+                        np.lib.format.write_array_header_2_0(other, head)
+                    other.write(part.records.tobytes())
         before()
 
 
@@ -135,6 +167,18 @@ def read_table(
         # Some of the rows look like numbers.
         return read_table(path, {*words, *mixed}, wanted)
     return {name: np.concatenate(parts or [_typed((), name in words)]) for name, parts in columns.items()}
+
+
+def read_result(
+    path: Path, words: Collection[str] = (), wanted: Collection[str] | None = None
+) -> dict[str, NDArray[Any]]:
+    """Read a table of a run as :func:`read_table`, from the records of :func:`write_rows` if it has them."""
+    records = path.with_suffix(RECORDS)
+    if not records.exists():
+        return read_table(path, words, wanted)
+    with reading(records, "is no table"), open_regular(records) as file:
+        rows = np.load(file, allow_pickle=False)
+        return {name: rows[name].copy() for name in rows.dtype.names if wanted is None or name in wanted}
 
 
 def _typed(words: Sequence[str], stay: bool) -> NDArray[Any]:

@@ -42,7 +42,7 @@ from foamprb.results.checkpoint import PARTICLES, Checkpoints, StoredCheckpoint,
 from foamprb.results.folder import FAILURES, FATES, TOUCHED, TRACERS
 from foamprb.results.manifest import Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
-from foamprb.results.tables import Column, Rows, rows_of, write_rows
+from foamprb.results.tables import LONG, RECORDS, Column, Rows, rows_of, write_rows
 from foamprb.results.vtk import Parts
 from foamprb.run.description import write_record
 from foamprb.run.job import Job
@@ -121,6 +121,9 @@ class Results:
         self._manifest = Manifest(job.folder.path)
         names = (FATES, FAILURES, TRACERS)
         self._fates, self._failures, self._tracers = (job.folder.table(name) for name in names)
+        self._records = self._fates.with_suffix(RECORDS)
+        self._last = self._fates, self._records, self._failures
+        """Files of the end of a run."""
         self._snapshot: Snapshot | None = None
         self._around: Sequence[Sums] = ()
 
@@ -214,7 +217,9 @@ class Results:
         snapshot and checkpoint.
         """
         cloud = self._job.cloud
-        failed = cloud.counts()[Status.FAILED] > 0
+        counts = cloud.counts()
+        failed, injected = counts[Status.FAILED] > 0, sum(counts.values()) - counts[Status.PENDING]
+        long = injected if injected > LONG else 0
 
         def finish() -> None:
             self._writer.finish()
@@ -222,7 +227,8 @@ class Results:
                 description = self._job.description
                 all_warnings = [*description["warnings"], *warnings]
                 write_record(self._job.folder.record, {**description, "warnings": all_warnings})
-            tables = {self._fates: True, self._failures: failed, self._tracers: points is not None}
+            tables = {self._fates: True, self._records: long, self._failures: failed}
+            tables |= {self._tracers: points is not None}
             self._manifest.settle([table for table, written in tables.items() if written])
             if points is not None:
                 write_rows(self._tracers, points.map_by_id(rows_of_points, self._job.patch_names))
@@ -230,8 +236,8 @@ class Results:
                 write_rows(self._failures, cloud.map_by_id(_failures_of, cloud.models, cloud.limits))
 
         rho, quadratic = self._job.settings.fluid.rho, mode_of(cloud.models)
-        rows = self._job.functions.with_fates(_fates_of, self._job.patch_names, rho, quadratic)
-        write_rows(self._fates, rows, finish)
+        given = self._job.patch_names, rho, quadratic, long > 0
+        write_rows(self._fates, self._job.functions.with_fates(_fates_of, *given), finish, long)
 
     def _ready(self) -> Cloud:
         """Return the cloud, after earlier writes have ended."""
@@ -325,13 +331,11 @@ class Results:
                 read_pvd(self._job.folder.pvd)
             except InputError as error:
                 log.warning("%s It is replaced.", error)
-        remove_unfinished({*manifest.files, manifest.path, self._fates, self._failures})
+        remove_unfinished({*manifest.files, manifest.path, *self._last})
         # Checkpoints first: after an interrupted removal they would resemble an unfinished run.
         files = sorted(manifest.files)
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
-        lists = [
-            file for file in (self._job.folder.pvd, self._fates, self._failures) if file in manifest.files
-        ]
+        lists = [file for file in (self._job.folder.pvd, *self._last) if file in manifest.files]
         manifest.remove([*checkpoints, *leftovers, *lists, *files, manifest.path])
         self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
@@ -397,8 +401,8 @@ class Results:
         except InputError as error:
             log.warning("%s It is rebuilt; files of later times may remain.", error)
             manifest = Manifest(job.folder.path)
-        remove_unfinished({*manifest.files, manifest.path, self._fates, self._failures})
-        manifest.remove(file for file in (self._fates, self._failures) if file in manifest.files)
+        remove_unfinished({*manifest.files, manifest.path, *self._last})
+        manifest.remove(f for f in self._last if f in manifest.files)
         self._series.relist(entries)
         write_record(job.folder.record, description)
         snapshots = [file for entry in entries for file in files_of(job.folder.path / entry.file)]
@@ -458,6 +462,7 @@ def _fates_of(
     patch_names: Sequence[str],
     rho: float,
     quadratic: bool | None,
+    with_records: bool,
 ) -> Rows:
     """Return rows of ``fates`` for the particles that were injected; ``further`` are columns of functions.
 
@@ -465,9 +470,10 @@ def _fates_of(
     """
     here = as_slice(injected(p))
     p, further = p.take(here), {name: np.asarray(column)[here] for name, column in further.items()}
-    fates = np.array(STATUS_NAMES, dtype=object)
+    kind: Any = str if with_records else object
+    fates = np.array(STATUS_NAMES, dtype=kind)
     # The last name belongs to the code −1.
-    patches = np.array((*patch_names, ""), dtype=object)
+    patches = np.array((*patch_names, ""), dtype=kind)
     axes, D = shapes(p)
     return rows_of(
         {
@@ -477,7 +483,8 @@ def _fates_of(
             "fate": fates[p.status], "patch": patches[p.patch], TOUCHED: p.touched.astype(np.int8),
             "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D,
             **path_values(p, rho, quadratic, D), **further,
-        }
+        },
+        with_records,
     )  # fmt: skip
 
 

@@ -22,7 +22,7 @@ from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.reading import reading
 from foamprb.results.record import Record, read_record
 from foamprb.results.shapes import DERIVED, SOURCES, derived
-from foamprb.results.tables import read_table
+from foamprb.results.tables import read_result
 from foamprb.results.vtk import PointCloud, Tracks, poly_data, tracks_data
 from foamprb.results.vtk_check import is_sealed
 from foamprb.view.surfaces import MODE, bulges, unfolded
@@ -128,7 +128,7 @@ class Run:
         InputError
             If there is no such table, or it is damaged.
         """
-        return read_table(self.file(name), _WORDS)
+        return read_result(self.file(name), _WORDS)
 
     def frame(self, name: str = "fates") -> Any:
         """Return a table as a data frame of pandas; InputError without pandas, or as :meth:`table`."""
@@ -150,7 +150,7 @@ class Run:
         if not self.has_fates:
             return None
         file = self.file(FATES)
-        table = read_table(file, _WORDS, columns and {*columns, *_OF_FATES, TOUCHED})
+        table = read_result(file, _WORDS, columns and {*columns, *_OF_FATES, TOUCHED})
         with reading(file, "is not the table that foamprb run writes"):
             # Older tables lack the column.
             table.setdefault(TOUCHED, (table["fate"] == "stuck") & (table["t1"] <= table["t0"]))

@@ -31,6 +31,7 @@ from foamprb.results.folder import ResultsFolder
 from foamprb.results.manifest import Manifest
 from foamprb.results.pieces import XMLPolyDataReader
 from foamprb.results.pvd import Series, SnapshotFile, read_pvd
+from foamprb.results.tables import read_table
 from foamprb.run import results as results_of_run
 
 TRACKS = "paths { type particleTracks; trackInterval 10; maxSamples 10; }"
@@ -357,12 +358,28 @@ def test_a_run_whose_last_checkpoint_fails_is_not_done(case, monkeypatch):
         return write(self, checkpoint)
 
     monkeypatch.setattr(Checkpoints, "write", fail_late)
+    monkeypatch.setattr(results_of_run, "LONG", 3)
     with pytest.raises(RunStopped, match="No space left"):
         execute(job)
     assert not list(folder_of(case).glob("*fates*"))
     monkeypatch.undo()
     execute(prepare(case, threads=1), "latestTime")
     assert (folder_of(case) / "fates.csv").exists()
+
+
+def test_a_long_table_of_fates_has_the_same_rows_as_numpy_has_them(case, monkeypatch):
+    """Until a run with few bodies takes its place."""
+    monkeypatch.setattr(results_of_run, "LONG", 3)
+    run(case)
+    folder = folder_of(case)
+    records, table = np.load(folder / "fates.npy"), read_table(folder / "fates.csv", ("fate", "patch"))
+    assert records.dtype.names == tuple(table)
+    for name, column in table.items():
+        np.testing.assert_array_equal(records[name], column)
+        np.testing.assert_array_equal(open_run(case).table()[name], column)
+    monkeypatch.undo()
+    run(case, "-overwrite")
+    assert {file.name for file in folder.glob("fates*")} == {"fates.csv"}
 
 
 def test_a_case_that_is_moved_ends_its_run(case):
