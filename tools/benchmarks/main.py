@@ -52,7 +52,7 @@ def _arguments() -> argparse.ArgumentParser:
         "-large", action="store_true", help="also 1e7 particles and 8e6 cells: 20 GB of memory"
     )
     parser.add_argument(
-        "-bodies", type=int, default=0, metavar="N", help="bodies in the runs of part observed [50000]"
+        "-bodies", type=int, default=0, metavar="N", help="bodies in the runs of part observed [4000]"
     )
     parser.add_argument(
         "-output", type=Path, default=TOOLS.parent / "docs", metavar="DIR",

@@ -20,7 +20,7 @@ from benchmarks.records import TOOLS, Options, Row, rows
 from benchmarks.report import INFO
 from benchmarks.tracker import OPENFOAM_STEP
 
-FIRST_RUNS = 2
+FIRST_RUNS = 1
 
 
 class Start(NamedTuple):
