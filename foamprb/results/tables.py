@@ -174,11 +174,13 @@ def read_result(
 ) -> dict[str, NDArray[Any]]:
     """Read a table of a run as :func:`read_table`, from the records of :func:`write_rows` if it has them."""
     records = path.with_suffix(RECORDS)
-    if not records.exists():
-        return read_table(path, words, wanted)
-    with reading(records, "is no table"), open_regular(records) as file:
-        rows = np.load(file, allow_pickle=False)
-        return {name: rows[name].copy() for name in rows.dtype.names if wanted is None or name in wanted}
+    if records.exists():
+        with reading(records, "is no table"), open_regular(records) as file:
+            rows = np.load(file, allow_pickle=False)
+        # A function of a user may write arrays of its own beside its tables.
+        if names := rows.dtype.names:
+            return {name: rows[name].copy() for name in names if wanted is None or name in wanted}
+    return read_table(path, words, wanted)
 
 
 def _typed(words: Sequence[str], stay: bool) -> NDArray[Any]:

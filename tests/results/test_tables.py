@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foamprb.errors import InputError
-from foamprb.results.tables import read_table, write_table
+from foamprb.results.tables import read_result, read_table, rows_of, write_rows, write_table
 
 
 def read(path: Path) -> list[list[str]]:
@@ -98,3 +98,25 @@ def test_columns_that_are_no_table(tmp_path: Path, columns: dict[str, object], m
     with pytest.raises(ValueError, match=message):
         write_table(tmp_path / "t.csv", columns)  # type: ignore[arg-type]
     assert not list(tmp_path.iterdir())
+
+
+def test_records_beside_a_table_are_its_rows(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    columns = {
+        "id": np.arange(5),
+        "x": np.array([1.0, np.nan, np.inf, -0.0, 1e-300]),
+        "fate": np.array([*"abcde"]),
+    }
+    parts = (rows_of({name: c[k : k + 2] for name, c in columns.items()}, True) for k in (0, 2, 4))
+    write_rows(path, parts, n=5)
+    records = np.load(path.with_suffix(".npy"))
+    for name, column in columns.items():
+        np.testing.assert_array_equal(records[name], column)
+        np.testing.assert_array_equal(read_result(path, wanted=[name])[name], column)
+
+
+def test_another_array_beside_a_table_is_not_its_rows(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    write_table(path, {"x": [1, 2]})
+    np.save(path.with_suffix(".npy"), np.zeros(3))
+    assert read_result(path)["x"].tolist() == [1, 2]
