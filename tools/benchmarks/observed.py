@@ -20,6 +20,8 @@ BARE, VTK = "nothing more", "VTK's particle tracer"
 CALL, SNAPSHOT = "calls of one deltaT", "late snapshots"
 _CALL = 160
 """Δt of a long call."""
+_MANY = ("particleTracks", "writeInterval 10 deltaT", "writeInterval 20 deltaT")
+"""Rows whose cost depends on the number of bodies."""
 _TOGETHER = 7
 """Runs that alternate with the same run without what they have, at most."""
 _PLANE = f"origin ({0.3 * pipe.LENGTH:g} 0 0); normal (1 0 0);"
@@ -106,7 +108,7 @@ class Size(NamedTuple):
 
     bodies: int
     many: int
-    """Bodies beside 1000 tracks."""
+    """Bodies of :data:`_MANY`."""
     settling: int
     """Δt from rest, which are not measured."""
     steps: int
@@ -188,7 +190,7 @@ def groups(bodies: int, many: int) -> list[tuple[list[str], int]]:
     """Return the names of the :data:`ROWS` that share a run without them, and the number of its bodies."""
     shared: dict[tuple[Setup, int], list[str]] = {}
     for name, row in ROWS.items():
-        shared.setdefault((row.without, many if name == "particleTracks" else bodies), []).append(name)
+        shared.setdefault((row.without, many if name in _MANY else bodies), []).append(name)
     return [
         (names[k : k + _TOGETHER], n)
         for (_, n), names in shared.items()
@@ -198,7 +200,8 @@ def groups(bodies: int, many: int) -> list[tuple[list[str], int]]:
 
 def compare(names: list[str], n: int, case: Path, size: Size) -> list[float]:
     """Return the costs of the run without some of :data:`ROWS`, and of each; the Δt is that of OpenFOAM."""
-    settled, measured = (steps * OPENFOAM_STEP for steps in (size.settling, size.steps))
+    steps = size.steps if n == size.bodies else size.steps // 4
+    settled, measured = (count * OPENFOAM_STEP for count in (size.settling, steps))
     setups = [ROWS[names[0]].without, *(ROWS[name].setup for name in names)]
     files = [
         [
