@@ -242,9 +242,8 @@ def measure(options: Options) -> list[Row]:
         without, *costs = compare(names, n, case, size)
         measured = dict(zip(names, costs, strict=True))
         over = {name: cost / without for name, cost in measured.items()}
-        table += rows("observed", RATIO, over, "", n) + rows(
-            "observed", COST, measured, "us/particle-step", n
-        )
+        table += rows("observed", RATIO, over, "", n)
+        table += rows("observed", COST, measured, "us/particle-step", n)
         if ROWS[names[0]].without == Setup() and n == size.bodies:
             bare.append(without)
     return table + rows("observed", COST, {BARE: min(bare)}, "us/particle-step", size.bodies)
